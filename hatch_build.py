@@ -1,0 +1,40 @@
+"""Build hook: generates the message modules, and links the folders for an editable install.
+
+The folders stand at the top of the repository but are imported as ``bot_console.<folder>``. A wheel maps them by
+``sources``; hatchling cannot map an editable install, so for that this hook fills the git-ignored
+``build/editable/bot_console`` with links to the folders.
+"""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+
+FOLDERS = ("tui", "runtime", "nodes", "profiles", "launch")
+
+
+class CustomBuildHook(BuildHookInterface):
+    """Runs before each build of the wheel (standard or editable)."""
+
+    def initialize(self, version: str, build_data: dict[str, Any]) -> None:
+        """Generate ``runtime/rosidl/generated`` and, for an editable install, the links."""
+        root = Path(self.root)
+        subprocess.run([sys.executable, str(root / "runtime" / "rosidl" / "generate.py")], check=True, cwd=root)
+        if version == "editable":
+            farm = root / "build" / "editable" / "bot_console"
+            farm.mkdir(parents=True, exist_ok=True)
+            for folder in FOLDERS:
+                link(root / folder, farm / folder)
+
+
+def link(target: Path, place: Path) -> None:
+    """Make ``place`` lead to the folder ``target``: a symlink, on Windows a directory junction."""
+    if place.is_symlink() or place.exists():
+        return
+    if os.name == "nt":
+        subprocess.run(["cmd", "/c", "mklink", "/J", str(place), str(target)], check=True)
+    else:
+        place.symlink_to(target, target_is_directory=True)

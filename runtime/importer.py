@@ -1,0 +1,85 @@
+"""Makes the ROS import names (`rclpy`, `std_msgs.msg`, `launch` ...) mean the embedded runtime.
+
+`install()` puts one finder first on `sys.meta_path`. The modules load under their ROS names, so that texts show
+`std_msgs.msg._string.String`; `bot_console.runtime.rclpy` is an alias of the same module object.
+"""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from collections.abc import Sequence
+from importlib.abc import Loader, MetaPathFinder
+from importlib.machinery import ModuleSpec, PathFinder
+from importlib.util import spec_from_file_location
+from pathlib import Path
+from types import ModuleType
+
+RUNTIME = Path(__file__).resolve().parent
+GENERATED = RUNTIME / "rosidl" / "generated"
+PACKAGES = (
+    "ament_index_python",
+    "launch",
+    "launch_ros",
+    "launch_xml",
+    "launch_yaml",
+    "rclpy",
+    "ros2cli",
+)
+ALIAS = "bot_console.runtime."
+OWN_PACKAGE = "intelligent_robot"
+"""The ROS package that the folder `nodes/` is."""
+
+
+class RosFinder(MetaPathFinder):
+    """Finds the embedded ROS packages by their ROS names, and their aliases below `bot_console.runtime`."""
+
+    def find_spec(
+        self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        """The spec of an embedded package or alias; None for every other name."""
+        if path is None:
+            return self._find_package(fullname)
+        if fullname.startswith(ALIAS) and fullname[len(ALIAS) :].split(".", maxsplit=1)[0] in PACKAGES:
+            return ModuleSpec(fullname, _AliasLoader(fullname[len(ALIAS) :]))
+        return None
+
+    def _find_package(self, name: str) -> ModuleSpec | None:
+        if name in PACKAGES:
+            return PathFinder.find_spec(name, [str(RUNTIME)])
+        if name == OWN_PACKAGE:
+            nodes = RUNTIME.parent.resolve() / "nodes"
+            return spec_from_file_location(name, nodes / "__init__.py", submodule_search_locations=[str(nodes)])
+        if (GENERATED / name).is_dir():
+            return PathFinder.find_spec(name, [str(GENERATED)])
+        return None
+
+
+class _AliasLoader(Loader):
+    """Loads a module by giving the one that stands under its ROS name."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+
+    def create_module(self, spec: ModuleSpec) -> ModuleType:
+        module = importlib.import_module(self._name)
+        self._spec = module.__spec__
+        return module
+
+    def exec_module(self, module: ModuleType) -> None:
+        module.__spec__ = self._spec
+
+
+_finder = RosFinder()
+
+
+def install() -> None:
+    """Make the ROS names mean the embedded runtime; a second call does nothing."""
+    if _finder not in sys.meta_path:
+        sys.meta_path.insert(0, _finder)
+
+
+def uninstall() -> None:
+    """Take the finder away again; modules already imported stay."""
+    if _finder in sys.meta_path:
+        sys.meta_path.remove(_finder)

@@ -1,0 +1,1 @@
+"""The console: rqt for the terminal."""

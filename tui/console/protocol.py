@@ -1,0 +1,173 @@
+"""The two protocols between the panes and a ROS system. Standard library only.
+
+`Console` is everything of the ROS graph, `Launcher` everything of processes. Both are read by pulling: nothing here
+blocks, and no method may be called from another thread than the one that draws, except `close`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Future
+from dataclasses import dataclass
+from typing import Protocol
+
+from bot_console.tui.console.model import (
+    Change,
+    ChangeSource,
+    ConsoleSnapshot,
+    LaunchArgument,
+    LogFilter,
+    LogRecord,
+    ProfileDifference,
+    SetOutcome,
+    Severity,
+    Value,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Samples:
+    """New samples of a watched series: times in s (steady, from the console's start) and values, of equal length."""
+
+    times: Sequence[float]
+    values: Sequence[float]
+    cursor: int
+    """Give this back to receive only what came after."""
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """The outcome of a command: whether it was done, and in words why not, or what was done."""
+
+    ok: bool
+    text: str = ""
+
+
+class Console(Protocol):
+    """A ROS system as the panes see it."""
+
+    def snapshot(self) -> ConsoleSnapshot:
+        """The newest snapshot; unchanged parts are the same objects as before."""
+        ...
+
+    def log(self, seq: int) -> LogRecord | None:
+        """The record of that number, or None when it has fallen out or has not come yet."""
+        ...
+
+    def matching_logs(self, which: LogFilter, after: int, limit: int | None = None) -> Sequence[int]:
+        """Numbers, rising, of the kept records from `after` on that pass the filter; with a limit the newest ones.
+
+        Raises `ValueError` with a readable text for a regular expression that does not compile.
+        """
+        ...
+
+    def clear_logs(self) -> None:
+        """Forget all records; numbers go on."""
+        ...
+
+    def changes(self, after: int = 0) -> Sequence[Change]:
+        """Journal entries numbered `after` and up, oldest first."""
+        ...
+
+    def set_parameters(
+        self,
+        node: str,
+        values: Mapping[str, Value],
+        source: ChangeSource = ChangeSource.EDIT,
+        *,
+        atomically: bool = False,
+    ) -> Future[tuple[SetOutcome, ...]]:
+        """Ask a node to take values, as `SetParameters` (or `SetParametersAtomically`) does."""
+        ...
+
+    def undo(self) -> Future[Answer]:
+        """Put back the value before the last accepted change made from this console."""
+        ...
+
+    def redo(self) -> Future[Answer]:
+        """Make the last undone change again."""
+        ...
+
+    def watch(self, path: str) -> Answer:
+        """Collect a series: `/topic/field.sub[2]` or `/node:parameter`; says in words why it cannot be plotted."""
+        ...
+
+    def unwatch(self, path: str) -> None:
+        """Stop collecting and forget the series."""
+        ...
+
+    def samples(self, path: str, after: int = 0) -> Samples:
+        """Samples of a watched series from cursor `after` on."""
+        ...
+
+    def plottable(self) -> Sequence[str]:
+        """Paths that `watch` takes, for completion."""
+        ...
+
+    def drive(self, linear: float, angular: float) -> None:
+        """Send a velocity command (m/s, rad/s) now; the pane repeats it. Refused silently while all-stop holds."""
+        ...
+
+    def all_stop(self, hold: bool = True) -> None:
+        """Zero velocity now; while held the console sends zero and nothing else."""
+        ...
+
+    def call(self, service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:
+        """Call any service with the given request fields."""
+        ...
+
+    def set_logger_level(self, node: str, severity: Severity) -> Future[Answer]:
+        """Set a node's logger level live."""
+        ...
+
+    def profile_differences(self, name: str) -> Sequence[ProfileDifference]:
+        """What applying a profile would change now."""
+        ...
+
+    def apply_profile(self, name: str, *, reset_world: bool = False) -> Future[tuple[SetOutcome, ...]]:
+        """Set a profile's values live; all or nothing per node."""
+        ...
+
+    def save_parameters(self, path: str, nodes: Sequence[str] = ()) -> Answer:
+        """Write a true ROS parameter file; an existing file keeps its comments."""
+        ...
+
+    def run_line(self, line: str) -> Future[str]:
+        """Run a `ros2 ...` command line and give what it printed."""
+        ...
+
+    def close(self) -> None:
+        """Send zero velocity, stop and join everything; a second call does nothing."""
+        ...
+
+
+class Launcher(Protocol):
+    """The processes that launch files started; what it knows is in `ConsoleSnapshot.launch`."""
+
+    def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
+        """Run one more launch file."""
+        ...
+
+    def arguments(self, path: str) -> Sequence[LaunchArgument]:
+        """The arguments a launch file declares; raises `ValueError` with the file and line when it cannot be read."""
+        ...
+
+    def files(self) -> Sequence[str]:
+        """Launch files of the workspace, for the picker."""
+        ...
+
+    def start(self, key: str) -> Future[Answer]:
+        """Start an ended process again."""
+        ...
+
+    def stop(self, key: str) -> Future[Answer]:
+        """Stop a process as Ctrl-C does, with the launch's escalation."""
+        ...
+
+    def kill(self, key: str) -> Future[Answer]:
+        """End a process at once."""
+        ...
+
+    def restart(self, key: str) -> Future[Answer]:
+        """Stop, then start."""
+        ...
