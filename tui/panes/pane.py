@@ -1,0 +1,37 @@
+"""What every pane is: a view of one part of the snapshot, with a help text of its own."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from textual.containers import Container
+
+from bot_console.tui.console.model import ConsoleSnapshot
+from bot_console.tui.console.protocol import Console, Launcher
+
+
+class Pane(Container):
+    """A pane of the console.
+
+    The app calls `show` with each new snapshot while the pane is visible, and once with the newest one when it becomes
+    visible; a hidden pane does nothing. A pane keeps view state only (cursor, filter, scroll): what it shows is in the
+    snapshot, what it wants done it asks of `console`.
+    """
+
+    TITLE: ClassVar[str] = ""
+    HELP: ClassVar[str] = ""
+    """What the pane is for, in a few lines; the keys are listed from the key table."""
+
+    def __init__(self, console: Console, launcher: Launcher | None = None, *, id: str | None = None) -> None:
+        super().__init__(id=id)
+        self.console = console
+        self.launcher = launcher
+        self.border_title = self.TITLE
+
+    def show(self, snapshot: ConsoleSnapshot) -> None:
+        """Draw what is new in the snapshot; compare parts by identity and do nothing where they are the same."""
+        raise NotImplementedError
+
+    def focus_target(self) -> None:
+        """Take the keyboard: focus the part of the pane that the keys are for."""
+        self.query("*").filter(":can-focus").first().focus()
