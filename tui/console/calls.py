@@ -1,0 +1,72 @@
+"""Service calls of the console: from any thread, with a time limit, never blocking."""
+
+from __future__ import annotations
+
+from collections.abc import Coroutine
+from concurrent.futures import Future
+from typing import Any, TypeVar
+
+from rclpy.executors import Executor
+from rclpy.node import Node
+from rclpy.task import Future as RosFuture
+
+T = TypeVar("T")
+PATIENCE = 5.0
+"""Seconds to wait for an answer; a slow link answers late, a hung node never."""
+
+
+class NoAnswer(Exception):
+    """A service did not answer in time; the text says which."""
+
+
+class Calls:
+    """Runs coroutines in the console's executor and asks services from within them."""
+
+    def __init__(self, node: Node, executor: Executor) -> None:
+        self._node = node
+        self._executor = executor
+        self._clients: dict[tuple[str, str], Any] = {}
+
+    def run(self, work: Coroutine[Any, Any, T]) -> Future[T]:
+        """Start a coroutine in the executor; from any thread."""
+        outcome: Future[T] = Future()
+
+        async def guarded() -> None:
+            try:
+                outcome.set_result(await work)
+            except Exception as error:  # the border to whoever holds the future
+                outcome.set_exception(error)
+
+        self._executor.create_task(guarded)
+        return outcome
+
+    async def ask(self, kind: Any, service: str, request: Any, patience: float = PATIENCE) -> Any:
+        """Call a service; raises `NoAnswer` when no server is there or none answers in time."""
+        client = self._client(kind, service)
+        if not client.service_is_ready():
+            raise NoAnswer(f"no service {service} is offered; has its node ended?")
+        answer: RosFuture = client.call_async(request)
+        timer = self._node.create_timer(patience, lambda: self._give_up(answer, client, service, patience))
+        try:
+            return await answer
+        finally:
+            self._node.destroy_timer(timer)
+
+    @staticmethod
+    def _give_up(answer: RosFuture, client: Any, service: str, patience: float) -> None:
+        if not answer.done():
+            client.remove_pending_request(answer)
+            answer.set_exception(
+                NoAnswer(f"{service} did not answer within {patience:g} s; its node may be busy or hung")
+            )
+
+    def _client(self, kind: Any, service: str) -> Any:
+        key = (service, kind.__name__)
+        if key not in self._clients:
+            self._clients[key] = self._node.create_client(kind, service)
+        return self._clients[key]
+
+    def forget(self, prefix: str) -> None:
+        """Let go of the clients of services that begin with a prefix, as of a node that has left."""
+        for key in [key for key in self._clients if key[0].startswith(prefix)]:
+            self._node.destroy_client(self._clients.pop(key))

@@ -1,0 +1,90 @@
+"""The change journal: every parameter change and refusal with its source, and undo and redo over it."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from bot_console.tui.console.model import Change, ChangeSource, JournalState, Value
+
+OURS = (ChangeSource.EDIT, ChangeSource.PROFILE, ChangeSource.FILE)
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """What one undo takes back: the values before and after, of parameters that were set together on one node."""
+
+    node: str
+    before: dict[str, Value]
+    after: dict[str, Value]
+
+
+class Journal:
+    """A bounded list of changes numbered from 0, with the steps that can be undone and redone."""
+
+    def __init__(self, capacity: int = 10_000) -> None:
+        self._changes: deque[Change] = deque(maxlen=capacity)
+        self._end = 0
+        self._undo: deque[Step] = deque(maxlen=1_000)
+        self._redo: list[Step] = []
+        self._lock = threading.Lock()
+        self._state = JournalState()
+
+    @property
+    def state(self) -> JournalState:
+        """The journal as a whole; the same object until it changes."""
+        return self._state
+
+    def record(
+        self, stamp: int, node: str, name: str, values: tuple[Value, Value], source: ChangeSource, refusal: str = ""
+    ) -> None:
+        """Add one entry; `values` are the old and the new one, `refusal` the reason when it was refused."""
+        old, new = values
+        with self._lock:
+            self._changes.append(Change(self._end, stamp, node, name, old, new, source, not refusal, refusal))
+            self._end += 1
+            self._renew()
+
+    def did(self, step: Step, source: ChangeSource) -> None:
+        """Remember an accepted set made from this console so that it can be taken back."""
+        with self._lock:
+            if source in OURS:
+                self._undo.append(step)
+                self._redo.clear()
+            elif source is ChangeSource.UNDO:
+                self._redo.append(step)
+            elif source is ChangeSource.REDO:
+                self._undo.append(step)
+            self._renew()
+
+    def take_undo(self) -> Step | None:
+        """The step to undo next, removed from its list; give it back with `did` or `put_back`."""
+        with self._lock:
+            step = self._undo.pop() if self._undo else None
+            self._renew()
+            return step
+
+    def take_redo(self) -> Step | None:
+        """The step to redo next, removed from its list."""
+        with self._lock:
+            step = self._redo.pop() if self._redo else None
+            self._renew()
+            return step
+
+    def put_back(self, step: Step, source: ChangeSource) -> None:
+        """Return a step whose undo or redo was refused."""
+        with self._lock:
+            (self._undo if source is ChangeSource.UNDO else self._redo).append(step)
+            self._renew()
+
+    def after(self, seq: int) -> Sequence[Change]:
+        """Entries numbered `seq` and up, oldest first."""
+        with self._lock:
+            first = self._end - len(self._changes)
+            return list(self._changes)[max(0, seq - first) :]
+
+    def _renew(self) -> None:
+        first = self._end - len(self._changes)
+        self._state = JournalState(first, self._end, first, bool(self._undo), bool(self._redo))

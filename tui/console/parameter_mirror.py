@@ -1,0 +1,150 @@
+"""A copy of all nodes' parameters: read once by service, then kept true by `/parameter_events`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from types import MappingProxyType
+
+from bot_console.tui.console.calls import Calls, NoAnswer
+from bot_console.tui.console.model import GraphInfo, Kind, ParameterInfo, ParameterTree, Value
+from bot_console.tui.console.values import from_message, info
+from rcl_interfaces.msg import Parameter, ParameterEvent, ParameterValue
+from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters
+from rclpy.node import Node
+from rclpy.qos import qos_profile_parameter_events
+
+RELIST = 5.0
+"""Seconds between looks for parameters that were undeclared, which no event tells."""
+
+Changed = Callable[[str, str, Value, Value], None]
+
+
+class ParameterMirror:
+    """The parameters of each node that offers the parameter services.
+
+    `changed(node, name, old, new)` is called for each value that an event tells, equal ones too, never for a first sight.
+    """
+
+    def __init__(self, node: Node, calls: Calls, changed: Changed) -> None:
+        self.trees: Mapping[str, ParameterTree] = MappingProxyType({})
+        self._calls = calls
+        self._changed = changed
+        self._loading: set[str] = set()
+        node.create_subscription(ParameterEvent, "/parameter_events", self._on_event, qos_profile_parameter_events)
+        node.create_timer(RELIST, self._look_again)
+
+    def get(self, node: str, name: str) -> ParameterInfo | None:
+        """A parameter as last known."""
+        tree = self.trees.get(node)
+        return tree.get(name) if tree else None
+
+    def follow(self, graph: GraphInfo) -> None:
+        """Take in nodes that have come and forget nodes that have left."""
+        offering = {
+            node.name
+            for node in graph.nodes
+            if any(each.name == f"{node.name}/list_parameters" for each in node.services)
+        }
+        gone = [name for name in self.trees if name not in offering]
+        if gone:
+            self._publish({name: tree for name, tree in self.trees.items() if name in offering})
+            for name in gone:
+                self._calls.forget(name + "/")
+        for name in offering - self.trees.keys():
+            self._load(name)
+
+    def _publish(self, trees: dict[str, ParameterTree]) -> None:
+        self.trees = MappingProxyType(dict(sorted(trees.items())))
+
+    def _load(self, node: str) -> None:
+        if node not in self._loading:
+            self._loading.add(node)
+            self._calls.run(self._read(node))
+
+    async def _read(self, node: str) -> None:
+        try:
+            listed = await self._calls.ask(ListParameters, f"{node}/list_parameters", ListParameters.Request())
+            names = list(listed.result.names)
+            found = await self._describe(node, names)
+            self._publish({**self.trees, node: ParameterTree(node, tuple(found))})
+        except NoAnswer as error:
+            old = self.trees.get(node)
+            self._publish({**self.trees, node: ParameterTree(node, old.parameters if old else (), str(error))})
+        finally:
+            self._loading.discard(node)
+
+    async def _describe(self, node: str, names: Sequence[str]) -> list[ParameterInfo]:
+        if not names:
+            return []
+        request = DescribeParameters.Request(names=list(names))
+        described = await self._calls.ask(DescribeParameters, f"{node}/describe_parameters", request)
+        values = await self._values(node, names)
+        return [
+            info(node, value, descriptor, self.get(node, descriptor.name))
+            for descriptor, value in zip(described.descriptors, values, strict=False)
+        ]
+
+    async def _values(self, node: str, names: Sequence[str]) -> list[ParameterValue]:
+        """Values of parameters; one that is not initialised empties the whole answer, so those are asked singly."""
+        service = f"{node}/get_parameters"
+        answer = await self._calls.ask(GetParameters, service, GetParameters.Request(names=list(names)))
+        if len(answer.values) == len(names):
+            return list(answer.values)
+        values: list[ParameterValue] = []
+        for name in names:
+            single = await self._calls.ask(GetParameters, service, GetParameters.Request(names=[name]))
+            values.append(single.values[0] if single.values else ParameterValue())
+        return values
+
+    def _look_again(self) -> None:
+        for node in self.trees:
+            if node not in self._loading:
+                self._loading.add(node)
+                self._calls.run(self._relist(node))
+
+    async def _relist(self, node: str) -> None:
+        """Read a node again when its list of names has changed, or when it could not be read before."""
+        try:
+            listed = await self._calls.ask(ListParameters, f"{node}/list_parameters", ListParameters.Request())
+            tree = self.trees.get(node)
+            stale = (
+                tree is None
+                or bool(tree.problem)
+                or {each.name for each in tree.parameters} != set(listed.result.names)
+            )
+        except NoAnswer as error:
+            stale = False
+            if node in self.trees and not self.trees[node].problem:
+                self._publish({**self.trees, node: replace(self.trees[node], problem=str(error))})
+        finally:
+            self._loading.discard(node)
+        if stale and node in self.trees:
+            self._load(node)
+
+    def _on_event(self, event: ParameterEvent) -> None:
+        tree = self.trees.get(event.node)
+        if tree is None:
+            return
+        deleted = {each.name for each in event.deleted_parameters}
+        known = {each.name: each for each in tree.parameters if each.name not in deleted}
+        unknown = False
+        for message in [*event.new_parameters, *event.changed_parameters]:
+            before = known.get(message.name)
+            if before is None:
+                unknown = True
+            else:
+                known[message.name] = self._moved(before, message)
+        for name in deleted & {each.name for each in tree.parameters}:
+            self._changed(event.node, name, getattr(tree.get(name), "value", None), None)
+        self._publish({**self.trees, event.node: replace(tree, parameters=tuple(known.values()))})
+        if unknown:
+            self._load(event.node)
+
+    def _moved(self, before: ParameterInfo, message: Parameter) -> ParameterInfo:
+        value = from_message(message.value)
+        kind = Kind(message.value.type) if message.value.type else before.kind
+        # An equal value is announced too, and whoever asked for it waits for word of it.
+        self._changed(before.node, before.name, before.value, value)
+        same = value == before.value and kind is before.kind
+        return before if same else replace(before, value=value, kind=kind)

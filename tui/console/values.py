@@ -1,0 +1,114 @@
+"""Parameter values between ROS messages, the model, and text."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from bot_console.tui.console.model import Kind, ParameterInfo, Range, Value
+from rcl_interfaces.msg import Parameter, ParameterDescriptor, ParameterValue
+
+FIELDS = {
+    Kind.BOOL: "bool_value",
+    Kind.INTEGER: "integer_value",
+    Kind.DOUBLE: "double_value",
+    Kind.STRING: "string_value",
+    Kind.BYTE_ARRAY: "byte_array_value",
+    Kind.BOOL_ARRAY: "bool_array_value",
+    Kind.INTEGER_ARRAY: "integer_array_value",
+    Kind.DOUBLE_ARRAY: "double_array_value",
+    Kind.STRING_ARRAY: "string_array_value",
+}
+SCALARS: tuple[tuple[type, Kind], ...] = (
+    (bool, Kind.BOOL),
+    (int, Kind.INTEGER),
+    (float, Kind.DOUBLE),
+    (str, Kind.STRING),
+)
+ARRAYS: tuple[tuple[type, Kind], ...] = (
+    (bool, Kind.BOOL_ARRAY),
+    (int, Kind.INTEGER_ARRAY),
+    (float, Kind.DOUBLE_ARRAY),
+    (str, Kind.STRING_ARRAY),
+    (bytes, Kind.BYTE_ARRAY),
+)
+
+
+def from_message(message: ParameterValue) -> Value:
+    """The value that a `rcl_interfaces/msg/ParameterValue` holds."""
+    kind = Kind(message.type) if message.type in FIELDS else Kind.NOT_SET
+    if kind is Kind.NOT_SET:
+        return None
+    value: Any = getattr(message, FIELDS[kind])
+    return tuple(value) if kind >= Kind.BYTE_ARRAY else value
+
+
+def kind_of(value: Value, declared: Kind = Kind.NOT_SET) -> Kind:
+    """The kind of a value; an empty array takes the declared one. Raises `ValueError` for a mixed array."""
+    if value is None:
+        return Kind.NOT_SET
+    if isinstance(value, tuple):
+        if not value:
+            return declared if declared >= Kind.BYTE_ARRAY else Kind.STRING_ARRAY
+        for kind_type, kind in ARRAYS:
+            if all(type(each) is kind_type for each in value):
+                return kind
+        raise ValueError(f"the elements of {list(value)!r} are not of one type")
+    return next(kind for kind_type, kind in SCALARS if isinstance(value, kind_type))
+
+
+def to_message(name: str, value: Value, declared: Kind = Kind.NOT_SET) -> Parameter:
+    """A `rcl_interfaces/msg/Parameter`; raises `ValueError` for a value that no parameter can hold."""
+    kind = kind_of(value, declared)
+    message = ParameterValue(type=int(kind))
+    if kind is Kind.INTEGER and not -(2**63) <= int(value) < 2**63:  # type: ignore[arg-type]
+        raise ValueError(f"{value} does not fit into 64 bits")
+    if kind is not Kind.NOT_SET:
+        setattr(message, FIELDS[kind], list(value) if isinstance(value, tuple) else value)
+    return Parameter(name=name, value=message)
+
+
+def info(
+    node: str, value: ParameterValue, descriptor: ParameterDescriptor, first: ParameterInfo | None
+) -> ParameterInfo:
+    """What the console shows of a parameter; `first` is what it knew before, for the default."""
+    now = from_message(value)
+    return ParameterInfo(
+        node=node,
+        name=descriptor.name,
+        kind=Kind(value.type) if value.type else Kind(descriptor.type if descriptor.type in FIELDS else 0),
+        value=now,
+        description=descriptor.description,
+        read_only=descriptor.read_only,
+        dynamic=descriptor.dynamic_typing,
+        range=_range(descriptor.floating_point_range) or _range(descriptor.integer_range),
+        constraints=descriptor.additional_constraints,
+        default=first.default if first else now,
+        origin=first.origin if first else "",
+    )
+
+
+def _range(ranges: Sequence[Any]) -> Range | None:
+    if not len(ranges):
+        return None
+    ends = ranges[0].from_value, ranges[0].to_value
+    return Range(min(ends), max(ends), ranges[0].step)
+
+
+def refusal(parameter: ParameterInfo | None, value: Value) -> tuple[str, str]:
+    """Who would refuse this value and why, as far as the descriptor tells; two empty texts when it would pass."""
+    if parameter is None:
+        return "console", "the node has no such parameter"
+    if parameter.read_only:
+        return "descriptor", f"Trying to set a read-only parameter: {parameter.name}."
+    try:
+        kind = kind_of(value, parameter.kind)
+    except ValueError as error:
+        return "console", str(error)
+    if not parameter.dynamic and parameter.kind is not Kind.NOT_SET and kind is not parameter.kind:
+        return "descriptor", f"Wrong parameter type, expected 'Type.{parameter.kind.name}' got 'Type.{kind.name}'"
+    limits = parameter.range
+    if limits and isinstance(value, (int, float)) and not isinstance(value, bool):
+        if not limits.low <= value <= limits.high:
+            return "descriptor", f"out of range. Min: {limits.low}, Max: {limits.high}, value: {value}"
+    return "", ""
