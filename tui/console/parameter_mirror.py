@@ -23,7 +23,8 @@ Changed = Callable[[str, str, Value, Value], None]
 class ParameterMirror:
     """The parameters of each node that offers the parameter services.
 
-    `changed(node, name, old, new)` is called for each value that an event tells, equal ones too, never for a first sight.
+    `changed(node, name, old, new)` is called for each value that an event tells, equal ones too, but never for a
+    first sight.
     """
 
     def __init__(self, node: Node, calls: Calls, changed: Changed) -> None:

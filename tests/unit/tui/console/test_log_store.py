@@ -59,7 +59,7 @@ def test_filtering_goes_on_where_it_stopped() -> None:
 
 @pytest.mark.parametrize("words", ["re:(", "sev:loud", "!re:*"])
 def test_a_filter_that_does_not_parse_says_so(words: str) -> None:
-    with pytest.raises(ValueError, match="regular expression|severity"):
+    with pytest.raises(ValueError, match=r"regular expression|severity"):
         filled().matching(LogFilter(words=words))
 
 
