@@ -1,0 +1,263 @@
+"""`RosConsole`: the `Console` protocol over a `ConsoleNode` in a thread of its own.
+
+Making one is cheap: rclpy and numpy are imported by the thread, so that the first frame need not wait for them.
+"""
+
+from __future__ import annotations
+
+import threading
+import traceback
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Future
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeVar
+
+from bot_console.tui.console.model import (
+    Capabilities,
+    Change,
+    ChangeSource,
+    ConsoleSnapshot,
+    LaunchInfo,
+    LogFilter,
+    LogRecord,
+    Profile,
+    ProfileDifference,
+    SetOutcome,
+    Severity,
+    Value,
+)
+from bot_console.tui.console.protocol import Answer, Samples
+
+if TYPE_CHECKING:
+    from bot_console.tui.console.log_store import LogStore
+    from bot_console.tui.console.node import ConsoleNode
+
+T = TypeVar("T")
+STARTING = "the console is still connecting to the ROS system"
+LAST_WORD = 0.15
+"""Seconds that the final zero Twist has to reach the robot before anything is shut down."""
+
+
+class RosConsole:
+    """The ROS system as the panes see it."""
+
+    def __init__(
+        self,
+        *,
+        launch_info: Callable[[], LaunchInfo] = LaunchInfo,
+        profile_folders: Sequence[Path] = (),
+        active_profile: str = "",
+        capabilities: Capabilities | None = None,
+        run_line: Callable[[str], str] | None = None,
+    ) -> None:
+        self._launch_info = launch_info
+        self._profile_folders = profile_folders
+        self._profiles: tuple[Profile, ...] = ()
+        self._active_profile = active_profile
+        self._capabilities = capabilities or Capabilities()
+        self._run_line = run_line
+        self._node: ConsoleNode | None = None
+        self._logs: LogStore | None = None
+        self._problem = ""
+        self._ready = threading.Event()
+        self._thread = threading.Thread(target=self._serve, name="bot-console", daemon=True)
+        self._closed = False
+        self._snapshot = ConsoleSnapshot()
+
+    def start(self) -> None:
+        """Connect to the ROS system, in the background."""
+        self._thread.start()
+
+    def _serve(self) -> None:
+        try:
+            from bot_console.tui.console.log_store import LogStore
+            from bot_console.tui.console.node import ConsoleNode
+            from bot_console.tui.console.profiles import find
+
+            self._logs = LogStore()
+            self._node = ConsoleNode(self._logs)
+            self._profiles = find(self._profile_folders)
+            self._ready.set()
+            self._node.spin()
+        except Exception as error:  # the border of the thread: the panes show what ended it
+            place = traceback.extract_tb(error.__traceback__)[-1]
+            self._problem = f"the console's link to ROS has ended: {error} ({place.filename}:{place.lineno})"
+        finally:
+            self._ready.set()
+
+    def wait_ready(self, timeout: float) -> bool:
+        """Wait until connected, or the connection failed; whether it is connected."""
+        return self._ready.wait(timeout) and self._node is not None
+
+    @property
+    def logs(self) -> LogStore | None:
+        """Where log lines of other sources are added; None until connected."""
+        return self._logs
+
+    def snapshot(self) -> ConsoleSnapshot:
+        """The newest snapshot; the same object when nothing changed."""
+        old, node = self._snapshot, self._node
+        launch = self._launch_info()
+        if node is None:
+            new = ConsoleSnapshot(old.seq, launch=launch, capabilities=self._capabilities, problem=self._problem)
+        else:
+            world = node.world.info
+            new = ConsoleSnapshot(
+                seq=old.seq,
+                graph=node.graph.info,
+                parameters=node.parameters.trees,
+                logs=node.logs.state,
+                journal=node.journal.state,
+                world=world,
+                drive=node.drive.info((world.speed, world.turn) if world.pose else None),
+                launch=launch,
+                profiles=self._profiles,
+                active_profile=self._active_profile,
+                capabilities=self._capabilities,
+                problem=self._problem,
+            )
+        if not _same(old, new):
+            self._snapshot = ConsoleSnapshot(**{**_parts(new), "seq": old.seq + 1})
+        return self._snapshot
+
+    def log(self, seq: int) -> LogRecord | None:
+        """The log record of that number."""
+        return self._logs.record(seq) if self._logs else None
+
+    def matching_logs(self, which: LogFilter, after: int, limit: int | None = None) -> Sequence[int]:
+        """Numbers of the records that pass a filter."""
+        return self._logs.matching(which, after, limit) if self._logs else ()
+
+    def clear_logs(self) -> None:
+        """Forget all log records."""
+        if self._logs:
+            self._logs.clear()
+
+    def changes(self, after: int = 0) -> Sequence[Change]:
+        """Journal entries from a number on."""
+        return self._node.journal.after(after) if self._node else ()
+
+    def set_parameters(
+        self,
+        node: str,
+        values: Mapping[str, Value],
+        source: ChangeSource = ChangeSource.EDIT,
+        *,
+        atomically: bool = False,
+    ) -> Future[tuple[SetOutcome, ...]]:
+        """Ask a node to take values."""
+        if self._node is None:
+            refused = (SetOutcome(node, name, value, False, STARTING, "console") for name, value in values.items())
+            return _done(tuple(refused))
+        return self._node.calls.run(self._node.setter.set(node, values, source, atomically=atomically))
+
+    def undo(self) -> Future[Answer]:
+        """Take the last change of this console back."""
+        return self._node.calls.run(self._node.setter.undo()) if self._node else _done(Answer(False, STARTING))
+
+    def redo(self) -> Future[Answer]:
+        """Make the last undone change again."""
+        return self._node.calls.run(self._node.setter.redo()) if self._node else _done(Answer(False, STARTING))
+
+    def watch(self, path: str) -> Answer:
+        """Collect a series."""
+        node = self._node
+        return node.plots.watch(path, node.graph.info, node.parameters.trees) if node else Answer(False, STARTING)
+
+    def unwatch(self, path: str) -> None:
+        """Stop collecting a series."""
+        if self._node:
+            self._node.plots.unwatch(path)
+
+    def samples(self, path: str, after: int = 0) -> Samples:
+        """New samples of a series."""
+        return self._node.plots.samples(path, after) if self._node else Samples((), (), after)
+
+    def plottable(self) -> Sequence[str]:
+        """Paths that can be plotted."""
+        node = self._node
+        return node.plots.plottable(node.graph.info, node.parameters.trees) if node else ()
+
+    def drive(self, linear: float, angular: float) -> None:
+        """Send a velocity command."""
+        if self._node:
+            self._node.drive.drive(linear, angular)
+
+    def all_stop(self, hold: bool = True) -> None:
+        """Zero velocity now and, while held, again and again."""
+        if self._node:
+            self._node.drive.stop(hold)
+
+    def call(self, service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:
+        """Call any service."""
+        return self._node.call(service, type_name, fields) if self._node else _done(Answer(False, STARTING))
+
+    def set_logger_level(self, node: str, severity: Severity) -> Future[Answer]:
+        """Set a node's logger level."""
+        return self._node.set_logger_level(node, severity) if self._node else _done(Answer(False, STARTING))
+
+    def profile_differences(self, name: str) -> Sequence[ProfileDifference]:
+        """What a profile would change."""
+        profile = self._profile(name)
+        return self._node.differences(profile) if self._node and profile else ()
+
+    def apply_profile(self, name: str, *, reset_world: bool = False) -> Future[tuple[SetOutcome, ...]]:
+        """Set a profile's values live."""
+        profile = self._profile(name)
+        if self._node is None or profile is None:
+            return _done(())
+        outcome = self._node.apply(profile, reset_world)
+        self._active_profile = name
+        return outcome
+
+    def _profile(self, name: str) -> Profile | None:
+        return next((each for each in self._profiles if each.name == name), None)
+
+    def save_parameters(self, path: str, nodes: Sequence[str] = ()) -> Answer:
+        """Write parameters to a file."""
+        return self._node.save(path, nodes) if self._node else Answer(False, STARTING)
+
+    def run_line(self, line: str) -> Future[str]:
+        """Run a `ros2 ...` command line in a thread of its own."""
+        outcome: Future[str] = Future()
+        run = self._run_line
+        if run is None:
+            return _done("no ros2 command line is available here")
+
+        def work() -> None:
+            try:
+                outcome.set_result(run(line))
+            except Exception as error:  # the border of the thread
+                outcome.set_exception(error)
+
+        threading.Thread(target=work, name="ros2", daemon=True).start()
+        return outcome
+
+    def close(self) -> None:
+        """Zero velocity, then leave the ROS system; a second call does nothing."""
+        if self._closed:
+            return
+        self._closed = True
+        if self._node:
+            self._node.drive.stop(hold=True)
+            threading.Event().wait(LAST_WORD)
+            self._node.close()
+        if self._thread.is_alive():
+            self._thread.join(2.0)
+
+
+def _parts(snapshot: ConsoleSnapshot) -> dict[str, object]:
+    return {name: getattr(snapshot, name) for name in snapshot.__dataclass_fields__}
+
+
+def _same(old: ConsoleSnapshot, new: ConsoleSnapshot) -> bool:
+    """Whether every part is the same object, or an equal text."""
+    parts = _parts(new)
+    return all(value is getattr(old, name) or (isinstance(value, str) and value == getattr(old, name))
+               for name, value in parts.items() if name not in ("seq", "stamp"))  # fmt: skip
+
+
+def _done(value: T) -> Future[T]:
+    future: Future[T] = Future()
+    future.set_result(value)
+    return future

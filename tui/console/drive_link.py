@@ -1,0 +1,124 @@
+"""Velocity commands from the console, and what became of them on their way to the robot."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from bot_console.tui.console.model import DriveInfo, GraphInfo
+from geometry_msgs.msg import Twist
+from rclpy.node import Node
+
+TELEOP = "cmd_vel_teleop"
+FINAL = "cmd_vel"
+ASKED = "cmd_vel_nav"
+TWIST = "geometry_msgs/msg/Twist"
+HOLD_PERIOD = 0.1
+"""Seconds between two zeros while the all-stop holds; below the 0.5 s after which a command is dead."""
+
+Velocity = tuple[float, float]
+
+
+class DriveLink:
+    """Publishes Twists where the robot listens for a person, and watches the command chain.
+
+    `drive` and `stop` may be called from any thread.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._publishers: dict[str, Any] = {}
+        self._watching: dict[str, Any] = {}
+        self._seen: dict[str, Velocity] = {}
+        self._held = False
+        self._info = DriveInfo()
+        self._topics: dict[str, str] = {}
+        node.create_timer(HOLD_PERIOD, self._hold_still)
+
+    def follow(self, graph: GraphInfo) -> None:
+        """Find the robot's command topics by their last token, in whatever namespace."""
+        subscribed = {each.name for node in graph.nodes for each in node.subscriptions if TWIST in each.types}
+        published = {each.name for node in graph.nodes for each in node.publishers if TWIST in each.types}
+        for token in (TELEOP, FINAL):
+            self._topics[token] = _topic(subscribed, token)
+        for token in (FINAL, ASKED):
+            self._watch(token, _topic(published | subscribed, token))
+
+    def _watch(self, token: str, topic: str) -> None:
+        now = self._watching.get(token)
+        if (now.topic_name if now else "") == topic:
+            return
+        if now:
+            self._node.destroy_subscription(now)
+            del self._watching[token]
+            self._seen.pop(token, None)
+        if topic:
+            self._watching[token] = self._node.create_subscription(
+                Twist, topic, lambda message: self._saw(token, message), 10
+            )
+
+    def _saw(self, token: str, message: Twist) -> None:
+        velocity = (message.linear.x, message.angular.z)
+        self._seen[token] = velocity
+        if token == FINAL and self._held and velocity != (0.0, 0.0):
+            # Somebody else drives on; without an arbiter the last word counts, so ours follows at once.
+            self._send(FINAL, 0.0, 0.0)
+
+    @property
+    def topic(self) -> str:
+        """Where commands of this console go; empty when no robot listens."""
+        return self._topics.get(TELEOP) or self._topics.get(FINAL, "")
+
+    def drive(self, linear: float, angular: float) -> None:
+        """Publish one command (m/s, rad/s), unless the all-stop holds; raises `ValueError` for NaN and infinity."""
+        if not (math.isfinite(linear) and math.isfinite(angular)):
+            raise ValueError("a velocity must be a finite number")
+        if not self._held:
+            self._send(TELEOP if self._topics.get(TELEOP) else FINAL, linear, angular)
+
+    def stop(self, hold: bool) -> None:
+        """Zero velocity on every command topic, now and, while held, again and again."""
+        self._held = hold
+        self.zero()
+
+    def zero(self) -> None:
+        """One zero Twist to every topic on which a robot or its arbiter listens."""
+        for token in (TELEOP, FINAL):
+            self._send(token, 0.0, 0.0)
+
+    def _hold_still(self) -> None:
+        if self._held:
+            self._send(TELEOP if self._topics.get(TELEOP) else FINAL, 0.0, 0.0)
+
+    def _send(self, token: str, linear: float, angular: float) -> None:
+        topic = self._topics.get(token)
+        if not topic:
+            return
+        publisher = self._publishers.get(topic)
+        if publisher is None:
+            publisher = self._publishers[topic] = self._node.create_publisher(Twist, topic, 10)
+        message = Twist()
+        message.linear.x = float(linear)
+        message.angular.z = float(angular)
+        publisher.publish(message)
+
+    def info(self, actual: Velocity | None, limited: Velocity | None = None, limited_by: str = "") -> DriveInfo:
+        """The chain as known now; the same object while nothing changes."""
+        info = DriveInfo(
+            topic=self.topic,
+            asked=self._seen.get(ASKED),
+            limited=limited,
+            final=self._seen.get(FINAL),
+            actual=actual,
+            limited_by=limited_by,
+            stopped=self._held,
+        )
+        if info != self._info:
+            self._info = info
+        return self._info
+
+
+def _topic(names: set[str], token: str) -> str:
+    """The shortest topic that ends in a token; empty when there is none."""
+    fitting = [name for name in names if name.rsplit("/", 1)[-1] == token]
+    return min(fitting, key=lambda name: (len(name), name), default="")

@@ -1,0 +1,162 @@
+"""The console's own ROS node: hidden, of the public rclpy API only, so that every ROS system looks the same to it."""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Future
+from pathlib import Path
+from typing import Any
+
+import rclpy
+from bot_console.tui.console.calls import Calls, NoAnswer
+from bot_console.tui.console.drive_link import DriveLink
+from bot_console.tui.console.graph_watch import GraphWatch
+from bot_console.tui.console.journal import Journal
+from bot_console.tui.console.log_store import LogStore
+from bot_console.tui.console.model import (
+    ChangeSource,
+    GraphInfo,
+    Profile,
+    ProfileDifference,
+    SetOutcome,
+    Severity,
+    Value,
+)
+from bot_console.tui.console.parameter_file import save
+from bot_console.tui.console.parameter_mirror import ParameterMirror
+from bot_console.tui.console.parameter_setter import ParameterSetter
+from bot_console.tui.console.plot_watch import PlotWatch
+from bot_console.tui.console.profiles import differences
+from bot_console.tui.console.protocol import Answer
+from bot_console.tui.console.world_watch import WorldWatch
+from rcl_interfaces.msg import Log, LoggerLevel
+from rcl_interfaces.srv import SetLoggerLevels
+from rclpy.context import Context
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+
+NAME = "_bot_console"
+ROSOUT = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+class ConsoleNode:
+    """Watches a ROS system and acts on it for the panes; its methods may be called from any thread."""
+
+    def __init__(self, logs: LogStore) -> None:
+        self.context = Context()
+        rclpy.init(args=[], context=self.context)
+        self.node = rclpy.create_node(
+            NAME,
+            context=self.context,
+            use_global_arguments=False,
+            enable_rosout=False,
+            start_parameter_services=False,
+        )
+        self.executor = SingleThreadedExecutor(context=self.context)
+        self.executor.add_node(self.node)
+        self.logs = logs
+        self.journal = Journal()
+        self.calls = Calls(self.node, self.executor)
+        self.plots = PlotWatch(self.node)
+        self.world = WorldWatch(self.node)
+        self.drive = DriveLink(self.node)
+        self.parameters = ParameterMirror(self.node, self.calls, self._parameter_changed)
+        self.setter = ParameterSetter(self.calls, self.parameters, self.journal)
+        self.graph = GraphWatch(self.node, self._graph_changed)
+        self.node.create_subscription(Log, "/rosout", self._on_log, ROSOUT)
+
+    def spin(self) -> None:
+        """Serve until `close`; in the console's own thread."""
+        self.graph.look()
+        with contextlib.suppress(ExternalShutdownException):
+            self.executor.spin()
+
+    def close(self) -> None:
+        """End `spin` and leave the graph."""
+        self.executor.shutdown(timeout_sec=1.0)
+        self.node.destroy_node()
+        self.context.try_shutdown()
+
+    def _graph_changed(self, graph: GraphInfo) -> None:
+        self.parameters.follow(graph)
+        self.world.follow(graph)
+        self.drive.follow(graph)
+
+    def _parameter_changed(self, node: str, name: str, old: Value, new: Value) -> None:
+        self.plots.parameter_is(node, name, new)
+        self.setter.announced(node, name, old, new)
+
+    def _on_log(self, message: Log) -> None:
+        stamp = message.stamp.sec * 1_000_000_000 + message.stamp.nanosec
+        self.logs.add(
+            stamp, _number(message.level), message.name, message.msg, (message.file, message.function, message.line)
+        )
+
+    def call(self, service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:
+        """Call a service of any type."""
+        return self.calls.run(self._call(service, type_name, fields))
+
+    async def _call(self, service: str, type_name: str, fields: Mapping[str, object]) -> Answer:
+        from rosidl_runtime_py import set_message_fields
+
+        package, _, rest = type_name.partition("/")
+        try:
+            kind = getattr(importlib.import_module(f"{package}.srv"), rest.rsplit("/", 1)[-1])
+            request = kind.Request()
+            set_message_fields(request, dict(fields))
+            response = await self.calls.ask(kind, service, request)
+        except (ImportError, AttributeError, TypeError, ValueError) as error:
+            return Answer(False, f"{type_name} cannot be called so: {error}")
+        except NoAnswer as error:
+            return Answer(False, str(error))
+        return Answer(bool(getattr(response, "success", True)), str(getattr(response, "message", "")) or repr(response))
+
+    def set_logger_level(self, node: str, severity: Severity) -> Future[Answer]:
+        """Set a node's logger level through its logger service, where it has one."""
+        return self.calls.run(self._set_logger_level(node, severity))
+
+    async def _set_logger_level(self, node: str, severity: Severity) -> Answer:
+        level = LoggerLevel(name=node.strip("/").replace("/", "."), level=int(severity))
+        try:
+            answer = await self.calls.ask(
+                SetLoggerLevels, f"{node}/set_logger_levels", SetLoggerLevels.Request(levels=[level])
+            )
+        except NoAnswer:
+            return Answer(False, f"{node} offers no logger service; create it with enable_logger_service=True")
+        result = answer.results[0]
+        return Answer(result.successful, result.reason or f"{node} logs {severity.name} and worse")
+
+    def differences(self, profile: Profile) -> Sequence[ProfileDifference]:
+        """What a profile would change now."""
+        return differences(profile, self.parameters.trees)
+
+    def apply(self, profile: Profile, reset_world: bool) -> Future[tuple[SetOutcome, ...]]:
+        """Set what a profile changes, all or nothing per node, then reset the simulator when asked to."""
+        return self.calls.run(self._apply(profile, reset_world))
+
+    async def _apply(self, profile: Profile, reset_world: bool) -> tuple[SetOutcome, ...]:
+        by_node: dict[str, dict[str, Value]] = {}
+        for each in self.differences(profile):
+            by_node.setdefault(each.node, {})[each.name] = each.then
+        outcomes: list[SetOutcome] = []
+        for node, values in by_node.items():
+            outcomes += await self.setter.set(node, values, ChangeSource.PROFILE, atomically=True)
+        if reset_world:
+            await self._call("/reset", "std_srvs/srv/Trigger", {})
+        return tuple(outcomes)
+
+    def save(self, path: str, nodes: Sequence[str]) -> Answer:
+        """Write parameters to a file."""
+        place = Path(path).expanduser()
+        try:
+            count = save(place, self.parameters.trees, tuple(nodes))
+        except (OSError, ValueError) as error:
+            return Answer(False, f"not saved: {error}")
+        return Answer(True, f"{count} parameters saved to {place}")
+
+
+def _number(level: Any) -> int:
+    """A severity as a number; before Jazzy it came as a byte."""
+    return level[0] if isinstance(level, bytes) else int(level)
