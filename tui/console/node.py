@@ -14,7 +14,6 @@ from bot_console.tui.console.calls import Calls, NoAnswer
 from bot_console.tui.console.drive_link import DriveLink
 from bot_console.tui.console.graph_watch import GraphWatch
 from bot_console.tui.console.journal import Journal
-from bot_console.tui.console.log_store import LogStore
 from bot_console.tui.console.model import (
     ChangeSource,
     GraphInfo,
@@ -28,6 +27,7 @@ from bot_console.tui.console.parameter_file import save
 from bot_console.tui.console.parameter_mirror import ParameterMirror
 from bot_console.tui.console.parameter_setter import ParameterSetter
 from bot_console.tui.console.plot_watch import PlotWatch
+from bot_console.tui.console.process_output import Once
 from bot_console.tui.console.profiles import differences
 from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.world_watch import WorldWatch
@@ -44,7 +44,7 @@ ROSOUT = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE, durabili
 class ConsoleNode:
     """Watches a ROS system and acts on it for the panes; its methods may be called from any thread."""
 
-    def __init__(self, logs: LogStore) -> None:
+    def __init__(self, once: Once) -> None:
         self.context = Context()
         rclpy.init(args=[], context=self.context)
         self.node = rclpy.create_node(
@@ -56,7 +56,7 @@ class ConsoleNode:
         )
         self.executor = SingleThreadedExecutor(context=self.context)
         self.executor.add_node(self.node)
-        self.logs = logs
+        self._once = once
         self.journal = Journal()
         self.calls = Calls(self.node, self.executor)
         self.plots = PlotWatch(self.node)
