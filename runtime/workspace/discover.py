@@ -1,0 +1,97 @@
+"""Finds the packages of a workspace, and answers for them to the ament index, the importer and `run`."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+from types import MappingProxyType
+
+from bot_console.runtime.workspace.own import NAME as OWN
+from bot_console.runtime.workspace.own import own_package, own_share
+from bot_console.runtime.workspace.package import Package, read_package
+from bot_console.runtime.workspace.share import share_folder
+
+IGNORED = frozenset({"build", "install", "log", "node_modules", "__pycache__", "venv", "site-packages"})
+MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
+DEPTH = 6
+
+
+class Workspace:
+    """The source packages below some folders; the first of a name wins, and ours comes last."""
+
+    def __init__(self, folders: Sequence[Path]) -> None:
+        self.folders = tuple(folders)
+
+    @cached_property
+    def packages(self) -> Mapping[str, Package]:
+        """Packages by name."""
+        found: dict[str, Package] = {}
+        for folder in self.folders:
+            for each in _package_folders(folder, DEPTH):
+                package = read_package(each)
+                found.setdefault(package.name, package)
+        found.setdefault(OWN, own_package())
+        return MappingProxyType(found)
+
+    def share(self, name: str) -> Path | None:
+        """The share folder of a package, or None when the workspace does not have it."""
+        package = self.packages.get(name)
+        if package is None:
+            return None
+        if name not in self._shares:
+            ours = package.folder == own_package().folder
+            self._shares[name] = own_share(self._farm) if ours else share_folder(package, self._farm)
+        return self._shares[name]
+
+    @cached_property
+    def _shares(self) -> dict[str, Path]:
+        return {}
+
+    @cached_property
+    def _farm(self) -> Path:
+        """A folder of this process for share folders made of links; it goes with the process."""
+        self._farm_holder = tempfile.TemporaryDirectory(prefix="bot-console-share-")
+        return Path(self._farm_holder.name)
+
+
+def default_folders(start: Path) -> tuple[Path, ...]:
+    """Where packages are looked for without an option: the folder itself, and `src/` below it."""
+    return (start, start / "src") if (start / "src").is_dir() else (start,)
+
+
+def _package_folders(folder: Path, depth: int) -> Iterator[Path]:
+    """Folders with a `package.xml`, as colcon finds them: not below another package, not where told to ignore."""
+    if any((folder / marker).exists() for marker in MARKERS):
+        return
+    if (folder / "package.xml").is_file():
+        yield folder
+        return
+    if depth == 0:
+        return
+    try:
+        below = sorted(
+            (each for each in os.scandir(folder) if each.is_dir(follow_symlinks=False)), key=lambda each: each.name
+        )
+    except OSError:
+        return
+    for each in below:
+        if each.name not in IGNORED and not each.name.startswith("."):
+            yield from _package_folders(each, depth - 1)
+
+
+_current: list[Workspace] = []
+
+
+def workspace() -> Workspace:
+    """The workspace of this run; the working directory's until `use` names another."""
+    if not _current:
+        _current.append(Workspace(default_folders(Path.cwd())))
+    return _current[0]
+
+
+def use(chosen: Workspace) -> None:
+    """Make a workspace the one of this run."""
+    _current[:] = [chosen]

@@ -1,0 +1,75 @@
+"""A source package: what its `package.xml`, `setup.py` and `setup.cfg` say it installs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from xml.etree import ElementTree
+
+from bot_console.runtime.workspace.setup_cfg import read_setup_cfg
+from bot_console.runtime.workspace.setup_py import SetupFile, read_setup_py
+
+INTERFACE_FOLDERS = ("msg", "srv", "action")
+
+
+@dataclass(frozen=True)
+class EntryPoint:
+    """A console script: the function `function` of the module `module`."""
+
+    module: str
+    function: str
+
+
+@dataclass(frozen=True)
+class Package:
+    """A package by its name. `problem` says why it cannot be used as it is, empty when it can."""
+
+    name: str
+    folder: Path
+    build_type: str = ""
+    version: str = ""
+    executables: Mapping[str, EntryPoint] = field(default_factory=lambda: MappingProxyType({}))
+    scripts: Mapping[str, Path] = field(default_factory=lambda: MappingProxyType({}))
+    modules: Mapping[str, Path] = field(default_factory=lambda: MappingProxyType({}))
+    """Python packages by import name."""
+    data_files: tuple[tuple[str, tuple[Path, ...]], ...] = ()
+    problem: str = ""
+
+    @property
+    def has_interfaces(self) -> bool:
+        """Whether the package defines messages, services or actions."""
+        return any(next((self.folder / each).glob(f"*.{each}"), None) for each in INTERFACE_FOLDERS)
+
+
+def read_package(folder: Path) -> Package:
+    """Read the package in a folder that holds a `package.xml`."""
+    try:
+        root = ElementTree.parse(folder / "package.xml").getroot()
+    except (ElementTree.ParseError, OSError) as error:
+        return Package(folder.name, folder, problem=f"{folder / 'package.xml'}: {error}")
+    name = (root.findtext("name") or folder.name).strip()
+    build_type = (root.findtext("export/build_type") or "ament_cmake").strip()
+    setup, problem = SetupFile(), ""
+    try:
+        setup = read_setup_py(folder) if (folder / "setup.py").exists() else setup
+        setup = setup.merged(read_setup_cfg(folder))
+    except ValueError as error:
+        problem = str(error)
+    return Package(
+        name,
+        folder,
+        build_type,
+        (root.findtext("version") or "").strip(),
+        MappingProxyType({key: _entry_point(text) for key, text in setup.console_scripts.items()}),
+        MappingProxyType(setup.scripts),
+        MappingProxyType(setup.modules),
+        setup.data_files,
+        problem,
+    )
+
+
+def _entry_point(text: str) -> EntryPoint:
+    module, _, function = text.partition(":")
+    return EntryPoint(module.strip(), function.split("[")[0].strip() or "main")

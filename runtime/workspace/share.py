@@ -1,0 +1,47 @@
+"""The share folder of a source package: the folder itself where its layout already is the installed one."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from pathlib import Path
+
+from bot_console.runtime.workspace.package import Package
+
+
+def share_folder(package: Package, farm: Path) -> Path:
+    """A folder laid out as the package's installed `share/<name>`.
+
+    Most packages install `launch/x` as `launch/x`; then that is the source folder. Others get a folder of links
+    below `farm`, made afresh.
+    """
+    targets = list(_targets(package))
+    if all(package.folder / target == source for target, source in targets):
+        return package.folder
+    place = farm / package.name
+    shutil.rmtree(place, ignore_errors=True)
+    for target, source in targets:
+        link(source, place / target)
+    return place
+
+
+def _targets(package: Package) -> list[tuple[Path, Path]]:
+    """Where in the share folder each installed file goes, and where it comes from."""
+    prefix = f"share/{package.name}"
+    found: list[tuple[Path, Path]] = []
+    for target, sources in package.data_files:
+        folder = os.path.normpath(target)
+        if folder == prefix or folder.startswith(prefix + "/"):
+            found += [(Path(folder).relative_to(prefix) / each.name, each) for each in sources if each.exists()]
+    return found
+
+
+def link(source: Path, place: Path) -> None:
+    """Make `place` stand for a file: a symlink, or a copy where links are not allowed."""
+    place.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        place.symlink_to(source)
+    except FileExistsError:
+        return
+    except OSError:
+        shutil.copyfile(source, place)

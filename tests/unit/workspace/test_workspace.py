@@ -1,0 +1,107 @@
+"""Source packages are found and read without running anything."""
+
+from pathlib import Path
+
+import pytest
+from bot_console.runtime.workspace.discover import Workspace, default_folders
+from bot_console.runtime.workspace.package import EntryPoint, read_package
+
+PACKAGE = """<package format="3"><name>{name}</name><version>0.1.0</version>
+<export><build_type>ament_python</build_type></export></package>"""
+SETUP = """
+import os
+from glob import glob
+from setuptools import find_packages, setup
+package_name = "demo"
+files = [(os.path.join("share", package_name, "config"), glob("config/*.yaml"))]
+raise SystemExit("never run")
+setup(
+    name=package_name,
+    packages=find_packages(exclude=["test"]),
+    data_files=[
+        ("share/ament_index/resource_index/packages", ["resource/" + package_name]),
+        ("share/" + package_name, ["package.xml"]),
+        (os.path.join("share", package_name, "launch"), glob("launch/*.py")),
+        (f"share/{package_name}/odd", glob("config/*.yaml")),
+        (unknown(), ["x"]),
+    ],
+    entry_points={"console_scripts": ["talker = demo.talker:main", "bare = demo.bare"]},
+)
+"""
+
+
+def make(folder: Path, name: str = "demo", setup: str = SETUP) -> Path:
+    for sub in ("launch", "config", "demo"):
+        (folder / sub).mkdir(parents=True)
+    (folder / "package.xml").write_text(PACKAGE.format(name=name))
+    (folder / "setup.py").write_text(setup)
+    (folder / "demo" / "__init__.py").touch()
+    (folder / "launch" / "a.launch.py").touch()
+    (folder / "config" / "p.yaml").touch()
+    return folder
+
+
+def test_setup_py_is_read_not_run(tmp_path: Path) -> None:
+    package = read_package(make(tmp_path / "demo"))
+    assert package.executables == {"talker": EntryPoint("demo.talker", "main"), "bare": EntryPoint("demo.bare", "main")}
+    assert package.modules == {"demo": tmp_path / "demo" / "demo"}
+    assert ("share/demo/launch", (tmp_path / "demo" / "launch" / "a.launch.py",)) in package.data_files
+    assert package.problem == ""
+
+
+def test_a_share_folder_with_another_layout_is_made_of_links(tmp_path: Path) -> None:
+    make(tmp_path / "demo")
+    found = Workspace([tmp_path])
+    share = found.share("demo")
+    assert share is not None
+    assert (share / "odd" / "p.yaml").exists()
+    assert (share / "launch" / "a.launch.py").exists()
+    assert share != tmp_path / "demo"
+
+
+def test_the_usual_layout_is_its_own_share_folder(tmp_path: Path) -> None:
+    make(tmp_path / "demo", setup=SETUP.replace("/odd", "/config"))
+    assert Workspace([tmp_path]).share("demo") == tmp_path / "demo"
+
+
+def test_entry_points_of_setup_cfg(tmp_path: Path) -> None:
+    folder = make(tmp_path / "demo", setup="from setuptools import setup\nsetup()\n")
+    (folder / "setup.cfg").write_text("[options.entry_points]\nconsole_scripts =\n  talker = demo.talker:main\n")
+    assert read_package(folder).executables == {"talker": EntryPoint("demo.talker", "main")}
+
+
+def test_broken_files_are_named(tmp_path: Path) -> None:
+    folder = make(tmp_path / "demo", setup="setup(\n")
+    assert "setup.py:1" in read_package(folder).problem
+    (folder / "package.xml").write_text("<package>")
+    assert "package.xml" in read_package(folder).problem
+
+
+def test_packages_are_found_as_colcon_does(tmp_path: Path) -> None:
+    make(tmp_path / "src" / "deep" / "one", "one")
+    make(tmp_path / "src" / "two", "two")
+    make(tmp_path / "src" / "two" / "inner", "inner")
+    make(tmp_path / "build" / "three", "three")
+    make(tmp_path / "src" / "four", "four")
+    (tmp_path / "src" / "four" / "COLCON_IGNORE").touch()
+    found = Workspace(default_folders(tmp_path)).packages
+    assert set(found) == {"one", "two", "intelligent_robot"}
+
+
+def test_a_workspace_package_of_our_name_wins(tmp_path: Path) -> None:
+    folder = make(tmp_path / "robot", "intelligent_robot")
+    assert Workspace([tmp_path]).packages["intelligent_robot"].folder == folder
+
+
+def test_our_own_package_has_its_share_folder() -> None:
+    own = Workspace([])
+    share = own.share("intelligent_robot")
+    assert share is not None
+    profiles = {each.name for each in (share / "config").glob("*.yaml")}
+    assert {"indoor.yaml", "indoor_config.yaml"} <= profiles
+    assert (share / "launch" / "robot_system.launch.py").exists()
+
+
+@pytest.mark.parametrize("name", ["nothing_like_it"])
+def test_an_unknown_package_has_no_share_folder(name: str) -> None:
+    assert Workspace([]).share(name) is None
