@@ -72,9 +72,7 @@ def _package_folders(folder: Path, depth: int) -> Iterator[Path]:
     if depth == 0:
         return
     try:
-        below = sorted(
-            (each for each in os.scandir(folder) if each.is_dir(follow_symlinks=False)), key=lambda each: each.name
-        )
+        below = sorted(Path(each.path) for each in os.scandir(folder) if each.is_dir(follow_symlinks=False))
     except OSError:
         return
     for each in below:
