@@ -1,6 +1,59 @@
-"""Node processes: threads that each look to their code like a process of its own. Knows no ROS."""
+"""Node processes: threads that each look to their code like a process of their own. Knows no ROS.
+
+Who am I
+    `current()`: the node process of the calling thread; `MAIN` where there is none (the real process, nothing virtual).
+    `ProcessLocal(factory)`: a variable that each node process has for itself.
+    `running_as(process)`: let this thread work for a node process for the length of a `with`.
+
+Time and waiting (everything that blocks goes through these, so that it can be woken and stepped)
+    `current().clock`: `steady_ns()`, `system_ns()`, `wakeup()`, `sleep_until(deadline_ns)`, `stepped`.
+    A `Wakeup` has `set`, `clear`, `is_set`, `wait(deadline_ns) -> bool`; a wait raises `KeyboardInterrupt` once when the
+    process is interrupted and `ProcessKilled` (not an `Exception`) whenever it was killed.
+
+A node process
+    `process = NodeProcess("talker-1", clock)`: has `name`, `pid` (synthetic), `state`, `exit_code`, `argv`, `env`, `cwd`.
+    `process.start(target, argv=, env=, stdout=, stderr=, cwd=)`: `target()` is its main program, see `file_program` and
+    `entry_point_program`; `stdout`/`stderr` are called with each line of text, newline included, and must not block.
+    `process.wait(timeout_s) -> exit_code | None`, `is_alive`, `line()` (where its main thread is).
+    `interrupt()` SIGINT, `terminate()` SIGTERM, `kill()` SIGKILL, `send_signal(n)`, `stop(grace_s)` all three in turn.
+    `on_interrupt(callback(signum), signals)`: hook that runs before the handler, as that of `rclpy.init`; a hook for
+    SIGTERM replaces its default. On `MAIN` it is a real signal handler. `on_abandon(callback())`: it was killed, leave
+    the graph, its code may still run. `on_exit(callback(process))`: it has ended, newest callback first. All three
+    return a callable that takes the callback away.
+    Exit codes: 0; n of `sys.exit(n)`; 1 for a text (on its stderr) or an uncaught exception (traceback on its stderr);
+    -2 for `KeyboardInterrupt`; -15, -9, -n for a signal.
+    `on_notice(hook(process, text))`: what a node does that cannot be virtual, and lines that hang; to be shown as WARN.
+
+Stepped runs
+    `with stepped(seed=1) as clock`: virtual time for `MAIN` in this block; `NodeProcess(name, clock)` takes part in it.
+    `clock.run_for(seconds)`, `clock.run_until(steady_ns)`: let exactly one thread run at a time up to that time.
+    `clock.deterministic`, `clock.stalls`: whether a thread blocked past the clock, and in which lines.
+
+Virtual in a node process: threads and their lists, `sys.argv`, `sys.path`, `sys.stdin/stdout/stderr/excepthook`,
+`os.environ`, `os.getpid/kill/_exit/exec*/system`, `subprocess`, `signal.signal` and relatives, `atexit` (for the node's own
+files), the node's own modules. Not virtual, but reported: `os.chdir`, `fork`, timers of signals. `cwd` is where child
+processes start; relative paths of the node itself are those of the real process.
+"""
 
 from bot_console.runtime.process.clock_source import ClockSource, RealTime, Wakeup
-from bot_console.runtime.process.current import NodeProcess, ProcessLocal, current
+from bot_console.runtime.process.current import MAIN, NodeProcess, ProcessLocal, current, running_as
+from bot_console.runtime.process.node_process import ProcessState
+from bot_console.runtime.process.notices import on_notice
+from bot_console.runtime.process.program import entry_point_program, file_program
+from bot_console.runtime.process.thread_state import ProcessKilled
 
-__all__ = ["ClockSource", "NodeProcess", "ProcessLocal", "RealTime", "Wakeup", "current"]
+__all__ = [
+    "MAIN",
+    "ClockSource",
+    "NodeProcess",
+    "ProcessKilled",
+    "ProcessLocal",
+    "ProcessState",
+    "RealTime",
+    "Wakeup",
+    "current",
+    "entry_point_program",
+    "file_program",
+    "on_notice",
+    "running_as",
+]

@@ -4,7 +4,14 @@ from __future__ import annotations
 
 import threading
 import time
+from _thread import LockType, allocate_lock
+from contextlib import suppress
+from functools import partial
 from typing import Protocol
+
+from bot_console.runtime.process.thread_state import ThreadState, local
+
+_monotonic_ns = time.monotonic_ns  # the real one: `time.monotonic_ns` is virtual while a stepped run is on
 
 
 class Wakeup(Protocol):
@@ -25,8 +32,20 @@ class Wakeup(Protocol):
     def wait(self, deadline_ns: int | None = None) -> bool:
         """Block until set or until steady time reaches the deadline (ns); whether it is set.
 
-        Raises `KeyboardInterrupt` when the node process is stopped meanwhile.
+        Raises `KeyboardInterrupt` when the node process is interrupted meanwhile.
         """
+        ...
+
+
+class Seat(Protocol):
+    """A thread's place among those of a stepped run, of which one at a time has the turn."""
+
+    def take(self) -> None:
+        """Wait for the first turn."""
+        ...
+
+    def leave(self) -> None:
+        """Take no more turns; the next one has it."""
         ...
 
 
@@ -52,28 +71,90 @@ class ClockSource(Protocol):
         """Block until steady time reaches the deadline (ns)."""
         ...
 
+    def seat(self, state: ThreadState) -> Seat | None:
+        """A place for a new thread of a node process; None where threads run as they like."""
+        ...
+
 
 class _RealWakeup:
-    """A wakeup on the machine's own clock."""
+    """A wakeup on the machine's own clock; one lock per wait, so that a waiter costs no condition variable."""
 
-    __slots__ = ("_event",)
+    __slots__ = ("_set", "_waiters")
 
     def __init__(self) -> None:
-        self._event = threading.Event()
+        self._set = False
+        self._waiters: list[LockType] = []
 
     def set(self) -> None:
-        self._event.set()
+        self._set = True
+        waiters = self._waiters
+        while waiters:
+            try:
+                waiter = waiters.pop()
+            except IndexError:  # another thread sets it, too
+                return
+            _release(waiter)
 
     def clear(self) -> None:
-        self._event.clear()
+        self._set = False
 
     def is_set(self) -> bool:
-        return self._event.is_set()
+        return self._set
 
     def wait(self, deadline_ns: int | None = None) -> bool:
-        if deadline_ns is None:
-            return self._event.wait()
-        return self._event.wait(max(0.0, (deadline_ns - time.monotonic_ns()) * 1e-9))
+        state = local.state
+        if state is None:
+            return self._set or self._block(deadline_ns)
+        if self._set and not state.called:
+            return True
+        return self._block_wakeable(state, deadline_ns)
+
+    def _block(self, deadline_ns: int | None) -> bool:
+        lock = allocate_lock()
+        lock.acquire()
+        self._waiters.append(lock)
+        try:
+            return self._set or _acquire_until(lock, deadline_ns)
+        finally:
+            self._withdraw(lock)
+
+    def _block_wakeable(self, state: ThreadState, deadline_ns: int | None) -> bool:
+        while True:
+            lock = allocate_lock()
+            lock.acquire()
+            self._waiters.append(lock)
+            try:
+                state.begin_wait(partial(_release, lock))
+                woken = self._set or _acquire_until(lock, deadline_ns)
+            finally:
+                state.end_wait()
+                was_set = not self._withdraw(lock)
+            if state.called:
+                state.deliver()
+            if self._set or was_set or not woken:
+                return self._set or was_set
+
+    def _withdraw(self, lock: LockType) -> bool:
+        """Take the waiter off the list; False where `set` has done so."""
+        try:
+            self._waiters.remove(lock)
+        except ValueError:
+            return False
+        return True
+
+
+def _release(lock: LockType) -> None:
+    with suppress(RuntimeError):  # set and interrupted at the same time
+        lock.release()
+
+
+def _acquire_until(lock: LockType, deadline_ns: int | None) -> bool:
+    if deadline_ns is None:
+        return lock.acquire()
+    remaining = (deadline_ns - _monotonic_ns()) * 1e-9
+    if remaining <= 0:
+        return lock.acquire(False)
+    return lock.acquire(True, min(remaining, threading.TIMEOUT_MAX))
 
 
 class RealTime:
@@ -90,3 +171,6 @@ class RealTime:
     def sleep_until(self, deadline_ns: int) -> None:
         """Block until `time.monotonic_ns()` reaches the deadline."""
         _RealWakeup().wait(deadline_ns)
+
+    def seat(self, state: ThreadState) -> None:
+        """None: the threads run as they like."""

@@ -2,33 +2,38 @@
 
 from __future__ import annotations
 
-import threading
-from collections.abc import Callable
-from typing import Any, Generic, TypeVar
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Generic, TypeVar
 
-from bot_console.runtime.process.clock_source import ClockSource, RealTime
+from bot_console.runtime.process.main_process import MainProcess
+from bot_console.runtime.process.node_process import NodeProcess
+from bot_console.runtime.process.thread_state import local
+
+__all__ = ["MAIN", "NodeProcess", "ProcessLocal", "current", "running_as"]
 
 T = TypeVar("T")
 
-
-class NodeProcess:
-    """A process as its code sees it: a name, a clock source, and the state of `ProcessLocal`s."""
-
-    def __init__(self, name: str, clock: ClockSource | None = None) -> None:
-        self.name = name
-        self.clock: ClockSource = clock or RealTime()
-        self.locals: dict[Any, Any] = {}
-
-
-MAIN = NodeProcess("main")
+MAIN = MainProcess("main")
 """The real process: what every thread belongs to that no node process has started."""
 
-_thread = threading.local()
+type(local).process = MAIN
 
 
 def current() -> NodeProcess:
     """The node process of the calling thread."""
-    return getattr(_thread, "process", MAIN)
+    return local.process
+
+
+@contextmanager
+def running_as(process: NodeProcess) -> Iterator[None]:
+    """Let the calling thread work for a node process for a while: its `current()`, output, arguments, environment."""
+    before = local.process
+    local.process = process
+    try:
+        yield
+    finally:
+        local.process = before
 
 
 class ProcessLocal(Generic[T]):
@@ -43,7 +48,7 @@ class ProcessLocal(Generic[T]):
 
     def get(self) -> T:
         """The calling thread's node process's value."""
-        values = current().locals
+        values = local.process.locals
         try:
             return values[self]
         except KeyError:
@@ -51,4 +56,4 @@ class ProcessLocal(Generic[T]):
 
     def set(self, value: T) -> None:
         """Replace the value in the calling thread's node process."""
-        current().locals[self] = value
+        local.process.locals[self] = value

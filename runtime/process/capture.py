@@ -1,0 +1,131 @@
+"""Standard output of a node process: a text stream that hands whole lines to a sink."""
+
+from __future__ import annotations
+
+import codecs
+import io
+import os
+import threading
+from _thread import RLock
+from collections.abc import Callable
+from typing import Any
+
+Sink = Callable[[str], None]
+"""Takes one line with its newline (the last one may lack it), in the thread that wrote it. Must never block."""
+
+PUMP_GRACE_S = 0.5
+
+
+class LineCapture(io.TextIOBase):
+    """A text stream as `sys.stdout` is, whose lines go to a sink; whatever threads write, each line stays whole."""
+
+    encoding = "utf-8"
+    errors = "replace"
+    line_buffering = True
+    mode = "w"
+
+    def __init__(self, sink: Sink, name: str = "<stdout>") -> None:
+        self.name = name
+        self.buffer = _ByteSide(self)
+        self._sink = sink
+        self._partial = ""
+        self._lock = RLock()
+        self._pipe: _Pipe | None = None
+
+    def writable(self) -> bool:
+        """True."""
+        return True
+
+    def isatty(self) -> bool:
+        """False: nobody sees it as it is."""
+        return False
+
+    def write(self, text: str) -> int:
+        """Take text; every line that it completes goes to the sink. Raises `TypeError` for anything but text."""
+        if not isinstance(text, str):
+            raise TypeError(f"write() argument must be str, not {type(text).__name__}")
+        with self._lock:
+            if self.closed:
+                return len(text)
+            *lines, self._partial = (self._partial + text).split("\n")
+            for line in lines:
+                self._sink(line + "\n")
+        return len(text)
+
+    def reconfigure(self, **_options: Any) -> None:
+        """Accepted and without effect: lines are always handed on at once, as UTF-8."""
+
+    def fileno(self) -> int:
+        """A descriptor for child processes and C code, whose bytes come out here as lines."""
+        with self._lock:
+            if self._pipe is None:
+                self._pipe = _Pipe(self)
+            return self._pipe.write_end
+
+    def end(self) -> None:
+        """The process has ended: hand on an unfinished last line, and take no more."""
+        if self._pipe is not None:
+            self._pipe.close()
+        with self._lock:
+            if self._partial and not self.closed:
+                self._sink(self._partial)
+            self._partial = ""
+            super().close()
+
+    def mute(self) -> None:
+        """Take no more, hand on nothing: a killed process prints no last words."""
+        with self._lock:
+            self._partial = ""
+        self.end()
+
+    def flush(self) -> None:
+        """Nothing to do: whole lines are handed on at once."""
+
+    def close(self) -> None:
+        """Keep open: `sys.stdout.close()` by a node, or a garbage collector, must not lose what comes later."""
+
+
+class _ByteSide(io.BufferedIOBase):
+    """`sys.stdout.buffer`: bytes in, text out."""
+
+    def __init__(self, text: LineCapture) -> None:
+        self._text = text
+        self._decode = codecs.getincrementaldecoder("utf-8")(errors="replace").decode
+
+    def writable(self) -> bool:
+        return True
+
+    def fileno(self) -> int:
+        return self._text.fileno()
+
+    def write(self, data: Any) -> int:
+        count = memoryview(data).nbytes
+        self._text.write(self._decode(bytes(data)))
+        return count
+
+
+class _Pipe:
+    """A real file descriptor that leads into a capture."""
+
+    def __init__(self, capture: LineCapture) -> None:
+        self._read_end, self.write_end = os.pipe()
+        self._target = _ByteSide(capture)
+        self._pump = threading.Thread(target=self._run, name="output pump", daemon=True)
+        _start_outside(self._pump)
+
+    def _run(self) -> None:
+        with open(self._read_end, "rb", buffering=0) as source:
+            while data := source.read(65536):
+                self._target.write(data)
+
+    def close(self) -> None:
+        """Close our end; what children have written by now still arrives, a child that lives on is not waited for."""
+        os.close(self.write_end)
+        self._pump.join(PUMP_GRACE_S)
+
+
+def _start_outside(thread: threading.Thread) -> None:
+    """Start a thread that belongs to no node process, whoever asks for it."""
+    from bot_console.runtime.process.child_threads import start_outside
+
+    start_outside(thread)

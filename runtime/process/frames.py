@@ -1,0 +1,88 @@
+"""Which line of a program a thread is in, as a person would name it; and tracebacks without our own frames."""
+
+from __future__ import annotations
+
+import os
+import sys
+import sysconfig
+import traceback
+from types import FrameType, TracebackType
+
+_PROCESS = os.path.dirname(os.path.abspath(__file__)) + os.sep
+_RUNTIME = os.path.dirname(_PROCESS.rstrip(os.sep)) + os.sep
+_STDLIB = tuple({os.path.realpath(sysconfig.get_path(name)) + os.sep for name in ("stdlib", "platstdlib")})
+_SITE = ("site-packages", "dist-packages")
+
+
+def _is_library(filename: str) -> bool:
+    """Whether a file is the interpreter's, an installed library's or the runtime's: not where a user would look."""
+    if filename.startswith(("<frozen", _RUNTIME)):
+        return True
+    return any(part in filename for part in _SITE) or os.path.realpath(filename).startswith(_STDLIB)
+
+
+def user_frame(frame: FrameType) -> FrameType:
+    """The innermost frame of the user's own code on this stack; the innermost of all where there is none."""
+    candidate: FrameType | None = frame
+    while candidate is not None:
+        if not _is_library(candidate.f_code.co_filename):
+            return candidate
+        candidate = candidate.f_back
+    return frame
+
+
+def describe(frame: FrameType) -> str:
+    """`/path/file.py:12, in function`."""
+    return f"{frame.f_code.co_filename}:{frame.f_lineno}, in {frame.f_code.co_name}"
+
+
+def calling_line() -> str:
+    """The line of the user's code that is now at work in this thread."""
+    return describe(user_frame(sys._getframe(1)))
+
+
+def thread_line(ident: int) -> str | None:
+    """The line of the user's code that a thread is in; None where the thread has ended."""
+    frame = sys._current_frames().get(ident)
+    return None if frame is None else describe(user_frame(frame))
+
+
+def _is_ours(frame: FrameType) -> bool:
+    return frame.f_code.co_filename.startswith((_PROCESS, "<frozen importlib", "<frozen runpy"))
+
+
+def trimmed(trace: TracebackType | None) -> TracebackType | None:
+    """A traceback without the frames of this package and of the import machinery."""
+    kept: TracebackType | None = None
+    entries: list[TracebackType] = []
+    while trace is not None:
+        entries.append(trace)
+        trace = trace.tb_next
+    for entry in reversed(entries):
+        if not _is_ours(entry.tb_frame):
+            kept = TracebackType(kept, entry.tb_frame, entry.tb_lasti, entry.tb_lineno)
+    return kept
+
+
+def trim(exception: BaseException) -> BaseException:
+    """Trim the traceback of an exception and of all that it was raised from; the same exception."""
+    seen: set[int] = set()
+    queue: list[BaseException | None] = [exception]
+    while queue:
+        item = queue.pop()
+        if item is None or id(item) in seen:
+            continue
+        seen.add(id(item))
+        item.__traceback__ = trimmed(item.__traceback__)
+        queue += [item.__cause__, item.__context__]
+    return exception
+
+
+def print_exception(exception: BaseException) -> None:
+    """Print as the interpreter does for an uncaught exception, to the calling thread's `sys.stderr`."""
+    trim(exception)
+    hook = sys.excepthook
+    if hook is sys.__excepthook__:
+        traceback.print_exception(type(exception), exception, exception.__traceback__)
+    else:
+        hook(type(exception), exception, exception.__traceback__)

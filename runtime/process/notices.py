@@ -1,0 +1,35 @@
+"""What a node process cannot have, or does to its neighbours: one message each, with file and line."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from bot_console.runtime.process.node_process import NodeProcess
+
+NoticeHook = Callable[["NodeProcess", str], None]
+_hooks: list[NoticeHook] = []
+
+
+def on_notice(hook: NoticeHook) -> Callable[[], None]:
+    """Have notices given to `hook(process, text)`, from any thread; it must not block. Returns what ends that.
+
+    Without a hook a notice goes to the standard error stream of its process.
+    """
+    _hooks.append(hook)
+    return lambda: _hooks.remove(hook)
+
+
+def notify(process: NodeProcess, text: str) -> None:
+    """Give a notice, once per process and text."""
+    if text in process.notices:
+        return
+    process.notices.append(text)
+    for hook in tuple(_hooks):
+        hook(process, text)
+    if not _hooks:
+        stream = process.stderr or sys.__stderr__
+        if stream is not None:
+            stream.write(f"[WARN] [{process.name}]: {text}\n")

@@ -1,0 +1,71 @@
+"""The main program of a node process: a Python file, or a function of a module as `console_scripts` name it."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable
+from typing import Any
+
+from bot_console.runtime.process.fresh_import import FreshModules
+from bot_console.runtime.process.thread_state import local
+
+
+def file_program(path: str, modules: FreshModules | None = None) -> Callable[[], None]:
+    """A callable that runs a Python file as `python path` does: as `__main__`, its folder first on `sys.path`.
+
+    Modules beside the file are the process's own. The callable raises what the file raises; a file that cannot be read
+    ends it with exit code 2 and the interpreter's words.
+    """
+    return _FileProgram(os.fspath(path), modules)
+
+
+def entry_point_program(entry_point: str, modules: FreshModules | None = None) -> Callable[[], None]:
+    """A callable that runs `module:function`; what that returns is the exit code, as in `sys.exit(main())`.
+
+    Raises `ValueError` for anything not of the form `module:function`.
+    """
+    module, separator, function = entry_point.partition(":")
+    if not (module.strip() and separator and function.strip()):
+        raise ValueError(f"entry point {entry_point!r} must have the form 'module:function'")
+    return _EntryPoint(module.strip(), function.split("[")[0].strip(), modules)
+
+
+class _FileProgram:
+    def __init__(self, path: str, modules: FreshModules | None) -> None:
+        self._path = path
+        self._modules = modules
+
+    def __call__(self) -> None:
+        try:
+            with open(self._path, "rb") as source_file:
+                source = source_file.read()
+        except OSError as error:
+            print(f"python3: can't open file {self._path!r}: [Errno {error.errno}] {error.strerror}", file=sys.stderr)
+            sys.exit(2)
+        folder = os.path.dirname(os.path.abspath(self._path))
+        modules = _adopt(self._modules or FreshModules([folder]))
+        sys.path.insert(0, folder)
+        main = modules.new_main(self._path)
+        if local.process.main_state is None:
+            sys.modules["__main__"] = main  # the real process has no other main program
+        exec(compile(source, self._path, "exec", dont_inherit=True), vars(main))
+
+
+class _EntryPoint:
+    def __init__(self, module: str, function: str, modules: FreshModules | None) -> None:
+        self._module = module
+        self._function = function
+        self._modules = modules
+
+    def __call__(self) -> None:
+        modules = _adopt(self._modules or FreshModules(packages=[self._module.partition(".")[0]]))
+        function: Any = modules.load(self._module)
+        for name in self._function.split("."):
+            function = getattr(function, name)
+        sys.exit(function())
+
+
+def _adopt(modules: FreshModules) -> FreshModules:
+    local.process.modules = modules
+    return modules
