@@ -1,0 +1,36 @@
+"""What a command and a verb are."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+Result = str | int | None
+"""A text is printed on stderr and makes the exit code 1; a number is the exit code; None is 0."""
+
+Arguments = Callable[[argparse.ArgumentParser], None]
+
+
+@dataclass(frozen=True)
+class Verb:
+    """A verb such as `list` of the command `node`."""
+
+    name: str
+    description: str
+    main: Callable[[argparse.Namespace], Result]
+    arguments: Arguments = lambda parser: None
+    epilog: str | None = None
+
+
+@dataclass(frozen=True)
+class Command:
+    """A command such as `node`: either verbs, or a function of its own."""
+
+    name: str
+    description: str
+    verbs: Sequence[Verb] = ()
+    arguments: Arguments = lambda parser: None
+    main: Callable[[argparse.Namespace], Result] | None = None
+    raw: bool = field(default=False)
+    """Whether everything behind the command belongs to it, as with `run`."""

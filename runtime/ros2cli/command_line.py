@@ -1,0 +1,104 @@
+"""The parser of `ros2 <command> <verb>` and its exit codes."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import signal
+import sys
+from collections.abc import Mapping, Sequence
+
+from ros2cli.command import Command, Result, Verb
+
+COMMANDS: Mapping[str, tuple[str, str]] = {
+    "action": ("ros2cli.verbs.action", "Various action related sub-commands"),
+    "interface": ("ros2cli.verbs.interface", "Show information about ROS interfaces"),
+    "launch": ("ros2cli.verbs.launch", "Run a launch file"),
+    "lifecycle": ("ros2cli.verbs.lifecycle", "Various lifecycle related sub-commands"),
+    "node": ("ros2cli.verbs.node", "Various node related sub-commands"),
+    "param": ("ros2cli.verbs.param", "Various param related sub-commands"),
+    "pkg": ("ros2cli.verbs.pkg", "Various package related sub-commands"),
+    "run": ("ros2cli.verbs.run", "Run a package specific executable"),
+    "service": ("ros2cli.verbs.service", "Various service related sub-commands"),
+    "topic": ("ros2cli.verbs.topic", "Various topic related sub-commands"),
+}
+"""Where each command is, and what it is for; a module is imported when its command is asked for."""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run a command line, without the word `ros2`, and give its exit code. Prints to this process's streams."""
+    words = list(sys.argv[1:] if argv is None else argv)
+    try:
+        return _finish(_run(words))
+    except SystemExit as stop:
+        return stop.code if isinstance(stop.code, int) else 1 if stop.code else 0
+    except KeyboardInterrupt:
+        return int(signal.SIGINT)
+
+
+def _run(words: list[str]) -> Result:
+    parser = _top_parser()
+    name = next((word for word in words if not word.startswith("-")), "")
+    command = load(name)
+    if command is None:
+        parser.parse_args(words)
+        parser.print_help()
+        return 0
+    subparser = _add(parser, command)
+    arguments = parser.parse_args(words)
+    if command.main:
+        arguments.parser = subparser
+        return command.main(arguments)
+    verb: Verb | None = getattr(arguments, "_verb", None)
+    if verb is None:
+        subparser.print_help()
+        return 0
+    return verb.main(arguments)
+
+
+def _finish(result: Result) -> int:
+    if isinstance(result, str):
+        print(result, file=sys.stderr)
+        return 1
+    return result or 0
+
+
+def load(name: str) -> Command | None:
+    """The command of a name, or None when there is none."""
+    return importlib.import_module(COMMANDS[name][0]).COMMAND if name in COMMANDS else None
+
+
+def _top_parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        "ros2",
+        description="ros2 is an extensible command-line tool for ROS 2.",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--use-python-default-buffering", action="store_true", help="Do not force line buffering.")
+    return parser
+
+
+def _subparsers(
+    parser: argparse.ArgumentParser, of: str, rows: Mapping[str, str]
+) -> argparse._SubParsersAction[argparse.ArgumentParser]:
+    width = max(map(len, rows), default=0)
+    listing = "\n".join(f"{name.ljust(width)}  {text}" for name, text in sorted(rows.items()))
+    return parser.add_subparsers(
+        title="Commands", description=listing, metavar=f"Call `{of} <command> -h` for more detailed usage."
+    )
+
+
+def _add(parser: argparse.ArgumentParser, command: Command) -> argparse.ArgumentParser:
+    commands = _subparsers(parser, "ros2", {name: text for name, (_, text) in COMMANDS.items()})
+    formatter = argparse.RawDescriptionHelpFormatter
+    subparser = commands.add_parser(command.name, description=command.description, formatter_class=formatter)
+    command.arguments(subparser)
+    if command.verbs:
+        verbs = _subparsers(subparser, f"ros2 {command.name}", {each.name: each.description for each in command.verbs})
+        for verb in command.verbs:
+            leaf = verbs.add_parser(
+                verb.name, description=verb.description, formatter_class=formatter, epilog=verb.epilog
+            )
+            leaf.set_defaults(_verb=verb, parser=leaf)
+            verb.arguments(leaf)
+    return subparser

@@ -1,0 +1,118 @@
+"""The node of a verb, and the options that all verbs with a node share."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from collections.abc import Callable
+from types import TracebackType
+from typing import Any, NamedTuple
+
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+
+HIDDEN = "_"
+
+
+class NodeName(NamedTuple):
+    """A node's name, namespace and fully qualified name; sorted by the name first, as upstream does."""
+
+    name: str
+    namespace: str
+    full_name: str
+
+
+def add_strategy_arguments(parser: argparse.ArgumentParser, *, daemon: bool = True) -> None:
+    """Add `--spin-time`, `--use-sim-time` and, with a daemon, `--no-daemon`."""
+    only = " (only applies when not using an already running daemon)"
+    parser.add_argument(
+        "--spin-time", type=float, default=None, help=f"Spin time in seconds to wait for discovery{only}"
+    )
+    parser.add_argument("-s", "--use-sim-time", action="store_true", help="Enable ROS simulation time")
+    if daemon:
+        parser.add_argument("--no-daemon", action="store_true", help="Do not spawn nor use an already running daemon")
+
+
+class DirectNode:
+    """A hidden node for the length of a `with` block.
+
+    Upstream asks a daemon for most answers, and the daemon's node counts in the graph; here the verb's own node stands
+    in for it, with the publishers that the daemon's node would have.
+    """
+
+    def __init__(self, arguments: argparse.Namespace | None = None, *, name: str = "") -> None:
+        self._daemon = not getattr(arguments, "no_daemon", False)
+        self._sim_time = bool(getattr(arguments, "use_sim_time", False))
+        domain = os.environ.get("ROS_DOMAIN_ID", "0")
+        self._name = name or (
+            f"_ros2cli_daemon_{domain}_{os.getpid():x}" if self._daemon else f"_ros2cli_{os.getpid()}"
+        )
+
+    def __enter__(self) -> Node:
+        rclpy.init(args=[])
+        self._node = rclpy.create_node(
+            self._name,
+            enable_rosout=self._daemon,
+            start_parameter_services=False,
+            parameter_overrides=[rclpy.parameter.Parameter("use_sim_time", value=True)] if self._sim_time else None,
+        )
+        return self._node
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._node.destroy_node()
+        rclpy.try_shutdown()
+
+
+def node_names(node: Node, *, include_hidden: bool = False) -> list[NodeName]:
+    """All nodes of the graph but the hidden ones."""
+    names = [
+        NodeName(name, space, f"{space.rstrip('/')}/{name}") for name, space in node.get_node_names_and_namespaces()
+    ]
+    return [each for each in names if include_hidden or not each.name.startswith(HIDDEN)]
+
+
+def absolute(name: str) -> str:
+    """A node name with its leading slash."""
+    return name if name.startswith("/") else f"/{name}"
+
+
+def spin_until(node: Node, done: Callable[[], bool], timeout: float | None = None) -> bool:
+    """Serve the node until `done()`; whether it became true in time (s)."""
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    clock = rclpy.clock.Clock(clock_type=rclpy.clock.ClockType.STEADY_TIME)
+    start = clock.now().nanoseconds
+    try:
+        while not done():
+            left = None if timeout is None else timeout - (clock.now().nanoseconds - start) * 1e-9
+            if left is not None and left <= 0:
+                return False
+            executor.spin_once(timeout_sec=0.1 if left is None else min(0.1, left))
+        return True
+    finally:
+        executor.remove_node(node)
+        executor.shutdown(timeout_sec=0)
+
+
+def call(node: Node, kind: Any, service: str, request: Any) -> Any:
+    """Call a service and wait for the answer, for as long as it takes, as upstream does."""
+    client = node.create_client(kind, service)
+    try:
+        spin_until(node, client.service_is_ready)
+        future = client.call_async(request)
+        spin_until(node, future.done)
+        return future.result()
+    finally:
+        node.destroy_client(client)
+
+
+def wait_for_node(node: Node, name: str, *, include_hidden: bool, timeout: float) -> bool:
+    """Whether a node is in the graph, or comes within the time (s)."""
+
+    def there() -> bool:
+        return any(each.full_name == name for each in node_names(node, include_hidden=include_hidden))
+
+    return there() or spin_until(node, there, timeout)

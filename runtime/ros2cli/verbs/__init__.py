@@ -1,0 +1,1 @@
+"""The commands, one file each; long verbs have files of their own."""

@@ -1,0 +1,134 @@
+"""`ros2 interface`: list, package, packages, proto and show."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from ros2cli.command import Command, Result, Verb
+from ros2cli.interface_text import show_text
+from rosidl_runtime_py import (
+    get_action_interfaces,
+    get_message_interfaces,
+    get_service_interfaces,
+    message_to_yaml,
+)
+from rosidl_runtime_py.utilities import get_action, get_message, get_service
+
+KINDS = ("msg", "srv", "action")
+
+
+def _all() -> dict[str, list[str]]:
+    """Interfaces such as `msg/String`, by package."""
+    found: dict[str, list[str]] = {}
+    for get in (get_message_interfaces, get_service_interfaces, get_action_interfaces):
+        interfaces: Mapping[str, Sequence[str]] = get()
+        for package, names in interfaces.items():
+            found.setdefault(package, []).extend(names)
+    return {package: sorted(names) for package, names in sorted(found.items()) if names}
+
+
+def _kind_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("-m", "--only-msgs", action="store_true", help="Print out only the message types")
+    parser.add_argument("-s", "--only-srvs", action="store_true", help="Print out only the service types")
+    parser.add_argument("-a", "--only-actions", action="store_true", help="Print out only the action types")
+
+
+def _wanted(arguments: argparse.Namespace) -> list[str]:
+    flags = (arguments.only_msgs, arguments.only_srvs, arguments.only_actions)
+    return [kind for kind, flag in zip(KINDS, flags, strict=True) if flag] or list(KINDS)
+
+
+def _list(arguments: argparse.Namespace) -> Result:
+    titles = {"msg": "Messages:", "srv": "Services:", "action": "Actions:"}
+    interfaces = _all()
+    for kind in _wanted(arguments):
+        print(titles[kind])
+        for package, names in interfaces.items():
+            for name in names:
+                if name.startswith(f"{kind}/"):
+                    print(f"    {package}/{name}")
+    return None
+
+
+def _package_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("package_name", help="Name of the ROS package (e.g. 'example_interfaces')")
+    _kind_arguments(parser)
+
+
+def _package(arguments: argparse.Namespace) -> Result:
+    names = _all().get(arguments.package_name)
+    if names is None:
+        return f"Unknown package '{arguments.package_name}'"
+    for name in names:
+        if name.split("/")[0] in _wanted(arguments):
+            print(f"{arguments.package_name}/{name}")
+    return None
+
+
+def _packages(arguments: argparse.Namespace) -> Result:
+    wanted = tuple(f"{kind}/" for kind in _wanted(arguments))
+    for package, names in _all().items():
+        if any(name.startswith(wanted) for name in names):
+            print(package)
+    return None
+
+
+def _proto_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("type", help="Show an interface definition (e.g. 'example_interfaces/msg/String')")
+    parser.add_argument("--no-quotes", action="store_true", help="if true output has no outer quotes.")
+
+
+def _proto(arguments: argparse.Namespace) -> Result:
+    kind = _prototype(arguments.type)
+    text = message_to_yaml(kind())
+    print(text if arguments.no_quotes else f'"{text}"')
+    return None
+
+
+def _prototype(name: str) -> Any:
+    if "/srv/" in name:
+        return get_service(name).Request
+    if "/action/" in name:
+        return get_action(name).Goal
+    return get_message(name)
+
+
+def _show_arguments(parser: argparse.ArgumentParser) -> None:
+    comments = parser.add_mutually_exclusive_group()
+    comments.add_argument(
+        "--all-comments",
+        action="store_true",
+        help="Show all comments, including for nested interface definitions",
+    )
+    comments.add_argument(
+        "--no-comments", action="store_true", help="Show no comments or whitespace; show only the interface definition"
+    )
+    parser.add_argument("type", help="Show an interface definition (e.g. 'example_interfaces/msg/String'). "
+                        "Passing '-' reads the argument from stdin (e.g. 'ros2 topic type /chatter | ros2 interface show -').")  # fmt: skip
+
+
+def _show(arguments: argparse.Namespace) -> Result:
+    name = sys.stdin.readline().strip() if arguments.type == "-" else arguments.type
+    if len(name.split("/")) != 3:
+        return f"Invalid name '{name}'. Expected three parts separated by '/'"
+    try:
+        print(show_text(name, all_comments=arguments.all_comments, no_comments=arguments.no_comments), end="")
+    except LookupError as error:
+        return str(error.args[0])
+    return None
+
+
+COMMAND = Command(
+    "interface",
+    "Show information about ROS interfaces",
+    (
+        Verb("list", "List all interface types available", _list, _kind_arguments),
+        Verb("package", "Output a list of available interface types within one package", _package, _package_arguments),
+        Verb("packages", "Output a list of packages that provide interfaces", _packages, _kind_arguments),
+        Verb("proto", "Output an interface prototype", _proto, _proto_arguments),
+        Verb("show", "Output the interface definition", _show, _show_arguments),
+    ),
+)

@@ -1,0 +1,63 @@
+"""The changing verbs of `ros2 param`."""
+
+from __future__ import annotations
+
+import argparse
+
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.srv import SetParameters
+from rclpy.parameter import get_parameter_value, parameter_dict_from_yaml_file
+from ros2cli.command import Result
+from ros2cli.direct_node import DirectNode, absolute, call
+from ros2cli.verbs.param_show import NOT_FOUND, found, warn
+
+
+def set_(arguments: argparse.Namespace) -> Result:
+    """`ros2 param set`."""
+    with DirectNode(arguments) as node:
+        if not found(node, arguments):
+            return NOT_FOUND
+        value = get_parameter_value(arguments.value)
+        parameter = Parameter(name=arguments.parameter_name, value=value)
+        request = SetParameters.Request(parameters=[parameter])
+        result = call(node, SetParameters, f"{absolute(arguments.node_name)}/set_parameters", request).results[0]
+    if result.successful:
+        print(f"Set parameter successful{': ' + result.reason if result.reason else ''}")
+    else:
+        warn(f"Setting parameter failed{': ' + result.reason if result.reason else ''}")
+    return None
+
+
+def delete(arguments: argparse.Namespace) -> Result:
+    """`ros2 param delete`."""
+    with DirectNode(arguments) as node:
+        if not found(node, arguments):
+            return NOT_FOUND
+        nothing = ParameterValue(type=ParameterType.PARAMETER_NOT_SET)
+        request = SetParameters.Request(parameters=[Parameter(name=arguments.parameter_name, value=nothing)])
+        result = call(node, SetParameters, f"{absolute(arguments.node_name)}/set_parameters", request).results[0]
+    if result.successful:
+        print("Deleted parameter successfully")
+    else:
+        warn(f"Deleting parameter failed{': ' + result.reason if result.reason else ''}")
+    return None
+
+
+def load(arguments: argparse.Namespace) -> Result:
+    """`ros2 param load`; every node key of the file is taken, as upstream does."""
+    with DirectNode(arguments) as node:
+        if not found(node, arguments):
+            return NOT_FOUND
+        try:
+            values = parameter_dict_from_yaml_file(arguments.parameter_file, not arguments.no_use_wildcard)
+        except RuntimeError as error:
+            return str(error)
+        parameters = list(values.values())
+        request = SetParameters.Request(parameters=parameters)
+        results = call(node, SetParameters, f"{absolute(arguments.node_name)}/set_parameters", request).results
+    for parameter, result in zip(parameters, results, strict=True):
+        if result.successful:
+            print(f"Set parameter {parameter.name} successful{': ' + result.reason if result.reason else ''}")
+        else:
+            warn(f"Set parameter {parameter.name} failed{': ' + result.reason if result.reason else ''}")
+    return None

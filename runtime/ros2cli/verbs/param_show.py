@@ -1,0 +1,186 @@
+"""The reading verbs of `ros2 param`."""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+from typing import Any
+
+from rcl_interfaces.msg import ParameterType, ParameterValue
+from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters
+from rclpy.node import Node
+from rclpy.parameter import parameter_value_to_python
+from ros2cli.command import Result
+from ros2cli.direct_node import DirectNode, NodeName, absolute, call, node_names, wait_for_node
+
+NOT_FOUND = "Node not found"
+TYPE_WORDS = {
+    ParameterType.PARAMETER_NOT_SET: "not set",
+    ParameterType.PARAMETER_BOOL: "boolean",
+    ParameterType.PARAMETER_INTEGER: "integer",
+    ParameterType.PARAMETER_DOUBLE: "double",
+    ParameterType.PARAMETER_STRING: "string",
+    ParameterType.PARAMETER_BYTE_ARRAY: "byte array",
+    ParameterType.PARAMETER_BOOL_ARRAY: "boolean array",
+    ParameterType.PARAMETER_INTEGER_ARRAY: "integer array",
+    ParameterType.PARAMETER_DOUBLE_ARRAY: "double array",
+    ParameterType.PARAMETER_STRING_ARRAY: "string array",
+}
+LABELS = {
+    ParameterType.PARAMETER_BOOL: "Boolean value is:",
+    ParameterType.PARAMETER_INTEGER: "Integer value is:",
+    ParameterType.PARAMETER_DOUBLE: "Double value is:",
+    ParameterType.PARAMETER_STRING: "String value is:",
+    ParameterType.PARAMETER_BYTE_ARRAY: "Byte values are:",
+    ParameterType.PARAMETER_BOOL_ARRAY: "Boolean values are:",
+    ParameterType.PARAMETER_INTEGER_ARRAY: "Integer values are:",
+    ParameterType.PARAMETER_DOUBLE_ARRAY: "Double values are:",
+    ParameterType.PARAMETER_STRING_ARRAY: "String values are:",
+}
+
+
+def found(node: Node, arguments: argparse.Namespace) -> bool:
+    """Whether the node that a verb names is there, or comes in time."""
+    name = absolute(arguments.node_name)
+    hidden = arguments.include_hidden_nodes
+    return wait_for_node(node, name, include_hidden=hidden, timeout=arguments.timeout)
+
+
+def values_of(node: Node, name: str, parameters: list[str]) -> list[ParameterValue]:
+    """Values by the node's service; empty when one of them is not declared or not set."""
+    request = GetParameters.Request(names=parameters)
+    return list(call(node, GetParameters, f"{name}/get_parameters", request).values)
+
+
+def get(arguments: argparse.Namespace) -> Result:
+    """`ros2 param get`."""
+    name = absolute(arguments.node_name)
+    with DirectNode(arguments) as node:
+        if not found(node, arguments):
+            return NOT_FOUND
+        values = values_of(node, name, [arguments.parameter_name])
+    if not values:
+        return "Parameter not set"
+    value = values[0]
+    if value.type == ParameterType.PARAMETER_NOT_SET:
+        print("Parameter not set.")
+        return None
+    if value.type not in LABELS:
+        return f"Unknown parameter type '{value.type}'"
+    text = _shown(value)
+    print(text if arguments.hide_type else f"{LABELS[value.type]} {text}")
+    return None
+
+
+def _shown(value: ParameterValue) -> Any:
+    """The field of the value as it came by the service, so that arrays print as `array('d', ...)`."""
+    fields = [
+        "bool_value",
+        "integer_value",
+        "double_value",
+        "string_value",
+        "byte_array_value",
+        "bool_array_value",
+        "integer_array_value",
+        "double_array_value",
+        "string_array_value",
+    ]
+    return getattr(value, fields[value.type - 1])
+
+
+def describe(arguments: argparse.Namespace) -> Result:
+    """`ros2 param describe`."""
+    name = absolute(arguments.node_name)
+    with DirectNode(arguments) as node:
+        if not found(node, arguments):
+            return NOT_FOUND
+        request = DescribeParameters.Request(names=arguments.parameter_names)
+        for each in call(node, DescribeParameters, f"{name}/describe_parameters", request).descriptors:
+            _print_descriptor(each)
+    return None
+
+
+def _print_descriptor(descriptor: Any) -> None:
+    print(f"Parameter name: {descriptor.name}")
+    print(f"  Type: {TYPE_WORDS.get(descriptor.type, descriptor.type)}")
+    if descriptor.description:
+        print(f"  Description: {descriptor.description}")
+    print("  Constraints:")
+    if descriptor.read_only:
+        print("    Read only: true")
+    for limits in (descriptor.integer_range, descriptor.floating_point_range):
+        if len(limits):
+            print(f"    Min value: {limits[0].from_value}")
+            print(f"    Max value: {limits[0].to_value}")
+            if limits[0].step:
+                print(f"    Step: {limits[0].step}")
+    if descriptor.additional_constraints:
+        print(f"    Additional constraints: {descriptor.additional_constraints}")
+
+
+def list_(arguments: argparse.Namespace) -> Result:
+    """`ros2 param list`."""
+    pattern = re.compile(arguments.filter) if arguments.filter else None
+    with DirectNode(arguments) as node:
+        names = sorted(node_names(node, include_hidden=arguments.include_hidden_nodes))
+        if arguments.node_name:
+            if not found(node, arguments):
+                return NOT_FOUND
+            wanted = absolute(arguments.node_name)
+            names = [each for each in node_names(node, include_hidden=True) if each.full_name == wanted][:1]
+        services = dict(node.get_service_names_and_types())
+        for each in names:
+            if f"{each.full_name}/list_parameters" not in services:
+                continue
+            if not arguments.node_name:
+                print(f"{each.full_name}:")
+            _print_names(node, each, arguments, pattern)
+    return None
+
+
+def _print_names(node: Node, name: NodeName, arguments: argparse.Namespace, pattern: re.Pattern[str] | None) -> None:
+    request = ListParameters.Request(prefixes=arguments.param_prefixes)
+    listed = call(node, ListParameters, f"{name.full_name}/list_parameters", request).result.names
+    names = sorted(each for each in listed if pattern is None or pattern.search(each))
+    types: dict[str, int] = {}
+    if arguments.param_type and names:
+        request = DescribeParameters.Request(names=names)
+        described = call(node, DescribeParameters, f"{name.full_name}/describe_parameters", request)
+        types = {each.name: each.type for each in described.descriptors}
+    for each in names:
+        print(f"  {each} (type: {TYPE_WORDS[types[each]]})" if each in types else f"  {each}")
+
+
+def dump(arguments: argparse.Namespace) -> Result:
+    """`ros2 param dump`."""
+    import yaml
+
+    name = absolute(arguments.node_name)
+    with DirectNode(arguments) as node:
+        if not found(node, arguments):
+            return NOT_FOUND
+        listed = call(node, ListParameters, f"{name}/list_parameters", ListParameters.Request())
+        parameters: dict[str, Any] = {}
+        for each in sorted(listed.result.names):
+            values = values_of(node, name, [each])
+            _insert(parameters, each.split("."), parameter_value_to_python(values[0]) if values else None)
+    print(yaml.dump({name: {"ros__parameters": parameters}}, default_flow_style=False))
+    return None
+
+
+def _insert(tree: dict[str, Any], path: list[str], value: Any) -> None:
+    """Put a value below nested keys; a name that is also a prefix of others keeps its dots."""
+    *above, last = path
+    for depth, key in enumerate(above):
+        below = tree.setdefault(key, {})
+        if not isinstance(below, dict):
+            tree[".".join(path[depth:])] = value
+            return
+        tree = below
+    tree[last] = value
+
+
+def warn(text: str) -> None:
+    """Print to stderr, for refusals that leave the exit code 0."""
+    print(text, file=sys.stderr)

@@ -1,0 +1,166 @@
+"""`ros2 service`: list, type, find, info and call."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from typing import Any
+
+import rclpy
+from rclpy.node import Node
+from ros2cli.command import Command, Result, Verb
+from ros2cli.direct_node import DirectNode, add_strategy_arguments, node_names, spin_until
+from ros2cli.endpoints import hidden
+from ros2cli.verbs.topic_pub import POSITIVE_FLOAT
+from rosidl_runtime_py import set_message_fields
+from rosidl_runtime_py.utilities import get_service
+
+
+def _hidden_argument(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--include-hidden-services", action="store_true", help="Consider hidden services as well")
+
+
+def _rows(node: Node, include_hidden: bool) -> list[tuple[str, list[str]]]:
+    rows = node.get_service_names_and_types()
+    return sorted((name, types) for name, types in rows if include_hidden or not hidden(name))
+
+
+def _list_arguments(parser: argparse.ArgumentParser) -> None:
+    add_strategy_arguments(parser)
+    parser.add_argument("-t", "--show-types", action="store_true", help="Additionally show the service type")
+    parser.add_argument(
+        "-c", "--count-services", action="store_true", help="Only display the number of services discovered"
+    )
+    _hidden_argument(parser)
+
+
+def _list(arguments: argparse.Namespace) -> Result:
+    with DirectNode(arguments) as node:
+        rows = _rows(node, arguments.include_hidden_services)
+    if arguments.count_services:
+        print(len(rows))
+        return None
+    for name, types in rows:
+        print(f"{name} [{', '.join(types)}]" if arguments.show_types else name)
+    return None
+
+
+def _name_arguments(parser: argparse.ArgumentParser) -> None:
+    add_strategy_arguments(parser)
+    parser.add_argument("service_name", help="Name of the ROS service (e.g. '/talker/list_parameters')")
+    _hidden_argument(parser)
+
+
+def _type(arguments: argparse.Namespace) -> Result:
+    with DirectNode(arguments) as node:
+        types = dict(_rows(node, include_hidden=True)).get(arguments.service_name)
+    if types is None:
+        return 1
+    for each in types:
+        print(each)
+    return None
+
+
+def _info(arguments: argparse.Namespace) -> Result:
+    name = arguments.service_name
+    with DirectNode(arguments) as node:
+        types = dict(_rows(node, include_hidden=True)).get(name)
+        if types is None:
+            return f"Unknown service '{name}'"
+        clients = servers = 0
+        for each in node_names(node, include_hidden=True):
+            who = (each.name, each.namespace)
+            clients += name in dict(node.get_client_names_and_types_by_node(*who))
+            servers += name in dict(node.get_service_names_and_types_by_node(*who))
+    print(f"Type: {types[0] if len(types) == 1 else types}")
+    print(f"Clients count: {clients}")
+    print(f"Services count: {servers}")
+    return None
+
+
+def _find_arguments(parser: argparse.ArgumentParser) -> None:
+    add_strategy_arguments(parser)
+    parser.add_argument("service_type", help="Name of the ROS service type to filter for (e.g. 'std_srvs/srv/Empty')")
+    parser.add_argument(
+        "-c", "--count-services", action="store_true", help="Only display the number of services discovered"
+    )
+    _hidden_argument(parser)
+
+
+def _find(arguments: argparse.Namespace) -> Result:
+    with DirectNode(arguments) as node:
+        rows = _rows(node, arguments.include_hidden_services)
+    found = [name for name, types in rows if arguments.service_type in types]
+    print(len(found)) if arguments.count_services else [print(name) for name in found]
+    return None
+
+
+def _call_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("service_name", help="Name of the ROS service to call to (e.g. '/add_two_ints')")
+    parser.add_argument("service_type", help="Type of the ROS service (e.g. 'std_srvs/srv/Empty')")
+    parser.add_argument(
+        "values",
+        nargs="?",
+        default="{}",
+        help="Values to fill the service request with in YAML format (e.g. '{a: 1, b: 2}'), otherwise the service "
+        "request will be published with default values",
+    )
+    parser.add_argument("--stdin", action="store_true", help="Read values from standard input")
+    parser.add_argument(
+        "-r", "--rate", metavar="N", type=POSITIVE_FLOAT, help="Repeat the call at a specific rate in Hz"
+    )
+
+
+def _call(arguments: argparse.Namespace) -> Result:
+    import yaml
+
+    try:
+        kind = get_service(arguments.service_type)
+    except (AttributeError, ModuleNotFoundError):
+        return "The passed service type is invalid"
+    except ValueError:
+        parts = arguments.service_type.split("/")
+        return "The passed type is not a service" if len(parts) == 3 else "The passed service type is invalid"
+    if not hasattr(kind, "Request"):
+        return "The passed type is not a service"
+    values = yaml.safe_load(sys.stdin if arguments.stdin else arguments.values)
+    if not isinstance(values, dict):
+        return "The passed value needs to be a dictionary in YAML format"
+    arguments.no_daemon = True
+    with DirectNode(arguments) as node:
+        return _requests(node, kind, values, arguments)
+
+
+def _requests(node: Node, kind: Any, values: dict[str, Any], arguments: argparse.Namespace) -> Result:
+    client = node.create_client(kind, arguments.service_name)
+    request = kind.Request()
+    try:
+        set_message_fields(request, values)
+    except (AttributeError, TypeError, ValueError) as error:
+        return f"Failed to populate field: {error}"
+    if not client.service_is_ready():
+        print("waiting for service to become available...")
+        spin_until(node, client.service_is_ready)
+    clock = rclpy.clock.Clock(clock_type=rclpy.clock.ClockType.STEADY_TIME)
+    while True:
+        print(f"requester: making request: {request!r}\n")
+        future = client.call_async(request)
+        spin_until(node, future.done)
+        print(f"response:\n{future.result()!r}\n")
+        if arguments.rate is None:
+            return None
+        clock.sleep_for(rclpy.duration.Duration(seconds=1.0 / arguments.rate))
+
+
+COMMAND = Command(
+    "service",
+    "Various service related sub-commands",
+    (
+        Verb("call", "Call a service", _call, _call_arguments),
+        Verb("find", "Output a list of available services of a given type", _find, _find_arguments),
+        Verb("info", "Print information about a service", _info, _name_arguments),
+        Verb("list", "Output a list of available services", _list, _list_arguments),
+        Verb("type", "Output a service's type", _type, _name_arguments),
+    ),
+    _hidden_argument,
+)

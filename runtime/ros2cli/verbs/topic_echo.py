@@ -1,0 +1,173 @@
+"""`ros2 topic echo`."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from operator import attrgetter
+from typing import Any
+
+from rclpy.node import Node
+from ros2cli.command import Result
+from ros2cli.direct_node import DirectNode, add_strategy_arguments, spin_until
+from ros2cli.qos_arguments import add_qos_arguments, compatible
+from rosidl_runtime_py import message_to_csv, message_to_yaml
+from rosidl_runtime_py.utilities import get_message
+
+TRUNCATE = 128
+
+
+def _positive(text: str) -> int:
+    try:
+        value = int(text)
+    except ValueError:
+        value = -1
+    if value < 0:
+        raise argparse.ArgumentTypeError("value must be an unsigned integer")
+    return value
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the verb."""
+    add = parser.add_argument
+    add_strategy_arguments(parser)
+    add("topic_name", help="Name of the ROS topic to listen to (e.g. '/chatter')")
+    add("message_type", nargs="?", help="Type of the ROS message (e.g. 'std_msgs/msg/String')")
+    add_qos_arguments(parser, "subscribe", "sensor_data")
+    add(
+        "--csv",
+        action="store_true",
+        help="Output all recursive fields separated by commas (e.g. for plotting). If --include-message-info is also "
+        "passed, the following fields are prepended: source_timestamp, received_timestamp, "
+        "publication_sequence_number, reception_sequence_number.",
+    )
+    add(
+        "--field",
+        help="Echo a selected field of a message. Use '.' to select sub-fields. For example, to echo the position "
+        "field of a nav_msgs/msg/Odometry message: 'ros2 topic echo /odom --field pose.pose.position'",
+    )
+    add(
+        "--full-length",
+        "-f",
+        action="store_true",
+        help="Output all elements for arrays, bytes, and string with a length > '--truncate-length', by default they "
+        "are truncated after '--truncate-length' elements with '...''",
+    )
+    add(
+        "--truncate-length",
+        "-l",
+        type=_positive,
+        default=TRUNCATE,
+        help=f"The length to truncate arrays, bytes, and string to (default: {TRUNCATE})",
+    )
+    add("--no-arr", action="store_true", help="Don't print array fields of messages")
+    add("--no-str", action="store_true", help="Don't print string fields of messages")
+    add(
+        "--flow-style",
+        action="store_true",
+        help="Print collections in the block style (not available with csv format)",
+    )
+    add("--no-lost-messages", action="store_true", help="Don't report when a message is lost")
+    add("--raw", action="store_true", help="Echo the raw binary representation")
+    add(
+        "--filter",
+        dest="filter_expr",
+        help="Python expression to filter messages that are printed. Expression can use Python builtins as well as m "
+        "(the message).",
+    )
+    add("--once", action="store_true", help="Print the first message received and then exit.")
+    add("--timeout", metavar="N", type=float, help="Set a timeout in seconds for waiting")
+    add("--include-message-info", "-i", action="store_true", help="Shows the associated message info.")
+
+
+class _Printer:
+    """Prints messages as the options ask, and knows when enough were printed."""
+
+    def __init__(self, arguments: argparse.Namespace) -> None:
+        self._arguments = arguments
+        self._limit = None if arguments.full_length else arguments.truncate_length
+        self._passes = _filter(arguments.filter_expr)
+        self.problem = ""
+        self.done = False
+
+    def show(self, message: Any, info: Any) -> None:
+        """Print one message."""
+        chosen = self._arguments
+        if not chosen.raw and not self._passes(message):
+            return
+        if chosen.field and not chosen.raw:
+            try:
+                message = attrgetter(chosen.field)(message)
+            except AttributeError as error:
+                self.problem = f"Invalid field '{chosen.field}': {error}"
+                self.done = True
+                return
+        if chosen.csv:
+            print(self._csv(message, info))
+        else:
+            if chosen.include_message_info:
+                print(info)
+            print(self._block(message))
+            print("---")
+        self.done = chosen.once
+
+    def _csv(self, message: Any, info: Any) -> str:
+        text = message_to_csv(message, truncate_length=self._limit, no_arr=self._arguments.no_arr,
+                              no_str=self._arguments.no_str) if _is_message(message) else str(message)  # fmt: skip
+        if not self._arguments.include_message_info:
+            return text
+        return ",".join([*(str(each) for each in dict(info).values()), text])
+
+    def _block(self, message: Any) -> str:
+        if not _is_message(message):
+            return str(message)
+        text = message_to_yaml(
+            message,
+            truncate_length=self._limit,
+            no_arr=self._arguments.no_arr,
+            no_str=self._arguments.no_str,
+            flow_style=self._arguments.flow_style,
+        )
+        return text.removesuffix("\n")
+
+
+def _is_message(value: Any) -> bool:
+    return hasattr(value, "get_fields_and_field_types")
+
+
+def _filter(expression: str | None) -> Callable[[Any], bool]:
+    """A function of a message; raises `SyntaxError` for what is not an expression."""
+    if expression is None:
+        return lambda message: True
+    code = compile(expression, "<string>", "eval")
+    return lambda message: bool(eval(code, {"m": message}))
+
+
+def _message_class(node: Node, arguments: argparse.Namespace) -> Any:
+    """The class to subscribe with, or a text that says why there is none."""
+    if arguments.message_type:
+        try:
+            return get_message(arguments.message_type)
+        except (ValueError, AttributeError, ModuleNotFoundError):
+            return "The passed message type is invalid"
+    name = arguments.topic_name if arguments.topic_name.startswith("/") else f"/{arguments.topic_name}"
+    types = dict(node.get_topic_names_and_types()).get(name)
+    if not types:
+        print(f"WARNING: topic [{arguments.topic_name}] does not appear to be published yet")
+        return "Could not determine the type for the passed topic"
+    if len(types) > 1:
+        return f"Cannot echo topic '{arguments.topic_name}', as it contains more than one type: [{', '.join(types)}]"
+    return get_message(types[0])
+
+
+def echo(arguments: argparse.Namespace) -> Result:
+    """`ros2 topic echo`."""
+    printer = _Printer(arguments)
+    with DirectNode(arguments) as node:
+        kind = _message_class(node, arguments)
+        if isinstance(kind, str):
+            return kind
+        qos = compatible(arguments, "sensor_data", node.get_publishers_info_by_topic(arguments.topic_name))
+        node.create_subscription(kind, arguments.topic_name, printer.show, qos, raw=arguments.raw)
+        spin_until(node, lambda: printer.done, arguments.timeout)
+    return printer.problem or None

@@ -1,0 +1,168 @@
+"""`ros2 topic pub`."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import rclpy
+from rclpy.node import Node
+from ros2cli.command import Result
+from ros2cli.direct_node import DirectNode, add_strategy_arguments, spin_until
+from ros2cli.qos_arguments import add_qos_arguments, profile
+from rosidl_runtime_py import set_message_fields
+from rosidl_runtime_py.utilities import get_message
+
+
+def _positive(kind: Callable[[str], Any], text: str) -> Callable[[str], Any]:
+    def convert(value: str) -> Any:
+        number = kind(value)
+        if number <= 0:
+            raise argparse.ArgumentTypeError(text)
+        return number
+
+    convert.__name__ = kind.__name__
+    return convert
+
+
+POSITIVE_FLOAT = _positive(float, "Value must be positive")
+POSITIVE_INT = _positive(int, "value must be a positive integer")
+
+
+def _nonnegative(text: str) -> int:
+    number = int(text)
+    if number < 0:
+        raise argparse.ArgumentTypeError("value must be positive or zero")
+    return number
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the verb."""
+    add = parser.add_argument
+    add("topic_name", help="Name of the ROS topic to publish to (e.g. '/chatter')")
+    add("message_type", help="Type of the ROS message (e.g. 'std_msgs/String')")
+    add(
+        "values",
+        nargs="?",
+        default="{}",
+        help="Values to fill the message with in YAML format (e.g. 'data: Hello World'), otherwise the message will "
+        "be published with default values",
+    )
+    add("--stdin", action="store_true", help="Read values from standard input")
+    add("-r", "--rate", metavar="N", type=POSITIVE_FLOAT, default=1.0, help="Publishing rate in Hz (default: 1)")
+    add(
+        "-p",
+        "--print",
+        metavar="N",
+        type=int,
+        default=1,
+        help="Only print every N-th published message (default: 1)",
+    )
+    how_often = parser.add_mutually_exclusive_group()
+    how_often.add_argument("-1", "--once", action="store_true", help="Publish one message and exit")
+    how_often.add_argument(
+        "-t", "--times", type=POSITIVE_INT, default=0, help="Publish this number of times and then exit"
+    )
+    add(
+        "-w",
+        "--wait-matching-subscriptions",
+        type=_nonnegative,
+        default=None,
+        help="Wait until finding the specified number of matching subscriptions. Defaults to 1 when using "
+        '"-1"/"--once"/"--times", otherwise defaults to 0.',
+    )
+    add(
+        "--max-wait-time-secs",
+        type=POSITIVE_FLOAT,
+        default=None,
+        help="This sets the maximum wait time in seconds if --wait-until-matching-subscriptions is set. By default, "
+        "this flag is not set meaning the subscriber will wait endlessly.",
+    )
+    add(
+        "--keep-alive",
+        metavar="N",
+        type=POSITIVE_FLOAT,
+        default=0.1,
+        help="Keep publishing node alive for N seconds after the last msg (default: 0.1)",
+    )
+    add("-n", "--node-name", help="Name of the created publishing node")
+    add_qos_arguments(parser, "publish", "default")
+    add_strategy_arguments(parser, daemon=False)
+
+
+def publish(arguments: argparse.Namespace) -> Result:
+    """`ros2 topic pub`."""
+    import yaml
+
+    try:
+        kind = get_message(arguments.message_type)
+    except (AttributeError, ModuleNotFoundError, ValueError):
+        return "The passed message type is invalid"
+    documents: Iterator[Any] | None = None
+    values: Any = {}
+    if arguments.stdin:
+        documents = yaml.safe_load_all(sys.stdin)
+    else:
+        values = yaml.safe_load(arguments.values)
+        if not isinstance(values, dict):
+            return "The passed value needs to be a dictionary in YAML format"
+    arguments.no_daemon = True
+    with DirectNode(arguments, name=arguments.node_name or "") as node:
+        publisher = node.create_publisher(kind, arguments.topic_name, profile(arguments, "default"))
+        if not _matched(node, publisher, arguments):
+            return f"Timed out waiting for subscribers: Expected {arguments.wait_matching_subscriptions} subscribers"
+        try:
+            _loop(node, publisher, kind, documents or iter(lambda: values, None), arguments)
+        except _Refused as refused:
+            return str(refused)
+    return None
+
+
+class _Refused(Exception):
+    """Values that do not fit the message."""
+
+
+def _matched(node: Node, publisher: Any, arguments: argparse.Namespace) -> bool:
+    """Wait for subscriptions, saying so once a second."""
+    wanted = arguments.wait_matching_subscriptions
+    wanted = int(arguments.once or arguments.times > 0) if wanted is None else wanted
+    waited = 0.0
+    while publisher.get_subscription_count() < wanted:
+        if arguments.max_wait_time_secs is not None and waited >= arguments.max_wait_time_secs:
+            return False
+        print(f"Waiting for at least {wanted} matching subscription(s)...")
+        spin_until(node, lambda: publisher.get_subscription_count() >= wanted, 1.0)
+        waited += 1.0
+    return True
+
+
+def _loop(node: Node, publisher: Any, kind: Any, documents: Iterator[Any], arguments: argparse.Namespace) -> None:
+    times = 1 if arguments.once else arguments.times
+    message: Any = None
+    print("publisher: beginning loop")
+    clock = rclpy.clock.Clock(clock_type=rclpy.clock.ClockType.STEADY_TIME)
+    due = clock.now()
+    for count, values in enumerate(documents, 1):
+        message = _filled(kind, values, node)
+        if arguments.print and count % arguments.print == 0:
+            print(f"publishing #{count}: {message!r}\n")
+        publisher.publish(message)
+        if times and count >= times:
+            break
+        due += rclpy.duration.Duration(seconds=1.0 / arguments.rate)
+        clock.sleep_until(due)
+    clock.sleep_for(rclpy.duration.Duration(seconds=arguments.keep_alive))
+
+
+def _filled(kind: Any, values: Any, node: Node) -> Any:
+    message = kind()
+    try:
+        stamps = set_message_fields(message, values, expand_header_auto=True, expand_time_now=True)
+    except (AttributeError, TypeError, ValueError) as error:
+        raise _Refused(f"Failed to populate field: {error}") from None
+    now = node.get_clock().now().to_msg()
+    for set_stamp in stamps or ():
+        set_stamp(now)
+    return message
