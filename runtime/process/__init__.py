@@ -7,11 +7,11 @@ Who am I
 
 Time and waiting (everything that blocks goes through these, so that it can be woken and stepped)
     `current().clock`: `steady_ns()`, `system_ns()`, `wakeup()`, `sleep_until(deadline_ns)`, `stepped`.
-    A `Wakeup` has `set`, `clear`, `is_set`, `wait(deadline_ns) -> bool`; a wait raises `KeyboardInterrupt` once when the
-    process is interrupted and `ProcessKilled` (not an `Exception`) whenever it was killed.
+    A `Wakeup` has `set`, `clear`, `is_set`, `wait(deadline_ns) -> bool`. A wait raises `KeyboardInterrupt` once when
+    the process is interrupted, and `ProcessKilled` (not an `Exception`) whenever it was killed.
 
 A node process
-    `process = NodeProcess("talker-1", clock)`: has `name`, `pid` (synthetic), `state`, `exit_code`, `argv`, `env`, `cwd`.
+    `process = NodeProcess("talker-1", clock)`: has `name`, `pid` (synthetic), `state`, `exit_code`, `argv`, `env`.
     `process.start(target, argv=, env=, stdout=, stderr=, cwd=)`: `target()` is its main program, see `file_program` and
     `entry_point_program`; `stdout`/`stderr` are called with each line of text, newline included, and must not block.
     `process.wait(timeout_s) -> exit_code | None`, `is_alive`, `line()` (where its main thread is).
@@ -30,10 +30,14 @@ Stepped runs
     `clock.deterministic`, `clock.stalls`: whether a thread blocked past the clock, and in which lines.
 
 Virtual in a node process: threads and their lists, `sys.argv`, `sys.path`, `sys.stdin/stdout/stderr/excepthook`,
-`os.environ`, `os.getpid/kill/_exit/exec*/system`, `subprocess`, `signal.signal` and relatives, `atexit` (for the node's own
-files), the node's own modules. Not virtual, but reported: `os.chdir`, `fork`, timers of signals. `cwd` is where child
-processes start; relative paths of the node itself are those of the real process.
+`os.environ`, `os.getpid/kill/_exit/exec*/system`, `subprocess`, `signal.signal` and relatives, `atexit` (for the node's
+own files), the node's own modules. Not virtual, but reported: `os.chdir`, `fork`, timers of signals. `cwd` is where
+child processes start; relative paths of the node itself are those of the real process.
 """
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.process.clock_source import ClockSource, RealTime, Wakeup
 from bot_console.runtime.process.current import MAIN, NodeProcess, ProcessLocal, current, running_as
@@ -41,6 +45,19 @@ from bot_console.runtime.process.node_process import ProcessState
 from bot_console.runtime.process.notices import on_notice
 from bot_console.runtime.process.program import entry_point_program, file_program
 from bot_console.runtime.process.thread_state import ProcessKilled
+
+if TYPE_CHECKING:
+    from bot_console.runtime.process.stepping import SteppedTime, stepped
+
+
+def __getattr__(name: str) -> Any:
+    """`stepped` and `SteppedTime`, imported when asked for: a real-time start needs none of it."""
+    if name in ("SteppedTime", "stepped"):
+        from bot_console.runtime.process import stepping
+
+        return getattr(stepping, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
 
 __all__ = [
     "MAIN",
@@ -50,10 +67,12 @@ __all__ = [
     "ProcessLocal",
     "ProcessState",
     "RealTime",
+    "SteppedTime",
     "Wakeup",
     "current",
     "entry_point_program",
     "file_program",
     "on_notice",
     "running_as",
+    "stepped",
 ]

@@ -59,6 +59,9 @@ class MainProcess(NodeProcess):
         """Send the real process a real signal."""
         os.kill(os.getpid(), signum)
 
+    def die(self, code: int) -> None:
+        """Nothing: the real process is not ended from within a run."""
+
     def start(self, *_arguments: Any, **_options: Any) -> None:
         """Raises `RuntimeError`: it runs already."""
         raise RuntimeError("the real process is already running")

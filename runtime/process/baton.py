@@ -1,0 +1,304 @@
+"""The baton of a stepped run: exactly one thread has it and runs; whoever waits hands it on, in a fixed order.
+
+Threads run in the order in which they became ready. When none is, time jumps to the earliest deadline, and those whose
+deadline that is become ready in the order in which they were made.
+"""
+
+from __future__ import annotations
+
+from _thread import allocate_lock
+from collections import deque
+from contextlib import suppress
+from heapq import heapify, heappop, heappush
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from bot_console.runtime.process.stepped_wakeup import SteppedWakeup
+    from bot_console.runtime.process.thread_state import ThreadState
+
+LAST = 1 << 60
+"""The rank of a driver's wait for the end of a run: after everything else that happens at that time."""
+POLL_NS = 20_000
+"""What a wait costs that would not block (ns), so that a loop of polls does not stand still in time."""
+INSTANT_WAITS = 50_000
+"""How many waits may happen at one instant before each costs `POLL_NS`: nodes may keep each other awake for ever."""
+STALE_TIMERS = 64
+
+
+class Seat:
+    """One thread's place in the run."""
+
+    __slots__ = (
+        "baton",
+        "detached",
+        "due",
+        "in_heap",
+        "is_driver",
+        "is_outside",
+        "lock",
+        "rank",
+        "state",
+        "waiting",
+        "wakeup",
+        "woken",
+    )
+
+    def __init__(self, baton: Baton, rank: int, state: ThreadState | None) -> None:
+        self.baton = baton
+        self.rank = rank
+        self.state = state
+        self.lock = allocate_lock()
+        self.lock.acquire()
+        self.wakeup: SteppedWakeup | None = None
+        self.due: tuple[int, int] | None = None
+        self.in_heap: tuple[int, int] | None = None
+        self.waiting = False
+        self.woken = False
+        self.detached = False
+        self.is_driver = False
+        self.is_outside = False
+
+    def take(self) -> None:
+        """Wait for the first turn."""
+        self.lock.acquire()
+
+    def leave(self) -> None:
+        """Take no more turns; the next one has it."""
+        self.baton.leave(self)
+
+    def rouse(self) -> None:
+        """End the present wait of this thread, though neither set nor due."""
+        self.baton.rouse(self)
+
+    def wait(self, wakeup: SteppedWakeup | None, deadline: int | None) -> bool:
+        """Hand the baton on until woken or due (ns); whether woken. Raises what is to be raised in this thread."""
+        state = self.state
+        if state is None:
+            return self.baton.wait(self, wakeup, deadline, self.rank)
+        while True:
+            try:
+                state.begin_wait(self.rouse)
+                woken = self.baton.wait(self, wakeup, deadline, self.rank)
+            finally:
+                state.end_wait()
+            if state.called:
+                state.deliver()
+            if woken or (deadline is not None and self.baton.now >= deadline):
+                return woken
+
+
+class Baton:
+    """Who runs, who is ready, who waits for what, and what time it is (ns)."""
+
+    def __init__(self, now: int) -> None:
+        self.now = now
+        self.holder: Seat | None = None
+        self.turns = 0
+        self.reads = 0
+        self.seats: dict[int, Seat] = {}
+        self._guard = allocate_lock()
+        self._ready: deque[Seat] = deque()
+        self._timers: list[tuple[int, int, Seat]] = []
+        self._next_rank = 0
+        self._instant_waits = 0
+
+    def driver_seat(self) -> Seat:
+        """The seat of a thread that has the baton from the start and may keep it as long as it likes."""
+        seat = self._new_seat(None)
+        seat.is_driver = True
+        self.holder = seat
+        return seat
+
+    def seat(self, state: ThreadState | None) -> Seat:
+        """A seat for a new thread, which is ready to run."""
+        with self._guard:
+            seat = self._new_seat(state)
+            self._ready.append(seat)
+            if self.holder is None:
+                self._grant_next()
+        return seat
+
+    def _new_seat(self, state: ThreadState | None) -> Seat:
+        self._next_rank += 1
+        seat = self.seats[self._next_rank] = Seat(self, self._next_rank, state)
+        return seat
+
+    def leave(self, seat: Seat) -> None:
+        """The thread ends."""
+        with self._guard:
+            self.seats.pop(seat.rank, None)
+            if self.holder is seat:
+                self._grant_next()
+            else:
+                with suppress(ValueError):
+                    self._ready.remove(seat)
+
+    def wait(self, seat: Seat, wakeup: SteppedWakeup | None, deadline: int | None, rank: int) -> bool:
+        """Hand the baton on; True when the wakeup is set, False when due or roused."""
+        with self._guard:
+            self.turns += 1
+            self._instant_waits += 1
+            if self._instant_waits > INSTANT_WAITS:
+                self.now += POLL_NS
+            if wakeup is not None and wakeup.flag:
+                if not seat.detached and self._instant_waits <= INSTANT_WAITS:
+                    return True
+                self._ready.append(seat)
+            else:
+                self._enlist(seat, wakeup, deadline, rank)
+            if not self._hand_on(seat):
+                return self._withdraw(seat, wakeup)
+        self._await_turn(seat)
+        return self._withdraw(seat, wakeup)
+
+    def wait_outside(self, wakeup: SteppedWakeup, deadline: int | None) -> bool:
+        """The wait of a thread that never has the baton: it goes on beside the one that has."""
+        with self._guard:
+            if wakeup.flag:
+                return True
+            self._next_rank += 1
+            seat = Seat(self, self._next_rank, None)
+            seat.is_outside = True
+            self._enlist(seat, wakeup, deadline, seat.rank)
+            if self.holder is None:
+                self._grant_next()
+        try:
+            seat.lock.acquire()
+        finally:
+            with self._guard:
+                self._withdraw(seat, wakeup)
+        return seat.woken
+
+    def rouse(self, seat: Seat) -> None:
+        """Make a waiting thread ready."""
+        with self._guard:
+            self._make_ready(seat)
+            if self.holder is None:
+                self._grant_next()
+
+    def rouse_all(self, wakeup: SteppedWakeup) -> None:
+        """Set a wakeup: all that wait for it are ready, in the order of their waits."""
+        with self._guard:
+            wakeup.flag = True
+            if wakeup.waiters:
+                for seat in tuple(wakeup.waiters):
+                    seat.woken = True
+                    self._make_ready(seat)
+                if self.holder is None:
+                    self._grant_next()
+
+    def detach(self, seat: Seat, turns: int) -> bool:
+        """Take the baton from a thread that blocks elsewhere, unless it has moved on since; whether that was done."""
+        with self._guard:
+            if self.holder is not seat or self.turns != turns:
+                return False
+            seat.detached = True
+            self._grant_next()
+            return True
+
+    def _enlist(self, seat: Seat, wakeup: SteppedWakeup | None, deadline: int | None, rank: int) -> None:
+        seat.waiting = True
+        seat.woken = False
+        seat.wakeup = wakeup
+        if wakeup is not None:
+            wakeup.waiters.append(seat)
+        if deadline is None:
+            seat.due = None
+        else:
+            if deadline <= self.now and rank != LAST:
+                deadline = self.now + POLL_NS
+            seat.due = due = (deadline, rank)
+            if due != seat.in_heap:
+                seat.in_heap = due
+                heappush(self._timers, (deadline, rank, seat))
+        if seat.state is not None and seat.state.called:
+            self._make_ready(seat)
+
+    def _make_ready(self, seat: Seat) -> None:
+        if not seat.waiting:
+            return
+        seat.waiting = False
+        if seat.wakeup is not None:
+            seat.wakeup.waiters.remove(seat)
+            seat.wakeup = None
+        if seat.is_outside:
+            seat.lock.release()
+        else:
+            self._ready.append(seat)
+
+    def _withdraw(self, seat: Seat, wakeup: SteppedWakeup | None) -> bool:
+        """What a wait leaves behind; whether it ended by `set`."""
+        if seat.waiting:
+            seat.waiting = False
+            if wakeup is not None:
+                wakeup.waiters.remove(seat)
+        return seat.woken or (wakeup is not None and wakeup.flag)
+
+    def _next(self) -> Seat | None:
+        """The thread whose turn it is now; time moves on when none is ready."""
+        ready, timers = self._ready, self._timers
+        while timers and (not ready or timers[0][0] <= self.now):
+            deadline, rank, seat = timers[0]
+            if seat.waiting and seat.due == (deadline, rank):
+                if rank == LAST and ready and deadline == self.now:
+                    break
+                if deadline > self.now:
+                    self.now = deadline
+                    self.reads = self._instant_waits = 0
+                self._make_ready(seat)
+            heappop(timers)
+            if seat.in_heap == (deadline, rank):
+                seat.in_heap = None
+        return ready.popleft() if ready else None
+
+    def _grant_next(self) -> None:
+        self.holder = seat = self._next()
+        if seat is not None:
+            seat.lock.release()
+
+    def _hand_on(self, seat: Seat) -> bool:
+        """Let the next one run; whether `seat` has to wait for its turn."""
+        if len(self._timers) > STALE_TIMERS + 4 * len(self.seats):
+            self._drop_stale_timers()
+        if seat.detached:
+            seat.detached = False
+            if self.holder is not None:
+                return True
+        self.holder = following = self._next()
+        if following is seat:
+            return False
+        if following is not None:
+            following.lock.release()
+        return True
+
+    def _drop_stale_timers(self) -> None:
+        live = {entry for entry in self._timers if entry[2].waiting and entry[2].due == entry[:2]}
+        for _deadline, _rank, seat in self._timers:
+            seat.in_heap = None
+        self._timers[:] = live
+        for deadline, rank, seat in self._timers:
+            seat.in_heap = (deadline, rank)
+        heapify(self._timers)
+
+    def _await_turn(self, seat: Seat) -> None:
+        try:
+            seat.lock.acquire()
+        except BaseException:  # a handler of a real signal raised in the real main thread
+            self._reclaim(seat)
+            raise
+
+    def _reclaim(self, seat: Seat) -> None:
+        """Get the baton back before anything else runs, for a thread that no longer waits."""
+        with self._guard:
+            if self.holder is not seat:
+                self._make_ready(seat)
+                with suppress(ValueError):
+                    self._ready.remove(seat)
+                self._ready.appendleft(seat)
+                if self.holder is None:
+                    self._grant_next()
+        while self.holder is not seat:
+            with suppress(KeyboardInterrupt):
+                if seat.lock.acquire(timeout=1.0):
+                    return
+        seat.lock.acquire(False)
