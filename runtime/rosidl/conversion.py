@@ -1,0 +1,167 @@
+"""The slow paths of copying a message: values that are not of the very type a field has.
+
+What the wire would take is converted; what it would not is an error that names the field.
+"""
+
+from __future__ import annotations
+
+from array import array
+from typing import Any
+
+
+class FieldTypeError(TypeError):
+    """A field holds a value that cannot be sent; `field` is its path, as `linear.x`."""
+
+    def __init__(self, owner: str, field: str, wanted: str, value: object) -> None:
+        self.owner, self.field, self.wanted, self.value = owner, field, wanted, value
+        super().__init__(owner, field, wanted, value)
+
+    def __str__(self) -> str:
+        shown = repr(self.value)
+        shown = shown if len(shown) <= 60 else shown[:57] + "..."
+        return f"field '{self.field}' of {self.owner} must be {self.wanted}, not {type(self.value).__name__} ({shown})"
+
+
+def type_name(cls: type) -> str:
+    """The ROS name of a class, such as `geometry_msgs/msg/Twist`."""
+    package, kind = cls.__module__.split(".")[:2]
+    return f"{package}/{kind}/{cls.__name__}"
+
+
+def _refuse(message: Any, field: str, wanted: str, value: object) -> FieldTypeError:
+    return FieldTypeError(type_name(type(message)), field, wanted, value)
+
+
+def _below(message: Any, field: str, error: FieldTypeError) -> FieldTypeError:
+    return FieldTypeError(type_name(type(message)), f"{field}.{error.field}", error.wanted, error.value)
+
+
+def to_float(message: Any, field: str) -> float:
+    """A float, or a subclass such as `numpy.float64`, as a float."""
+    value = getattr(message, "_" + field)
+    if isinstance(value, float):
+        return float(value)
+    raise _refuse(message, field, "a float", value)
+
+
+def to_int(message: Any, field: str, low: int, high: int) -> int:
+    """An integer (a bool counts as one) within the field's limits."""
+    value = getattr(message, "_" + field)
+    if hasattr(value, "__index__"):
+        number = value.__index__()
+        if low <= number <= high:
+            return number
+        raise _refuse(message, field, f"an integer in [{low}, {high}]", value)
+    raise _refuse(message, field, "an integer", value)
+
+
+def to_bool(message: Any, field: str) -> bool:
+    """A bool; NumPy's counts."""
+    value = getattr(message, "_" + field)
+    if type(value).__name__ in ("bool_", "bool"):
+        return bool(value)
+    raise _refuse(message, field, "a bool", value)
+
+
+def to_str(message: Any, field: str, limit: int = 0) -> str:
+    """A string of at most `limit` characters (0: any length)."""
+    value = getattr(message, "_" + field)
+    if not isinstance(value, str):
+        raise _refuse(message, field, "a string", value)
+    if limit and len(value) > limit:
+        raise _refuse(message, field, f"a string of at most {limit} characters", value)
+    return str(value)
+
+
+def to_octet(message: Any, field: str) -> bytes:
+    """One byte."""
+    value = getattr(message, "_" + field)
+    if isinstance(value, (bytes, bytearray)) and len(value) == 1:
+        return bytes(value)
+    raise _refuse(message, field, "bytes of length 1", value)
+
+
+def to_message(message: Any, field: str, cls: Any) -> Any:
+    """A nested message of the class, or one of a subclass."""
+    value = getattr(message, "_" + field)
+    if not isinstance(value, cls):
+        raise _refuse(message, field, f"a {type_name(cls)}", value)
+    try:
+        return cls._copy_(value)
+    except FieldTypeError as error:
+        raise _below(message, field, error) from None
+
+
+def too_long(message: Any, field: str, bound: int) -> None:
+    """Refuse a sequence over its bound."""
+    value = getattr(message, "_" + field)
+    raise _refuse(message, field, f"a sequence of at most {bound}", value)
+
+
+def _sized(message: Any, field: str, size: int, bound: int) -> Any:
+    value = getattr(message, "_" + field)
+    try:
+        length = len(value)
+    except TypeError:
+        raise _refuse(message, field, "a sequence", value) from None
+    if size and length != size:
+        raise _refuse(message, field, f"a sequence of exactly {size}", value)
+    if bound and length > bound:
+        raise _refuse(message, field, f"a sequence of at most {bound}", value)
+    return value
+
+
+def to_fixed(message: Any, field: str, dtype: str, size: int) -> Any:
+    """A NumPy array of the field's dtype and size."""
+    import numpy
+
+    value = _sized(message, field, size, 0)
+    try:
+        return numpy.array(value, dtype)
+    except (TypeError, ValueError):
+        raise _refuse(message, field, f"numbers of type {dtype}", value) from None
+
+
+def to_list(message: Any, field: str, kind: type, size: int, bound: int, limit: int) -> list[Any]:
+    """A list of texts, bools or single bytes."""
+    values = _sized(message, field, size, bound)
+    if kind is bytes and isinstance(values, (bytes, bytearray)):
+        return [bytes([each]) for each in values]
+    for index, value in enumerate(values):
+        if not isinstance(value, kind) or (limit and len(value) > limit) or (kind is bytes and len(value) != 1):
+            wanted = {"str": "a string", "bool": "a bool", "bytes": "bytes of length 1"}[kind.__name__]
+            raise _refuse(message, f"{field}[{index}]", wanted, value)
+    return list(values)
+
+
+def to_messages(message: Any, field: str, cls: Any, size: int, bound: int) -> list[Any]:
+    """A list of copies of nested messages."""
+    values = _sized(message, field, size, bound)
+    copies: list[Any] = []
+    for index, value in enumerate(values):
+        if not isinstance(value, cls):
+            raise _refuse(message, f"{field}[{index}]", f"a {type_name(cls)}", value)
+        try:
+            copies.append(cls._copy_(value))
+        except FieldTypeError as error:
+            raise _below(message, f"{field}[{index}]", error) from None
+    return copies
+
+
+def to_array(typecode: str, value: Any) -> array[Any]:
+    """What a setter makes of a value for a sequence of numbers."""
+    return value if isinstance(value, array) and value.typecode == typecode else array(typecode, value)
+
+
+def to_ndarray(dtype: str, value: Any) -> Any:
+    """What a setter makes of a value for numbers of fixed size."""
+    import numpy
+
+    return value if isinstance(value, numpy.ndarray) else numpy.array(value, dtype)
+
+
+def zeros(dtype: str, size: int) -> Any:
+    """The default of numbers of fixed size."""
+    import numpy
+
+    return numpy.zeros(size, dtype)

@@ -1,0 +1,128 @@
+"""What an interface is: its fields, constants and defaults, free of how it was written down."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+PRIMITIVES = {
+    "bool": "boolean",
+    "boolean": "boolean",
+    "byte": "octet",
+    "octet": "octet",
+    "char": "uint8",
+    "float32": "float",
+    "float": "float",
+    "float64": "double",
+    "double": "double",
+    "int8": "int8",
+    "uint8": "uint8",
+    "int16": "int16",
+    "uint16": "uint16",
+    "int32": "int32",
+    "uint32": "uint32",
+    "int64": "int64",
+    "uint64": "uint64",
+    "string": "string",
+    "wstring": "wstring",
+}
+"""The words of definition files and those of `get_fields_and_field_types`."""
+
+TYPECODES = {
+    "float": "f",
+    "double": "d",
+    "int8": "b",
+    "uint8": "B",
+    "int16": "h",
+    "uint16": "H",
+    "int32": "i",
+    "uint32": "I",
+    "int64": "q",
+    "uint64": "Q",
+}
+"""Typecodes of `array.array` by element type; other sequences are lists."""
+
+DTYPES = {"float": "float32", "double": "float64", **{name: name for name in TYPECODES if "int" in name}}
+"""NumPy dtypes of fixed-size arrays by element type; other fixed-size arrays are lists."""
+
+INTEGERS = tuple(name for name in TYPECODES if "int" in name)
+SHAPES = re.compile(r"^(?:sequence<(?P<item>.+?)(?:, (?P<bound>\d+))?>|(?P<fixed>.+?)\[(?P<size>\d+)\])$")
+BOUNDED = re.compile(r"^(w?string)<(\d+)>$")
+
+
+@dataclass(frozen=True)
+class Type:
+    """A field's type: an element type, alone or in a sequence (`bound` 0 is none) or in an array of fixed size.
+
+    `item` is a primitive's name or `package/Name`; `limit` is the length a string may have, 0 without one.
+    """
+
+    item: str
+    sequence: bool = False
+    bound: int = 0
+    size: int = 0
+    limit: int = 0
+
+    @property
+    def primitive(self) -> bool:
+        """Whether the element is no message."""
+        return "/" not in self.item
+
+    @property
+    def text(self) -> str:
+        """As `get_fields_and_field_types` writes it."""
+        item = f"{self.item}<{self.limit}>" if self.limit else self.item
+        if self.sequence:
+            return f"sequence<{item}, {self.bound}>" if self.bound else f"sequence<{item}>"
+        return f"{item}[{self.size}]" if self.size else item
+
+
+@dataclass(frozen=True)
+class Field:
+    """A field with the Python literal of its default; None where the type's own default holds."""
+
+    name: str
+    type: Type
+    default: str | None = None
+
+
+@dataclass(frozen=True)
+class Constant:
+    """A constant and the Python literal of its value."""
+
+    name: str
+    value: str
+
+
+@dataclass(frozen=True)
+class Definition:
+    """A message, or one part of a service or action such as `SetBool_Request`."""
+
+    name: str
+    fields: Sequence[Field]
+    constants: Sequence[Constant] = ()
+
+
+@dataclass(frozen=True)
+class Interface:
+    """An interface: `kind` is msg, srv or action; a service has two parts and an action three."""
+
+    package: str
+    kind: str
+    name: str
+    parts: Sequence[Definition]
+
+
+def parse_type(text: str) -> Type:
+    """Read a type as `get_fields_and_field_types` writes it."""
+    match = SHAPES.match(text)
+    item = (match["item"] or match["fixed"]) if match else text
+    string = BOUNDED.match(item)
+    return Type(
+        string[1] if string else item,
+        sequence=bool(match and match["item"]),
+        bound=int(match["bound"] or 0) if match else 0,
+        size=int(match["size"] or 0) if match else 0,
+        limit=int(string[2]) if string else 0,
+    )

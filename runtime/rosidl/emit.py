@@ -1,0 +1,246 @@
+"""Writes the Python module of an interface."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from bot_console.runtime.rosidl.definition import DTYPES, INTEGERS, TYPECODES, Definition, Field, Interface, Type
+from bot_console.runtime.rosidl.emit_copy import copy_lines
+from bot_console.runtime.rosidl.names import module_name
+from bot_console.runtime.rosidl.parts import companions
+
+HEAD = '''\
+"""Interface {package}/{kind}/{name}; generated, do not edit."""
+# ruff: noqa
+# pyright: reportPrivateUsage=false, reportUnusedImport=false
+from __future__ import annotations
+
+from array import array as _array
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from bot_console.runtime.rosidl.conversion import (
+    to_array as _to_array, to_bool as _to_bool, to_fixed as _to_fixed, to_float as _to_float, to_int as _to_int,
+    to_list as _to_list, to_message as _to_message, to_messages as _to_messages, to_ndarray as _to_ndarray,
+    to_octet as _to_octet, to_str as _to_str, too_long as _too_long, zeros as _zeros,
+)
+from bot_console.runtime.rosidl.message import Message as _Message, ServiceType as _ServiceType
+from bot_console.runtime.rosidl.message import checks_asked_for as _checks_asked_for
+'''
+SCALARS = {"boolean": "bool", "octet": "bytes", "float": "float", "double": "float", "string": "str", "wstring": "str"}
+ZEROS = {"boolean": "False", "octet": "b'\\x00'", "float": "0.0", "double": "0.0", "string": "''", "wstring": "''"}
+
+
+def module(interface: Interface) -> str:
+    """The source of the module that defines an interface and its companions."""
+    definitions = [*interface.parts, *companions(interface)]
+    here = {each.name for each in definitions}
+    lines = [HEAD.format(package=interface.package, kind=interface.kind, name=interface.name)]
+    nested = sorted({field.type.item for each in definitions for field in each.fields if not field.type.primitive})
+    known: dict[str, str] = {}
+    for item in nested:
+        package, _, name = item.partition("/")
+        known[item] = name if package == interface.package and name in here else f"_{package}__{name}"
+        if known[item] != name:
+            lines.append(f"from {package}.msg.{module_name(name)} import {name} as {known[item]}")
+    lines.append("\n_new = object.__new__\n_MISSING: Any = object()\n")
+    for each in definitions:
+        lines += ["", *_message(each, known)]
+    lines += _holder(interface)
+    return "\n".join(lines) + "\n"
+
+
+def _message(definition: Definition, known: dict[str, str]) -> Iterator[str]:
+    name = definition.name
+    yield f"class {name}(_Message):"
+    yield f'    """Message class \'{name}\'."""'
+    yield ""
+    slots = [f"_{each.name}" for each in definition.fields]
+    yield f"    __slots__ = {[*slots, '_check_fields']!r}"
+    types = {each.name: each.type.text for each in definition.fields}
+    yield f"    _fields_and_field_types = {types!r}"
+    for constant in definition.constants:
+        yield f"    {constant.name} = {constant.value}"
+    yield ""
+    yield from ("    " + line for line in _constructor(definition, known))
+    yield ""
+    yield f"    def _copy_(self) -> {name}:"
+    yield from ("        " + line for line in copy_lines(definition, known))
+    for field in definition.fields:
+        yield ""
+        yield from ("    " + line for line in _property(field, known))
+    yield ""
+
+
+def _constructor(definition: Definition, known: dict[str, str]) -> Iterator[str]:
+    arguments: list[str] = []
+    for field in definition.fields:
+        simple = _default(field) if _is_plain(field.type) else "_MISSING"
+        arguments.append(f"{field.name}: {_taken(field.type, known)} = {simple}")
+    yield "def __init__("
+    yield (
+        "    self, *, " + "".join(each + ", " for each in arguments) + "check_fields: bool | None = None, **_other: Any"
+    )
+    yield ") -> None:"
+    yield "    self._check_fields = checks = _checks_asked_for() if check_fields is None else check_fields"
+    yield "    if checks and _other:"
+    yield "        raise AssertionError('Invalid arguments passed to constructor: ' + ', '.join(sorted(_other)))"
+    for field in definition.fields:
+        yield from ("    " + line for line in _initial(field, known))
+
+
+def _is_plain(kind: Type) -> bool:
+    return kind.primitive and not kind.sequence and not kind.size
+
+
+def _initial(field: Field, known: dict[str, str]) -> Iterator[str]:
+    name = field.name
+    if _is_plain(field.type):
+        yield "if checks:"
+        yield f"    self._check('{name}', {name})"
+        yield f"self._{name} = {name}"
+        return
+    yield f"if {name} is _MISSING:"
+    yield f"    self._{name} = {_default(field, known)}"
+    yield "else:"
+    yield f"    self.{name} = {name}"
+    if field.type.size and field.type.item in DTYPES:
+        yield f"    assert self._{name}.shape == ({field.type.size},)"
+
+
+def _default(field: Field, known: dict[str, str] | None = None) -> str:
+    kind = field.type
+    if field.default is not None and not (kind.sequence or kind.size):
+        return field.default
+    if kind.sequence or kind.size:
+        return _many_default(field, known or {})
+    if not kind.primitive:
+        return f"{(known or {})[kind.item]}()"
+    return "0" if kind.item in INTEGERS else ZEROS[kind.item]
+
+
+def _many_default(field: Field, known: dict[str, str]) -> str:
+    kind, text = field.type, field.default
+    if kind.size and kind.item in DTYPES:
+        return f"_to_ndarray('{DTYPES[kind.item]}', {text})" if text else f"_zeros('{DTYPES[kind.item]}', {kind.size})"
+    if kind.item in TYPECODES:
+        return f"_array('{TYPECODES[kind.item]}', {text})" if text else f"_array('{TYPECODES[kind.item]}')"
+    if text:
+        return text
+    if not kind.size:
+        return "[]"
+    one = f"{known[kind.item]}()" if not kind.primitive else ZEROS[kind.item]
+    return f"[{one} for _ in range({kind.size})]"
+
+
+def _given(kind: Type, known: dict[str, str]) -> str:
+    """The annotation of what a field holds."""
+    if kind.size and kind.item in DTYPES:
+        return "Any"
+    item = _item(kind, known)
+    if kind.item in TYPECODES and kind.sequence:
+        return f"_array[{item}]"
+    return f"list[{item}]" if kind.sequence or kind.size else item
+
+
+def _taken(kind: Type, known: dict[str, str]) -> str:
+    """The annotation of what may be put into a field."""
+    if kind.size and kind.item in DTYPES:
+        return "Any"
+    item = _item(kind, known)
+    return f"Sequence[{item}] | _array[{item}]" if kind.item in TYPECODES and kind.sequence else (
+        f"Sequence[{item}]" if kind.sequence or kind.size else item)  # fmt: skip
+
+
+def _item(kind: Type, known: dict[str, str]) -> str:
+    return known[kind.item] if not kind.primitive else SCALARS.get(kind.item, "int")
+
+
+def _property(field: Field, known: dict[str, str]) -> Iterator[str]:
+    name, kind = field.name, field.type
+    yield "@property"
+    yield f"def {name}(self) -> {_given(kind, known)}:"
+    yield f'    """Message field \'{name}\'."""'
+    yield f"    return self._{name}"
+    yield ""
+    yield f"@{name}.setter"
+    yield f"def {name}(self, value: {_taken(kind, known)}) -> None:"
+    yield "    if self._check_fields:"
+    yield f"        self._check('{name}', value)"
+    if kind.size and kind.item in DTYPES:
+        yield f"    self._{name} = _to_ndarray('{DTYPES[kind.item]}', value)"
+    elif kind.item in TYPECODES and kind.sequence:
+        yield f"    self._{name} = _to_array('{TYPECODES[kind.item]}', value)"
+    else:
+        yield f"    self._{name} = value  # type: ignore[assignment]"
+
+
+def _holder(interface: Interface) -> Sequence[str]:
+    """The class that holds the parts of a service or an action."""
+    name = interface.name
+    if interface.kind == "srv":
+        return _service(name, interface.package)
+    if interface.kind == "action":
+        return [*_service(f"{name}_SendGoal", interface.package), *_service(f"{name}_GetResult", interface.package),
+                *_action(name)]  # fmt: skip
+    return ()
+
+
+def _service(name: str, package: str) -> list[str]:
+    return [
+        "",
+        f"class {name}(metaclass=_ServiceType):",
+        f'    """Service class \'{name}\'."""',
+        "",
+        f"    Request = {name}_Request",
+        f"    Response = {name}_Response",
+        f"    Event = {name}_Event",
+        "",
+    ]
+
+
+def _action(name: str) -> list[str]:
+    return [
+        "",
+        f"class {name}(metaclass=_ServiceType):",
+        f'    """Action class \'{name}\'."""',
+        "",
+        f"    Goal = {name}_Goal",
+        f"    Result = {name}_Result",
+        f"    Feedback = {name}_Feedback",
+        "",
+        "    class Impl:",
+        '        """The services and messages that an action is made of."""',
+        "",
+        "        from action_msgs.msg._goal_status_array import GoalStatusArray as GoalStatusMessage",
+        "        from action_msgs.srv._cancel_goal import CancelGoal as CancelGoalService",
+        "",
+        f"        SendGoalService = {name}_SendGoal",
+        f"        GetResultService = {name}_GetResult",
+        f"        FeedbackMessage = {name}_FeedbackMessage",
+        "",
+    ]
+
+
+def package_module(classes: dict[str, str]) -> str:
+    """The `__init__` of a `msg`, `srv` or `action` folder: classes by name, each imported when it is asked for."""
+    lines = ["from typing import TYPE_CHECKING", "", "if TYPE_CHECKING:"]
+    rows = sorted(classes.items())
+    lines += [f"    from .{file} import {name} as {name}" for name, file in rows] or ["    pass"]
+    lines += ["", f"_FILES = {dict(rows)!r}", f"__all__ = {[name for name, _ in rows]!r}", "", LAZY]
+    return "\n".join(lines)
+
+
+LAZY = """\
+def __getattr__(name: str):
+    if name not in _FILES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module
+
+    value = globals()[name] = getattr(import_module(f"{__name__}.{_FILES[name]}"), name)
+    return value
+
+
+def __dir__():
+    return sorted([*globals(), *_FILES])
+"""

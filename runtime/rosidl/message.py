@@ -1,0 +1,64 @@
+"""What all generated classes have in common."""
+
+from __future__ import annotations
+
+import os
+from array import array
+from collections.abc import Mapping
+from typing import Any, ClassVar
+
+CHECK_VARIABLE = "ROS_PYTHON_CHECK_FIELDS"
+
+
+def checks_asked_for() -> bool:
+    """Whether fields are to be checked although the constructor was not asked to; off by default since Jazzy."""
+    return os.environ.get(CHECK_VARIABLE, "") == "1"
+
+
+class Message:
+    """A generated message; its class has `__slots__`, one for each field, and no dictionary."""
+
+    __slots__ = ()
+    __hash__ = None  # type: ignore[assignment]
+    _fields_and_field_types: ClassVar[Mapping[str, str]] = {}
+    _check_fields: bool
+
+    @classmethod
+    def get_fields_and_field_types(cls) -> dict[str, str]:
+        """Field names with their types, such as `sequence<double>`."""
+        return dict(cls._fields_and_field_types)
+
+    def _check(self, field: str, value: Any) -> None:
+        """Refuse a value as rclpy does with checks on; raises `AssertionError`."""
+        from bot_console.runtime.rosidl.checks import check
+
+        check(self._fields_and_field_types[field], field, value)
+
+    def __repr__(self) -> str:
+        package, kind = type(self).__module__.split(".")[:2]
+        fields = ", ".join(f"{name}={_shown(getattr(self, name))}" for name in self._fields_and_field_types)
+        return f"{package}.{kind}.{type(self).__name__}({fields})"
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, type(self)):
+            return False
+        return all(_equal(getattr(self, name), getattr(other, name)) for name in self._fields_and_field_types)
+
+
+def _shown(value: Any) -> str:
+    return repr(value.tolist()) if isinstance(value, array) else repr(value)
+
+
+def _equal(one: Any, other: Any) -> bool:
+    different = one != other
+    # Upstream takes arrays of fixed size as different only where all of their elements differ.
+    return not different.all() if hasattr(different, "all") else not different
+
+
+class ServiceType(type):
+    """The type of service and action classes, which only hold others."""
+
+    def __call__(cls, *args: Any, **kwargs: Any) -> Any:
+        """Refuse to be made, as upstream does."""
+        kind = "Action" if hasattr(cls, "Goal") else "Service"
+        raise NotImplementedError(f"{kind} classes can not be instantiated")

@@ -1,0 +1,70 @@
+"""The standard interfaces, at build time: messages from rosbags' Jazzy type store, the rest from our definitions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from bot_console.runtime.rosidl.definition import PRIMITIVES, Constant, Definition, Field, Interface, Type
+from bot_console.runtime.rosidl.parse import parse
+
+FOLDER = Path(__file__).resolve().parent / "definitions"
+DEFAULTS = {
+    ("geometry_msgs/Quaternion", "w"): "1.0",
+    ("rcl_interfaces/ParameterDescriptor", "read_only"): "False",
+    ("rcl_interfaces/ParameterDescriptor", "dynamic_typing"): "False",
+}
+"""Defaults that the type store does not keep."""
+
+EMPTY = "structure_needs_at_least_one_member"
+LEFT_OUT = ("actionlib_msgs", "rosbag2_interfaces", "rmw_dds_common")
+
+
+def interfaces() -> Iterator[Interface]:
+    """All standard interfaces; a definition of ours wins over the type store's."""
+    ours = list(_ours())
+    known = {(each.package, each.kind, each.name) for each in ours}
+    yield from ours
+    for each in _from_store():
+        if (each.package, each.kind, each.name) not in known:
+            yield each
+
+
+def _ours() -> Iterator[Interface]:
+    for path in sorted(FOLDER.glob("*/*/*.*")):
+        kind = path.suffix[1:]
+        yield parse(path.read_text(encoding="utf-8"), path.parts[-3], kind, path.stem, str(path))
+
+
+def _from_store() -> Iterator[Interface]:
+    from rosbags.typesys import Stores, get_typestore
+
+    for full_name, (constants, fields) in get_typestore(Stores.ROS2_JAZZY).fielddefs.items():
+        package, _, name = full_name.partition("/msg/")
+        if package in LEFT_OUT:
+            continue
+        rows = [_field(f"{package}/{name}", *each) for each in fields if each[0] != EMPTY]
+        yield Interface(package, "msg", name, [Definition(name, rows, [_constant(*each) for each in constants])])
+
+
+def _constant(name: str, kind: str, value: Any) -> Constant:
+    return Constant(name, repr(bytes([value]) if kind == "byte" and isinstance(value, int) else value))
+
+
+def _field(owner: str, name: str, description: Any) -> Field:
+    shape, inside = description
+    if shape.name == "BASE":
+        kind = _single(inside)
+    elif shape.name == "NAME":
+        kind = Type(inside.replace("/msg/", "/"))
+    else:
+        (inner_shape, inner), count = inside
+        item = _single(inner) if inner_shape.name == "BASE" else Type(inner.replace("/msg/", "/"))
+        sequence = shape.name == "SEQUENCE"
+        kind = Type(item.item, sequence, count if sequence else 0, 0 if sequence else count, item.limit)
+    return Field(name, kind, DEFAULTS.get((owner, name)))
+
+
+def _single(base: tuple[str, int]) -> Type:
+    return Type(PRIMITIVES[base[0]], limit=base[1] if base[0] == "string" else 0)
