@@ -39,21 +39,21 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from bot_console.runtime.process.clock_source import ClockSource, RealTime, Wakeup
-from bot_console.runtime.process.current import MAIN, NodeProcess, ProcessLocal, current, running_as
-from bot_console.runtime.process.node_process import ProcessState
-from bot_console.runtime.process.notices import on_notice
-from bot_console.runtime.process.program import entry_point_program, file_program
-from bot_console.runtime.process.thread_state import ProcessKilled
+from .clock_source import ClockSource, RealTime, Wakeup
+from .current import MAIN, NodeProcess, ProcessLocal, current, running_as
+from .node_process import ProcessState
+from .notices import on_notice
+from .program import entry_point_program, file_program
+from .thread_state import ProcessKilled
 
 if TYPE_CHECKING:
-    from bot_console.runtime.process.stepping import SteppedTime, stepped
+    from .stepping import SteppedTime, stepped
 
 
 def __getattr__(name: str) -> Any:
     """`stepped` and `SteppedTime`, imported when asked for: a real-time start needs none of it."""
     if name in ("SteppedTime", "stepped"):
-        from bot_console.runtime.process import stepping
+        from . import stepping
 
         return getattr(stepping, name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

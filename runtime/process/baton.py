@@ -13,8 +13,8 @@ from heapq import heapify, heappop, heappush
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from bot_console.runtime.process.stepped_wakeup import SteppedWakeup
-    from bot_console.runtime.process.thread_state import ThreadState
+    from .stepped_wakeup import SteppedWakeup
+    from .thread_state import ThreadState
 
 LAST = 1 << 60
 """The rank of a driver's wait for the end of a run: after everything else that happens at that time."""

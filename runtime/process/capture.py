@@ -64,8 +64,9 @@ class LineCapture(io.TextIOBase):
 
     def end(self) -> None:
         """The process has ended: hand on an unfinished last line, and take no more."""
-        if self._pipe is not None:
-            self._pipe.close()
+        pipe, self._pipe = self._pipe, None
+        if pipe is not None:
+            pipe.close()
         with self._lock:
             if self._partial and not self.closed:
                 self._sink(self._partial)
@@ -83,6 +84,26 @@ class LineCapture(io.TextIOBase):
 
     def close(self) -> None:
         """Keep open: `sys.stdout.close()` by a node, or a garbage collector, must not lose what comes later."""
+
+
+class _NoInput(io.TextIOBase):
+    """Standard input of a node process: at its end, because the keyboard belongs to the console."""
+
+    name = "<stdin>"
+    encoding = "utf-8"
+    errors = "strict"
+
+    def readable(self) -> bool:
+        return True
+
+    def read(self, _size: int | None = -1) -> str:
+        return ""
+
+    def readline(self, _size: int = -1) -> str:  # type: ignore[override]
+        return ""
+
+
+NO_INPUT = _NoInput()
 
 
 class _ByteSide(io.BufferedIOBase):
@@ -126,6 +147,6 @@ class _Pipe:
 
 def _start_outside(thread: threading.Thread) -> None:
     """Start a thread that belongs to no node process, whoever asks for it."""
-    from bot_console.runtime.process.child_threads import start_outside
+    from .child_threads import start_outside
 
     start_outside(thread)

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import sys
 import threading
-from types import TracebackType
+from types import ModuleType, TracebackType
 from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
-from bot_console.runtime.process import real
-from bot_console.runtime.process.frames import trim
-from bot_console.runtime.process.thread_state import ProcessKilled, ThreadState, local
+from . import real
+from .frames import trim
+from .module_property import process_variable
+from .thread_state import ProcessKilled, ThreadState, local
 
 if TYPE_CHECKING:
-    from bot_console.runtime.process.clock_source import ClockSource
-    from bot_console.runtime.process.node_process import NodeProcess
+    from .clock_source import ClockSource
+    from .node_process import NodeProcess
 
 _states: WeakKeyDictionary[threading.Thread, ThreadState] = WeakKeyDictionary()
 
@@ -52,6 +53,12 @@ def start_inside(
         inside.give_up()
         raise
     return state
+
+
+class VirtualThreading(ModuleType):
+    """The class of `threading` while node processes run."""
+
+    excepthook = process_variable("excepthook", lambda _process: threading.__excepthook__)
 
 
 class _Inside:

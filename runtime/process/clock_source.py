@@ -7,9 +7,12 @@ import time
 from _thread import LockType, allocate_lock
 from contextlib import suppress
 from functools import partial
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
-from bot_console.runtime.process.thread_state import ThreadState, local
+from .thread_state import ThreadState, local
+
+if TYPE_CHECKING:
+    from .baton import Seat
 
 _monotonic_ns = time.monotonic_ns  # the real one: `time.monotonic_ns` is virtual while a stepped run is on
 
@@ -34,18 +37,6 @@ class Wakeup(Protocol):
 
         Raises `KeyboardInterrupt` when the node process is interrupted meanwhile.
         """
-        ...
-
-
-class Seat(Protocol):
-    """A thread's place among those of a stepped run, of which one at a time has the turn."""
-
-    def take(self) -> None:
-        """Wait for the first turn."""
-        ...
-
-    def leave(self) -> None:
-        """Take no more turns; the next one has it."""
         ...
 
 

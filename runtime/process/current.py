@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Generic, TypeVar
 
-from bot_console.runtime.process.main_process import MainProcess
-from bot_console.runtime.process.node_process import NodeProcess
-from bot_console.runtime.process.thread_state import local
+from .main_process import MainProcess
+from .node_process import NodeProcess
+from .thread_state import local
 
 __all__ = ["MAIN", "NodeProcess", "ProcessLocal", "current", "running_as"]
 

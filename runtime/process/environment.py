@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, MutableMapping
 
-from bot_console.runtime.process.thread_state import local
+from .thread_state import local
 
 _real = os.environ
 

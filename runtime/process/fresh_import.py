@@ -13,11 +13,11 @@ import importlib.util
 import sys
 from _thread import RLock
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from importlib.machinery import ModuleSpec, PathFinder
+from importlib.machinery import FileFinder, ModuleSpec, PathFinder
 from types import ModuleType
 from typing import Any
 
-from bot_console.runtime.process.thread_state import local
+from .thread_state import local
 
 _import_module = importlib.import_module
 NameTest = Callable[[str], bool]
@@ -170,7 +170,7 @@ def _find_spec(name: str, path: Sequence[str] | None) -> ModuleSpec | None:
 def _forget_listing(folder: str) -> None:
     """A file added a moment ago must be found: the interpreter remembers folders by their time stamp."""
     finder = sys.path_importer_cache.get(folder)
-    if finder is not None and hasattr(finder, "invalidate_caches"):
+    if isinstance(finder, FileFinder):
         finder.invalidate_caches()
 
 

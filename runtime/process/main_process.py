@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from typing import Any
 
-from bot_console.runtime.process.node_process import NodeProcess
+from .node_process import NodeProcess
 
 
 class MainProcess(NodeProcess):
@@ -19,6 +19,9 @@ class MainProcess(NodeProcess):
     def __init__(self, name: str) -> None:
         super().__init__(name)
         self.pid = os.getpid()
+        self.argv = sys.argv
+        self.env = os.environ
+        self.path = sys.path
         self._replaced: dict[int, Any] = {}
 
     @property
@@ -65,12 +68,3 @@ class MainProcess(NodeProcess):
     def start(self, *_arguments: Any, **_options: Any) -> None:
         """Raises `RuntimeError`: it runs already."""
         raise RuntimeError("the real process is already running")
-
-    @property
-    def argv(self) -> list[str]:
-        """`sys.argv` of the real process."""
-        return sys.__dict__["argv"]
-
-    @argv.setter
-    def argv(self, value: list[str]) -> None:
-        sys.__dict__["argv"] = value

@@ -7,12 +7,12 @@ import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from bot_console.runtime.process import child_threads
-from bot_console.runtime.process.frames import print_exception
-from bot_console.runtime.process.thread_state import ProcessKilled
+from . import child_threads
+from .frames import print_exception
+from .thread_state import ProcessKilled
 
 if TYPE_CHECKING:
-    from bot_console.runtime.process.node_process import NodeProcess
+    from .node_process import NodeProcess
 
 SIGINT_EXIT = -2
 

@@ -8,21 +8,21 @@ import signal
 import sys
 import threading
 from _thread import allocate_lock
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, MutableMapping, Sequence
 from enum import Enum
 from functools import partial
 from typing import TYPE_CHECKING, Any
 from weakref import WeakValueDictionary
 
-from bot_console.runtime.process import frames, real
-from bot_console.runtime.process.capture import LineCapture, Sink
-from bot_console.runtime.process.clock_source import ClockSource, RealTime
-from bot_console.runtime.process.notices import notify
-from bot_console.runtime.process.signals import SIGKILL, Signals
-from bot_console.runtime.process.thread_state import ProcessKilled, ThreadState, local
+from . import frames, real
+from .capture import NO_INPUT, LineCapture, Sink
+from .clock_source import ClockSource, RealTime
+from .notices import notify
+from .signals import SIGKILL, Signals
+from .thread_state import ProcessKilled, ThreadState, local
 
 if TYPE_CHECKING:
-    from bot_console.runtime.process.fresh_import import FreshModules
+    from .fresh_import import FreshModules
 
 _pids = itertools.count((1 << 22) + 1)  # above Linux's highest possible pid, so that a stray kill() hits nobody
 KILL_GRACE_S = 0.5
@@ -51,9 +51,10 @@ class NodeProcess:
         self.locals: dict[Any, Any] = {}
         self.pid = next(_pids)
         self.argv: list[str] = [name]
-        self.env: dict[str, str] = {}
+        self.env: MutableMapping[str, str] = {}
         self.path: list[str] = []
         self.cwd: str | None = None
+        self.stdin = NO_INPUT
         self.stdout: LineCapture | None = None
         self.stderr: LineCapture | None = None
         self.state = ProcessState.NEW
@@ -61,10 +62,10 @@ class NodeProcess:
         self.signals = Signals(self)
         self.main_state: ThreadState | None = None
         self.children: dict[threading.Thread, ThreadState] = {}
-        self.exit_functions: list[Callable[[], Any]] = []
+        self.exit_functions: list[partial[Any]] = []
         self.notices: list[str] = []
         self.modules: FreshModules | None = None
-        self.overrides: dict[str, Any] = {}
+        self.overrides: dict[Any, Any] = {}
         self._ended = self.clock.wakeup()
         self._exit_lock = allocate_lock()
         self._exit_callbacks: list[Callable[[NodeProcess], Any]] = []
@@ -85,8 +86,8 @@ class NodeProcess:
         `argv` is `sys.argv` whole, `env` the whole environment (default: the starter's), `stdout` and `stderr` get each
         line of output (default: the real streams). `cwd` is where child processes start.
         """
-        from bot_console.runtime.process.main_thread import start_main_thread
-        from bot_console.runtime.process.virtual import install_virtual_process
+        from .main_thread import start_main_thread
+        from .virtual import install_virtual_process
 
         if self.state is not ProcessState.NEW:
             raise RuntimeError(f"node process {self.name} was already started")
@@ -205,9 +206,13 @@ class NodeProcess:
         real.later(KILL_GRACE_S, partial(self._break_off, states))
 
     def _break_off(self, states: Sequence[ThreadState]) -> None:
-        for state in states:
+        left = [state for state in states if state.thread.is_alive()]
+        for state in left:
             state.throw(ProcessKilled)
-        real.sleep(KILL_GRACE_S)
+        if left:
+            real.later(KILL_GRACE_S, partial(self._report_hanging, left))
+
+    def _report_hanging(self, states: Sequence[ThreadState]) -> None:
         for state in states:
             if state.thread.is_alive() and not state.waiting:
                 self.state = ProcessState.ABANDONED
@@ -226,12 +231,12 @@ class NodeProcess:
         try:
             for callback in reversed(self._exit_callbacks):
                 self.guarded(partial(callback, self))
+            for capture in (self.stdout, self.stderr):
+                if capture is not None:
+                    capture.end()
         finally:
             local.process = before
-        for capture in (self.stdout, self.stderr):
-            if capture is not None:
-                capture.end()
-        self._ended.set()
+            self._ended.set()
 
 
 _running: WeakValueDictionary[int, NodeProcess] = WeakValueDictionary()

@@ -1,4 +1,4 @@
-"""Keeps a stepped run on one processor: its threads only ever take turns, and a turn passes 2 to 3 times faster there."""
+"""Keeps a stepped run on one processor: its threads only take turns, and a turn passes 2 to 3 times faster there."""
 
 from __future__ import annotations
 

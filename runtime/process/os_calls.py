@@ -9,13 +9,14 @@ import subprocess
 import sys
 import threading
 from collections.abc import Callable
+from functools import partial
 from typing import Any, NoReturn
 
-from bot_console.runtime.process import frames
-from bot_console.runtime.process.node_process import running_process
-from bot_console.runtime.process.notices import notify
-from bot_console.runtime.process.signals import Handler
-from bot_console.runtime.process.thread_state import local
+from . import frames
+from .node_process import running_process
+from .notices import notify
+from .signals import Handler
+from .thread_state import local
 
 _getpid = os.getpid
 _getppid = os.getppid
@@ -27,7 +28,7 @@ _system = os.system
 _signal = signal.signal
 _getsignal = signal.getsignal
 _raise_signal = signal.raise_signal
-_pause = getattr(signal, "pause", signal.raise_signal)
+_pause: Callable[[], None] | None = getattr(signal, "pause", None)
 _set_wakeup_fd = signal.set_wakeup_fd
 _execv = os.execv
 _execve = os.execve
@@ -117,7 +118,7 @@ def pause() -> None:
     """`signal.pause`: until the node process has handled a signal."""
     if _in_node():
         local.process.signals.pause()
-    else:
+    elif _pause is not None:
         _pause()
 
 
@@ -164,7 +165,7 @@ def register_exit(function: Callable[..., Any], *arguments: Any, **options: Any)
     """`atexit.register`: at the end of the node process, where the node's own files ask for it."""
     if not _asked_by_node():
         return _register(function, *arguments, **options)
-    local.process.exit_functions.append((function, arguments, options))
+    local.process.exit_functions.append(partial(function, *arguments, **options))
     return function
 
 
@@ -172,7 +173,7 @@ def unregister_exit(function: Callable[..., Any]) -> None:
     """`atexit.unregister`."""
     if _in_node():
         registered = local.process.exit_functions
-        registered[:] = [entry for entry in registered if entry[0] != function]
+        registered[:] = [entry for entry in registered if entry.func != function]
     _unregister(function)
 
 

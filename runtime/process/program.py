@@ -7,8 +7,8 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
-from bot_console.runtime.process.fresh_import import FreshModules
-from bot_console.runtime.process.thread_state import local
+from .fresh_import import FreshModules
+from .thread_state import local
 
 
 def file_program(path: str, modules: FreshModules | None = None) -> Callable[[], None]:

@@ -6,6 +6,7 @@ import _thread
 import threading
 import time
 from collections.abc import Callable
+from heapq import heappop, heappush
 
 sleep = time.sleep
 monotonic = time.monotonic
@@ -16,11 +17,45 @@ main_thread = threading.main_thread
 enumerate_threads = threading.enumerate
 
 
+class _Agenda:
+    """Actions at wall times, in one thread that exists while there are any."""
+
+    def __init__(self) -> None:
+        self._guard = _thread.allocate_lock()
+        self._news = _thread.allocate_lock()
+        self._news.acquire()
+        self._entries: list[tuple[float, int, Callable[[], None]]] = []
+        self._count = 0
+        self._running = False
+
+    def add(self, due: float, action: Callable[[], None]) -> None:
+        with self._guard:
+            self._count += 1
+            heappush(self._entries, (due, self._count, action))
+            if not self._running:
+                self._running = True
+                _thread.start_new_thread(self._run, ())
+            elif self._news.locked():
+                self._news.release()
+
+    def _run(self) -> None:
+        while (due := self._next_due()) is not None:
+            if (remaining := due - monotonic()) > 0:
+                self._news.acquire(True, remaining)
+                continue
+            with self._guard:
+                action = heappop(self._entries)[2]
+            action()
+
+    def _next_due(self) -> float | None:
+        with self._guard:
+            self._running = bool(self._entries)
+            return self._entries[0][0] if self._entries else None
+
+
+_agenda = _Agenda()
+
+
 def later(seconds: float, action: Callable[[], None]) -> None:
-    """Call `action` after that much wall time (s), in a thread of its own that belongs to no node process."""
-
-    def run() -> None:
-        sleep(seconds)
-        action()
-
-    _thread.start_new_thread(run, ())
+    """Call `action`, which must not block, after that much wall time (s), in a thread that is of no node process."""
+    _agenda.add(monotonic() + seconds, action)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import _thread
 import os
 import signal
 import sys
@@ -9,13 +10,13 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from bot_console.runtime.process import real
-from bot_console.runtime.process.notices import notify
-from bot_console.runtime.process.thread_state import ThreadState, local
+from . import real
+from .notices import notify
+from .thread_state import ThreadState, local
 
 if TYPE_CHECKING:
-    from bot_console.runtime.process.clock_source import Wakeup
-    from bot_console.runtime.process.node_process import NodeProcess
+    from .clock_source import Wakeup
+    from .node_process import NodeProcess
 
 BUSY_GRACE_S = 0.1
 """How long (s) a busy thread may take to reach a wait before the exception is raised wherever it is."""
@@ -117,9 +118,11 @@ class Signals:
         handler(signum, sys._getframe())
 
     def _break_in(self, state: ThreadState, action: partial[Any]) -> None:
-        """Interrupt a thread that computes: the handler runs here, and what it raises is raised there."""
-        if not state.take_back(action):
-            return
+        """Interrupt a thread that computes: what a handler raises elsewhere is raised there."""
+        if state.take_back(action):
+            _thread.start_new_thread(self._handle_for, (state, action))
+
+    def _handle_for(self, state: ThreadState, action: partial[Any]) -> None:
         local.process = self._process
         try:
             action()

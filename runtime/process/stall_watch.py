@@ -6,10 +6,10 @@ import _thread
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from bot_console.runtime.process import real
+from . import real
 
 if TYPE_CHECKING:
-    from bot_console.runtime.process.baton import Baton, Seat
+    from .baton import Baton, Seat
 
 LOOKS_PER_STALL = 4
 

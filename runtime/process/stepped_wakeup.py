@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from bot_console.runtime.process.thread_state import local
+from .thread_state import local
 
 if TYPE_CHECKING:
-    from bot_console.runtime.process.baton import Baton, Seat
+    from .baton import Baton, Seat
 
 
 class SteppedWakeup:

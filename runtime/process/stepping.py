@@ -8,17 +8,17 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from bot_console.runtime.process import frames
-from bot_console.runtime.process.baton import LAST, Baton, Seat
-from bot_console.runtime.process.current import MAIN
-from bot_console.runtime.process.notices import notify
-from bot_console.runtime.process.one_cpu import pin_thread
-from bot_console.runtime.process.signals import SIGKILL
-from bot_console.runtime.process.stall_watch import StallWatch
-from bot_console.runtime.process.stepped_wakeup import SteppedWakeup
-from bot_console.runtime.process.thread_state import ThreadState, local
-from bot_console.runtime.process.virtual import install_virtual_process
-from bot_console.runtime.process.virtual_time import install_virtual_time, uninstall_virtual_time
+from . import frames
+from .baton import LAST, Baton, Seat
+from .current import MAIN
+from .notices import notify
+from .one_cpu import pin_thread
+from .signals import SIGKILL
+from .stall_watch import StallWatch
+from .stepped_wakeup import SteppedWakeup
+from .thread_state import ThreadState, local
+from .virtual import install_virtual_process
+from .virtual_time import install_virtual_time, uninstall_virtual_time
 
 DEFAULT_START_NS = 1_700_000_000_000_000_000
 """System time (ns since the epoch) at which a stepped run begins unless told otherwise."""

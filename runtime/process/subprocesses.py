@@ -7,7 +7,7 @@ import subprocess
 from functools import wraps
 from typing import Any
 
-from bot_console.runtime.process.thread_state import local
+from .thread_state import local
 
 _start = subprocess.Popen.__init__
 _signature = inspect.signature(_start)

@@ -5,13 +5,13 @@ C code reads the streams from the module's dictionary, so a routing stream stand
 
 from __future__ import annotations
 
-import io
 import sys
 from collections.abc import Callable
 from types import ModuleType
 from typing import Any
 
-from bot_console.runtime.process.thread_state import local
+from .module_property import process_variable, replace_class
+from .thread_state import local
 
 
 class RoutingStream:
@@ -59,26 +59,6 @@ class RoutingStream:
             self._real = self._original if stream is self else stream
 
 
-class _NoInput(io.TextIOBase):
-    """Standard input of a node process: at its end, because the keyboard belongs to the console."""
-
-    name = "<stdin>"
-    encoding = "utf-8"
-    errors = "strict"
-
-    def readable(self) -> bool:
-        return True
-
-    def read(self, _size: int | None = -1) -> str:
-        return ""
-
-    def readline(self, _size: int = -1) -> str:  # type: ignore[override]
-        return ""
-
-
-NO_INPUT = _NoInput()
-
-
 class VirtualSys(ModuleType):
     """The class of `sys` while node processes run."""
 
@@ -93,43 +73,28 @@ def _stream(name: str) -> property:
     return property(get, set_)
 
 
-def _value(name: str, of_process: Callable[[Any], Any]) -> property:
-    """A variable of the process, or one that only a node process can replace for itself."""
-
-    def get(module: ModuleType) -> Any:
-        process = local.process
-        return module.__dict__[name] if process.main_state is None else of_process(process)
-
-    def set_(module: ModuleType, value: Any) -> None:
-        process = local.process
-        if process.main_state is None:
-            module.__dict__[name] = value
-        elif name in vars(process):
-            setattr(process, name, value)
-        else:
-            process.overrides[name] = value
-
-    return property(get, set_)
-
-
 _STREAMS = ("stdin", "stdout", "stderr")
-for _name in _STREAMS:
-    setattr(VirtualSys, _name, _stream(_name))
-VirtualSys.argv = _value("argv", lambda process: process.argv)  # type: ignore[attr-defined]
-VirtualSys.path = _value("path", lambda process: process.path)  # type: ignore[attr-defined]
-VirtualSys.excepthook = _value(  # type: ignore[attr-defined]
-    "excepthook", lambda process: process.overrides.get("excepthook", sys.__excepthook__)
-)
+
+
+def _add_properties(virtual: Any) -> None:
+    for name in _STREAMS:
+        setattr(virtual, name, _stream(name))
+    virtual.argv = process_variable("argv", lambda process: process.argv)
+    virtual.path = process_variable("path", lambda process: process.path)
+    virtual.excepthook = process_variable("excepthook", lambda _process: sys.__excepthook__)
+
+
+_add_properties(VirtualSys)
 
 
 def install() -> Callable[[], None]:
     """Make the variables of `sys` each process's own; returns what undoes it."""
     streams = {name: RoutingStream(name) for name in _STREAMS}
     sys.__dict__.update(streams)
-    sys.__class__ = VirtualSys
+    restore_class = replace_class(sys, VirtualSys)
 
     def uninstall() -> None:
-        sys.__class__ = ModuleType
+        restore_class()
         for name, stream in streams.items():
             if sys.__dict__[name] is stream:
                 sys.__dict__[name] = stream._real

@@ -10,8 +10,9 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from bot_console.runtime.process.clock_source import ClockSource, Seat
-    from bot_console.runtime.process.node_process import NodeProcess
+    from .baton import Seat
+    from .clock_source import ClockSource
+    from .node_process import NodeProcess
 
 
 class ProcessKilled(BaseException):

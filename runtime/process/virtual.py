@@ -12,7 +12,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from bot_console.runtime.process import (
+from . import (
     child_threads,
     environment,
     fresh_import,
@@ -21,6 +21,7 @@ from bot_console.runtime.process import (
     sys_module,
     waits,
 )
+from .module_property import replace_class
 
 _SHARED = ("fork", "forkpty", "umask", "setuid", "setgid", "nice")
 _SHARED_SIGNALS = ("alarm", "setitimer")
@@ -82,6 +83,7 @@ def install_virtual_process() -> None:
             return
         for owner, name, replacement in _wraps():
             _undo.append(_replace(owner, name, replacement))
+        _undo.append(replace_class(threading, child_threads.VirtualThreading))
         _undo.append(sys_module.install())
 
 

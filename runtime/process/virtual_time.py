@@ -8,8 +8,8 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from bot_console.runtime.process.clock_source import ClockSource
-from bot_console.runtime.process.thread_state import local
+from .clock_source import ClockSource
+from .thread_state import local
 
 
 def _stepped() -> ClockSource | None:

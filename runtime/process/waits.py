@@ -12,11 +12,11 @@ from contextlib import suppress
 from types import GenericAlias
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
-from bot_console.runtime.process import real
-from bot_console.runtime.process.thread_state import local
+from . import real
+from .thread_state import local
 
 if TYPE_CHECKING:
-    from bot_console.runtime.process.clock_source import Wakeup
+    from .clock_source import Wakeup
 
 _condition_wait = threading.Condition.wait
 _RealSimpleQueue = queue.SimpleQueue

@@ -1,0 +1,80 @@
+"""Node processes for tests: started with captured output, never left running."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+from bot_console.runtime.process import ClockSource, NodeProcess
+from bot_console.runtime.process.virtual import uninstall_virtual_process
+
+LONG = 20.0
+"""How long (s) a test waits for what it expects, before it fails."""
+
+
+class Started:
+    """A running node process and what it has printed."""
+
+    def __init__(self, process: NodeProcess, target: Callable[[], object], **options: Any) -> None:
+        self.process = process
+        self.out: list[str] = []
+        self.err: list[str] = []
+        self._printed = threading.Condition()
+        process.start(target, stdout=self._sink(self.out), stderr=self._sink(self.err), **options)
+
+    def _sink(self, lines: list[str]) -> Callable[[str], None]:
+        def take(line: str) -> None:
+            with self._printed:
+                lines.append(line)
+                self._printed.notify_all()
+
+        return take
+
+    @property
+    def stdout(self) -> str:
+        return "".join(self.out)
+
+    @property
+    def stderr(self) -> str:
+        return "".join(self.err)
+
+    def until_printed(self, text: str) -> None:
+        with self._printed:
+            assert self._printed.wait_for(lambda: text in self.stdout, LONG), self.stdout + self.stderr
+
+    def end(self) -> int:
+        code = self.process.wait(LONG)
+        assert code is not None, f"still in {self.process.line()}"
+        return code
+
+
+@pytest.fixture
+def start() -> Iterator[Callable[..., Started]]:
+    """Start a callable as a node process; kills what a test leaves behind and takes all wraps away."""
+    processes: list[NodeProcess] = []
+
+    def start_one(
+        target: Callable[[], object], *, name: str = "node", clock: ClockSource | None = None, **options: Any
+    ) -> Started:
+        process = NodeProcess(name, clock)
+        processes.append(process)
+        return Started(process, target, **options)
+
+    yield start_one
+    for process in processes:
+        process.kill()
+    uninstall_virtual_process()
+
+
+@pytest.fixture
+def run(start: Callable[..., Started]) -> Callable[..., Started]:
+    """Run a callable as a node process to its end."""
+
+    def run_one(target: Callable[[], object], **options: Any) -> Started:
+        started = start(target, **options)
+        started.end()
+        return started
+
+    return run_one

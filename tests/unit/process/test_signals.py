@@ -1,0 +1,224 @@
+"""Signal handlers that a node sets are its own, and run in its main thread."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import signal
+import sys
+import threading
+import time
+
+import pytest
+from bot_console.runtime.process import current, on_notice
+
+LONG = 20.0
+
+
+def test_handler_runs_in_the_main_thread_and_the_wait_goes_on(start):
+    go_on = threading.Event()
+
+    def target():
+        def handler(signum, frame):
+            print("handled", int(signum), threading.current_thread() is threading.main_thread(), frame is not None)
+
+        assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+        assert signal.signal(signal.SIGINT, handler) is signal.default_int_handler
+        assert signal.getsignal(signal.SIGINT) is handler
+        print("ready")
+        go_on.wait()
+        print("went on")
+
+    started = start(target)
+    started.until_printed("ready")
+    started.process.interrupt()
+    started.until_printed("handled 2 True True")
+    go_on.set()
+    assert started.end() == 0
+    assert started.out[-1] == "went on\n"
+
+
+def test_real_handlers_are_untouched(run):
+    before = signal.getsignal(signal.SIGUSR1)
+    run(lambda: signal.signal(signal.SIGUSR1, lambda *_: None))
+    assert signal.getsignal(signal.SIGUSR1) is before
+
+
+def test_handler_may_exit(start):
+    def target():
+        signal.signal(signal.SIGTERM, lambda *_: sys.exit(5))
+        print("ready")
+        time.sleep(1000)
+
+    started = start(target)
+    started.until_printed("ready")
+    started.process.terminate()
+    assert started.end() == 5
+
+
+def test_handler_of_a_busy_thread_may_exit(start):
+    def target():
+        signal.signal(signal.SIGTERM, lambda *_: sys.exit(6))
+        print("ready")
+        while True:
+            pass
+
+    started = start(target)
+    started.until_printed("ready")
+    started.process.terminate()
+    assert started.end() == 6
+
+
+def test_ignored_signal(start):
+    go_on = threading.Event()
+
+    def target():
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        print("ready")
+        go_on.wait()
+
+    started = start(target)
+    started.until_printed("ready")
+    started.process.interrupt()
+    go_on.set()
+    assert started.end() == 0
+
+
+@pytest.mark.parametrize(("signum", "code"), [(signal.SIGHUP, -1), (signal.SIGUSR1, -10), (signal.SIGQUIT, -3)])
+def test_signals_without_handler_end_it(start, signum, code):
+    started = start(lambda: (print("ready"), time.sleep(1000)))
+    started.until_printed("ready")
+    started.process.send_signal(signum)
+    assert started.end() == code
+
+
+def test_signals_that_the_system_ignores_are_ignored(start):
+    started = start(lambda: (print("ready"), time.sleep(1000)))
+    started.until_printed("ready")
+    started.process.send_signal(signal.SIGWINCH)
+    assert started.process.is_alive
+
+
+def test_pausing_is_reported_not_done(start):
+    notices = []
+    remove = on_notice(lambda process, text: notices.append(text))
+    started = start(lambda: (print("ready"), time.sleep(1000)))
+    started.until_printed("ready")
+    started.process.send_signal(signal.SIGTSTP)
+    remove()
+    assert started.process.is_alive
+    assert len(notices) == 1 and "pause" in notices[0]
+
+
+def test_setting_a_handler_replaces_hooks_as_a_later_sigaction_does(start):
+    seen = []
+
+    def target():
+        current().on_interrupt(lambda signum: seen.append(("early", signum)))
+        signal.signal(signal.SIGINT, lambda *_: seen.append("handler"))
+        current().on_interrupt(lambda signum: seen.append(("late", signum)), [signal.SIGINT])
+        print("ready")
+        signal.pause()
+        print("paused")
+
+    started = start(target)
+    started.until_printed("ready")
+    started.process.terminate()
+    started.process.interrupt()
+    assert started.end() == 0
+    assert seen == [("early", 15), ("late", 2), "handler"]
+
+
+def test_signal_only_in_main_thread(run):
+    def target():
+        def child():
+            try:
+                signal.signal(signal.SIGINT, signal.SIG_IGN)
+            except ValueError as error:
+                print(error)
+
+        thread = threading.Thread(target=child)
+        thread.start()
+        thread.join()
+
+    assert run(target).stdout == "signal only works in main thread of the main interpreter\n"
+
+
+def test_kill_oneself(run):
+    def target():
+        try:
+            os.kill(os.getpid(), signal.SIGINT)
+            print("not reached")
+        except KeyboardInterrupt:
+            print("interrupted")
+        signal.raise_signal(signal.SIGTERM)
+
+    ended = run(target)
+    assert ended.stdout == "interrupted\n"
+    assert ended.process.exit_code == -15
+
+
+def test_kill_a_neighbour_by_its_pid(start):
+    sleeper = start(lambda: (print("ready"), time.sleep(1000)), name="sleeper")
+    sleeper.until_printed("ready")
+    start(lambda: os.kill(sleeper.process.pid, signal.SIGINT), name="killer").end()
+    assert sleeper.end() == -2
+
+
+def test_pid_of_an_ended_process_is_nobody(run):
+    pid = run(lambda: None).process.pid
+    with pytest.raises(ProcessLookupError):
+        os.kill(pid, 0)
+
+
+def test_wakeup_descriptor_gets_the_number(start):
+    read_end, write_end = os.pipe()
+
+    def target():
+        signal.set_wakeup_fd(write_end)
+        signal.signal(signal.SIGUSR2, lambda *_: None)
+        print("ready")
+        signal.pause()
+        signal.set_wakeup_fd(-1)
+
+    started = start(target)
+    started.until_printed("ready")
+    started.process.send_signal(signal.SIGUSR2)
+    assert started.end() == 0
+    assert os.read(read_end, 10) == bytes([signal.SIGUSR2])
+    os.close(read_end)
+    os.close(write_end)
+
+
+def test_asyncio_handles_signals_of_the_node(start):
+    def target():
+        async def main():
+            loop = asyncio.get_running_loop()
+            stopped = asyncio.Event()
+            loop.add_signal_handler(signal.SIGTERM, stopped.set)
+            print("ready")
+            await stopped.wait()
+            print("stopped")
+
+        asyncio.run(main())
+
+    started = start(target)
+    started.until_printed("ready")
+    started.process.terminate()
+    assert started.end() == 0
+    assert started.out[-1] == "stopped\n"
+
+
+@pytest.mark.skipif(sys.version_info < (3, 11), reason="asyncio.run takes the signal itself since 3.11")
+def test_asyncio_run_is_interrupted(start):
+    def target():
+        async def main():
+            print("ready")
+            await asyncio.Event().wait()
+
+        asyncio.run(main())
+
+    started = start(target)
+    started.until_printed("ready")
+    started.process.interrupt()
+    assert started.end() == -2

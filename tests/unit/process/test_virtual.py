@@ -1,0 +1,166 @@
+"""Arguments, environment and operating system calls are the node process's own; all wraps can be taken away."""
+
+from __future__ import annotations
+
+import atexit
+import importlib
+import os
+import queue
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import pytest
+from bot_console.runtime.process import on_notice
+from bot_console.runtime.process.virtual import install_virtual_process, uninstall_virtual_process
+
+OWNERS = (
+    os,
+    sys,
+    threading,
+    threading.Thread,
+    threading.Condition,
+    time,
+    signal,
+    queue,
+    subprocess.Popen,
+    atexit,
+    importlib,
+)
+
+
+def contents():
+    return {owner: dict(vars(owner)) for owner in OWNERS}
+
+
+def test_everything_can_be_taken_away():
+    uninstall_virtual_process()
+    before = contents()
+    install_virtual_process()
+    install_virtual_process()
+    assert contents() != before
+    uninstall_virtual_process()
+    after = contents()
+    for owner in OWNERS:
+        changed = {name for name in before[owner] if after[owner].get(name) is not before[owner][name]}
+        assert changed <= {"__class_getitem__"}, (owner, changed)
+
+
+def test_arguments(run):
+    real = list(sys.argv)
+
+    def target():
+        print(sys.argv)
+        sys.argv = ["changed"]
+        print(sys.argv)
+
+    assert run(target, argv=["node", "--ros-args"]).out == ["['node', '--ros-args']\n", "['changed']\n"]
+    assert sys.argv == real
+
+
+def test_environment_is_a_copy(run, monkeypatch):
+    monkeypatch.setenv("WHEELS", "4")
+    monkeypatch.delenv("DOORS", raising=False)
+
+    def target():
+        print(os.environ["WHEELS"], os.getenv("WHEELS"), os.environ.get("DOORS"), "WHEELS" in os.environ)
+        os.environ["WHEELS"] = "3"
+        os.environ.update(DOORS="2")
+        print(os.getenv("WHEELS"), os.environ.copy()["DOORS"], dict(os.environ)["DOORS"], len(os.environ) > 1)
+        del os.environ["WHEELS"]
+        print("WHEELS" in os.environ, os.environ.pop("WHEELS", "gone"), os.path.expandvars("$DOORS"))
+        merged = os.environ | {"X": "1"}
+        print(merged["X"], type(merged).__name__)
+        subprocess.run([sys.executable, "-c", "import os; print(os.environ.get('DOORS'))"], check=True)
+
+    assert run(target).out == ["4 4 None True\n", "3 2 2 True\n", "False gone 2\n", "1 dict\n", "2\n"]
+    assert os.environ["WHEELS"] == "4"
+    assert "DOORS" not in os.environ
+
+
+def test_environment_given_is_the_whole_environment(run):
+    assert run(lambda: print(dict(os.environ)), env={"ONLY": "this"}).stdout == "{'ONLY': 'this'}\n"
+
+
+def test_environment_takes_only_text(run):
+    assert run(lambda: os.environ.update(X=1)).err[-1] == "TypeError: str expected, not int\n"
+
+
+def test_pid_and_parent(run):
+    ended = run(lambda: print(os.getpid(), os.getppid()))
+    assert ended.stdout == f"{ended.process.pid} {os.getpid()}\n"
+
+
+def abort():
+    os.abort()
+
+
+@pytest.mark.parametrize(
+    ("leave", "code"),
+    [
+        (lambda: os._exit(4), 4),
+        (abort, -6),
+        (lambda: os.execv(sys.executable, [sys.executable, "-c", "exit(9)"]), 9),
+    ],
+)
+def test_leaving_at_once_ends_the_node_alone(run, leave, code):
+    def target():
+        try:
+            leave()
+        finally:
+            print("never seen")
+
+    ended = run(target)
+    assert (ended.process.exit_code, ended.stdout) == (code, "")
+
+
+def test_exit_from_a_child_thread_ends_the_whole_node(start):
+    def target():
+        threading.Thread(target=lambda: os._exit(4)).start()
+        time.sleep(1000)
+
+    assert start(target).end() == 4
+
+
+def test_system_and_working_directory(run, tmp_path):
+    def target():
+        print(os.system("pwd; exit 3") >> 8)
+
+    assert run(target, cwd=str(tmp_path)).out == [f"{tmp_path.resolve()}\n", "3\n"]
+
+
+def test_children_do_not_read_the_keyboard(run):
+    program = "import sys; print(repr(sys.stdin.read()))"
+    assert run(lambda: subprocess.run([sys.executable, "-c", program], check=True)).stdout == "''\n"
+
+
+def test_change_of_directory_is_reported_with_its_line(run):
+    notices = []
+    remove = on_notice(lambda process, text: notices.append(text))
+
+    def target():
+        os.chdir(os.getcwd())
+
+    run(target)
+    remove()
+    assert len(notices) == 1
+    assert f"{__file__}:{target.__code__.co_firstlineno + 1}, in target" in notices[0]
+
+
+def test_a_notice_without_hook_goes_to_the_stderr_of_the_node(run):
+    assert run(lambda: os.chdir(os.getcwd()), name="n").stderr.startswith("[WARN] [n]: os.chdir(")
+
+
+def test_exit_functions_of_libraries_stay_with_the_real_process(run):
+    called = []
+    run(lambda: atexit.register(called.append, 1))
+    atexit.unregister(called.append)
+    assert called == []
+
+
+def test_sleep_refuses_what_it_always_refuses(run):
+    assert "must be non-negative" in run(lambda: time.sleep(-1)).err[-1]
+    assert run(lambda: time.sleep("1")).err[-1].startswith("TypeError")
+    assert run(lambda: time.sleep(0)).process.exit_code == 0
