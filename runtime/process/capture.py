@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import codecs
 import io
-import os
-import threading
 from _thread import RLock
 from collections.abc import Callable
 from typing import Any
 
+from .output_pipe import OutputPipe
+
 Sink = Callable[[str], None]
 """Takes one line with its newline (the last one may lack it), in the thread that wrote it. Must never block."""
-
-PUMP_GRACE_S = 0.5
 
 
 class LineCapture(io.TextIOBase):
@@ -30,7 +28,7 @@ class LineCapture(io.TextIOBase):
         self._sink = sink
         self._partial = ""
         self._lock = RLock()
-        self._pipe: _Pipe | None = None
+        self._pipe: OutputPipe | None = None
 
     def writable(self) -> bool:
         """True."""
@@ -44,13 +42,18 @@ class LineCapture(io.TextIOBase):
         """Take text; every line that it completes goes to the sink. Raises `TypeError` for anything but text."""
         if not isinstance(text, str):
             raise TypeError(f"write() argument must be str, not {type(text).__name__}")
+        if self._pipe is not None:
+            self._pipe.drain()
+        self._take(text)
+        return len(text)
+
+    def _take(self, text: str) -> None:
         with self._lock:
             if self.closed:
-                return len(text)
+                return
             *lines, self._partial = (self._partial + text).split("\n")
             for line in lines:
                 self._sink(line + "\n")
-        return len(text)
 
     def reconfigure(self, **_options: Any) -> None:
         """Accepted and without effect: lines are always handed on at once, as UTF-8."""
@@ -59,7 +62,9 @@ class LineCapture(io.TextIOBase):
         """A descriptor for child processes and C code, whose bytes come out here as lines."""
         with self._lock:
             if self._pipe is None:
-                self._pipe = _Pipe(self)
+                if self.closed:
+                    raise ValueError("I/O operation on closed file")
+                self._pipe = OutputPipe(self._take)
             return self._pipe.write_end
 
     def end(self) -> None:
@@ -123,30 +128,3 @@ class _ByteSide(io.BufferedIOBase):
         count = memoryview(data).nbytes
         self._text.write(self._decode(bytes(data)))
         return count
-
-
-class _Pipe:
-    """A real file descriptor that leads into a capture."""
-
-    def __init__(self, capture: LineCapture) -> None:
-        self._read_end, self.write_end = os.pipe()
-        self._target = _ByteSide(capture)
-        self._pump = threading.Thread(target=self._run, name="output pump", daemon=True)
-        _start_outside(self._pump)
-
-    def _run(self) -> None:
-        with open(self._read_end, "rb", buffering=0) as source:
-            while data := source.read(65536):
-                self._target.write(data)
-
-    def close(self) -> None:
-        """Close our end; what children have written by now still arrives, a child that lives on is not waited for."""
-        os.close(self.write_end)
-        self._pump.join(PUMP_GRACE_S)
-
-
-def _start_outside(thread: threading.Thread) -> None:
-    """Start a thread that belongs to no node process, whoever asks for it."""
-    from .child_threads import start_outside
-
-    start_outside(thread)
