@@ -28,6 +28,9 @@ class CustomBuildHook(BuildHookInterface):
             farm.mkdir(parents=True, exist_ok=True)
             for folder in FOLDERS:
                 link(root / folder, farm / folder)
+            # The type checker's way to the package name that the importer serves.
+            (root / "build" / "types").mkdir(parents=True, exist_ok=True)
+            link(root / "nodes", root / "build" / "types" / "intelligent_robot")
 
 
 def link(target: Path, place: Path) -> None:

@@ -1,0 +1,117 @@
+"""Where to drive when a scan has come: towards the best opening, slower the less room there is ahead."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+Floats: TypeAlias = "npt.NDArray[np.float32]"
+
+HORIZON = 4.0
+"""Metres that count as free in every direction; openings beyond are all alike."""
+BRAKING = 1.5
+"""The deceleration in m/s² that the speed is planned with; less than a robot can do."""
+DIRECTIONS = np.radians(np.arange(-90.0, 91.0, 6.0)).astype(np.float32)
+"""Headings that are compared, in rad from straight ahead."""
+AHEAD = len(DIRECTIONS) // 2
+STEERING = 2.0
+"""Turn rate per rad of angle to the opening, in 1/s."""
+BEND = 0.9
+"""Metres of room that 1 rad of turn must gain to be worth it."""
+HABIT = 0.3
+"""Metres of room that a change of mind by 1 rad must gain."""
+WANDER = 0.55
+"""Rad to the side that the robot favours where nothing decides; without it, it would follow one wall for ever."""
+WANDER_PERIODS = (173.0, 282.0)
+"""Scans after which the favoured side comes back, in two waves that do not fit each other."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rules:
+    """The navigator's parameters as they act here: m/s, m, 0 to 255, rad/s."""
+
+    max_speed: float
+    safety_distance: float
+    detection_threshold: int
+    turn_rate: float
+    enable_safety: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Decision:
+    """A velocity in m/s and rad/s, whether the way is blocked, and the nearest thing seen in m (`inf`: none)."""
+
+    linear: float
+    angular: float
+    blocked: bool
+    nearest: float
+
+
+class Avoidance:
+    """Chooses a velocity for each scan; remembers only which way it is turning."""
+
+    def __init__(self) -> None:
+        self._heading = 0.0
+        self._side = 0.0
+        self._scans = 0
+        self._angles = np.empty(0, np.float32)
+        self._rotation = (np.empty(0, np.float32), np.empty(0, np.float32))
+        self._cos = np.cos(DIRECTIONS)[:, None]
+        self._sin = np.sin(DIRECTIONS)[:, None]
+
+    def decide(self, ranges: Floats, intensities: Floats, first: float, increment: float, rules: Rules) -> Decision:
+        """The velocity for a scan whose beam 0 looks at `first` rad, with `increment` rad between beams."""
+        seen = (ranges > 0.0) & np.isfinite(ranges)
+        if len(intensities) == len(ranges):
+            seen &= intensities >= rules.detection_threshold
+        cos, sin = self._beams(len(ranges), first, increment)
+        depth = ranges[seen]
+        nearest = float(depth.min()) if len(depth) else math.inf
+        room = self._room(depth * cos[seen], depth * sin[seen], rules.safety_distance)
+        return self._steer(room, nearest, rules)
+
+    def _beams(self, count: int, first: float, increment: float) -> tuple[Floats, Floats]:
+        if len(self._angles) != count or (count and abs(float(self._angles[0]) - first) > 1e-6):
+            self._angles = (first + increment * np.arange(count)).astype(np.float32)
+            self._rotation = (np.cos(self._angles), np.sin(self._angles))
+        return self._rotation
+
+    def _room(self, x: Floats, y: Floats, half_width: float) -> Floats:
+        """How far a lane of twice `half_width` is free in each direction, in m."""
+        if not len(x):
+            return np.full(len(DIRECTIONS), HORIZON, np.float32)
+        along = self._cos * x + self._sin * y
+        across = self._cos * y - self._sin * x
+        in_lane = (along > 0.0) & (np.abs(across) < half_width)
+        return np.where(in_lane, along, HORIZON).min(axis=1).clip(max=HORIZON)
+
+    def _steer(self, room: Floats, nearest: float, rules: Rules) -> Decision:
+        self._scans += 1
+        score = room - BEND * np.abs(DIRECTIONS - self._whim()) - HABIT * np.abs(DIRECTIONS - self._heading)
+        best = int(score.argmax())
+        self._heading = float(DIRECTIONS[best])
+        ahead = float(room[AHEAD])
+        if rules.enable_safety and ahead <= rules.safety_distance:
+            return Decision(0.0, self._turn_in_place(room) * rules.turn_rate, True, nearest)
+        self._side = 0.0
+        angular = max(-rules.turn_rate, min(rules.turn_rate, STEERING * self._heading))
+        linear = rules.max_speed
+        if rules.enable_safety:
+            spare = ahead - rules.safety_distance
+            linear = min(linear, math.sqrt(2.0 * BRAKING * spare)) * max(0.2, math.cos(self._heading))
+        return Decision(linear, angular, False, nearest)
+
+    def _whim(self) -> float:
+        """The heading in rad that is favoured now."""
+        return 0.5 * WANDER * sum(math.sin(math.tau * self._scans / period) for period in WANDER_PERIODS)
+
+    def _turn_in_place(self, room: Floats) -> float:
+        """+1 (left) or -1, kept until the way is free: changing sides in a corner would never end."""
+        if self._side == 0.0:
+            left, right = float(room[AHEAD:].sum()), float(room[: AHEAD + 1].sum())
+            self._side = 1.0 if left >= right else -1.0
+        return self._side

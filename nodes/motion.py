@@ -1,0 +1,101 @@
+"""Velocity control with gains: smooth speed changes, and driving to waypoints."""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+REACHED = 0.35
+"""Metres from a waypoint within which it counts as reached."""
+CRUISE = 0.5
+"""The speed in m/s towards a waypoint when nobody says how fast the way allows."""
+DETOUR = 2.0
+"""Seconds for which an obstacle's way round it is kept, before the waypoint is aimed at again."""
+CREEP = 0.05
+"""An allowed speed in m/s below which the way is blocked."""
+
+
+@dataclass(frozen=True, slots=True)
+class Gains:
+    """Proportional gains in 1/s, and the largest acceleration in m/s²."""
+
+    kp_linear: float
+    kp_angular: float
+    max_acceleration: float
+
+
+class VelocityController:
+    """Leads the velocity towards the asked one; slowing down is never held back."""
+
+    def __init__(self) -> None:
+        self.linear = 0.0
+        self.angular = 0.0
+
+    def step(self, linear: float, angular: float, dt: float, gains: Gains) -> tuple[float, float]:
+        """The velocity (m/s, rad/s) to command after `dt` s of going for the asked one."""
+        if abs(linear) <= abs(self.linear) and linear * self.linear >= 0.0:
+            self.linear = linear
+        else:
+            change = gains.kp_linear * (linear - self.linear)
+            change = max(-gains.max_acceleration, min(gains.max_acceleration, change))
+            self.linear += change * dt
+        self.angular += (angular - self.angular) * min(1.0, gains.kp_angular * dt)
+        return self.linear, self.angular
+
+    def reset(self) -> None:
+        """Forget the velocity: somebody else has stopped the robot."""
+        self.linear = self.angular = 0.0
+
+
+class WaypointFollower:
+    """Aims at one waypoint after the other; an obstacle's way round it has precedence."""
+
+    def __init__(self) -> None:
+        self._points: deque[tuple[float, float]] = deque()
+        self._loop = False
+        self._detour = 0.0
+
+    def follow(self, points: Iterable[tuple[float, float]], loop: bool = False) -> None:
+        """Drive to these points (m) in order, over and over when `loop`; none stops following."""
+        self._points = deque(points)
+        self._loop = loop
+        self._detour = 0.0
+
+    @property
+    def target(self) -> tuple[float, float] | None:
+        """The waypoint aimed at; None when there is none."""
+        return self._points[0] if self._points else None
+
+    def arrived(self, x: float, y: float) -> bool:
+        """Whether the target is reached from here; then the next one is aimed at."""
+        if not self._points or math.dist((x, y), self._points[0]) > REACHED:
+            return False
+        point = self._points.popleft()
+        if self._loop:
+            self._points.append(point)
+        return True
+
+    def steer(
+        self,
+        pose: tuple[float, float, float],
+        allowed: tuple[float, float] | None,
+        dt: float,
+        gains: Gains,
+    ) -> tuple[float, float]:
+        """The velocity towards the target from x, y (m), heading (rad).
+
+        `allowed` is what the navigator would do: no faster than it, and where it is blocked its way is taken.
+        """
+        self._detour = max(0.0, self._detour - dt)
+        if allowed and allowed[0] < CREEP:
+            self._detour = DETOUR
+        if allowed and self._detour > 0.0:
+            return allowed
+        assert self._points
+        dx, dy = self._points[0][0] - pose[0], self._points[0][1] - pose[1]
+        error = math.remainder(math.atan2(dy, dx) - pose[2], 2 * math.pi)
+        speed = gains.kp_linear * math.hypot(dx, dy) * max(0.0, math.cos(error))
+        fastest = allowed[0] if allowed else CRUISE
+        return min(speed, fastest), gains.kp_angular * error

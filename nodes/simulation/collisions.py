@@ -1,0 +1,43 @@
+"""Collisions as events: one touch is one event, however long the robot scrapes along."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+TOUCH = 0.003
+"""A gap in m below which the robot touches; pymunk lets bodies sink into one another by about 1 mm."""
+PAUSE = 0.5
+"""Seconds without a touch after which the next touch is a new collision."""
+
+
+@dataclass(frozen=True, slots=True)
+class Collision:
+    """A touch that began at `time` (s), at `speed` (m/s), against a kind of thing (`wall`, `obstacle` ...)."""
+
+    time: float
+    x: float
+    y: float
+    speed: float
+    what: str
+
+
+class CollisionLog:
+    """Finds collisions in the stream of gaps and keeps their count and the last one."""
+
+    def __init__(self) -> None:
+        self.count = 0
+        self.last: Collision | None = None
+        self.touching = False
+        self._last_touch = -PAUSE
+
+    def update(self, time: float, gap: float, x: float, y: float, speed: float, what: str) -> bool:
+        """Take the gap in m at a time in s; whether a new collision began."""
+        self.touching = gap < TOUCH
+        if not self.touching:
+            return False
+        began = time - self._last_touch >= PAUSE
+        self._last_touch = time
+        if began:
+            self.count += 1
+            self.last = Collision(time, x, y, speed, what)
+        return began

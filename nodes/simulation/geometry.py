@@ -1,0 +1,108 @@
+"""The shapes a world is made of, in metres and radians, seen from above."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TypeAlias
+
+Point: TypeAlias = "tuple[float, float]"
+
+CORNER_STEP = math.radians(22.5)
+"""The bend between two pieces of a rounded corner."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pose:
+    """A pose in the plane: x and y in m, heading in rad counter-clockwise from +x."""
+
+    x: float = 0.0
+    y: float = 0.0
+    heading: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Wall:
+    """A thin wall along a line of points; `reflectivity` is the share of light that a LIDAR gets back, 0 to 1."""
+
+    points: tuple[Point, ...]
+    reflectivity: float = 0.9
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """A solid body with a convex outline, counter-clockwise."""
+
+    points: tuple[Point, ...]
+    reflectivity: float = 0.9
+
+
+@dataclass(frozen=True, slots=True)
+class Disc:
+    """A round solid body."""
+
+    x: float
+    y: float
+    radius: float
+    reflectivity: float = 0.9
+
+
+@dataclass(frozen=True, slots=True)
+class Mover:
+    """A round obstacle that drives along `route` in a circle, or to random places in `area` (x0, y0, x1, y1).
+
+    It comes no nearer than `keep_off` m to the robot's hull, and turns back when the robot does not move on.
+    """
+
+    radius: float
+    speed: float
+    route: tuple[Point, ...] = ()
+    area: tuple[float, float, float, float] | None = None
+    keep_off: float = 0.35
+    reflectivity: float = 0.9
+
+
+def rectangle(x: float, y: float, width: float, height: float, angle: float = 0.0) -> tuple[Point, ...]:
+    """The corners of a box around its centre, turned by `angle` (rad), counter-clockwise."""
+    cos, sin = math.cos(angle), math.sin(angle)
+    half = ((-width / 2, -height / 2), (width / 2, -height / 2), (width / 2, height / 2), (-width / 2, height / 2))
+    return tuple((x + dx * cos - dy * sin, y + dx * sin + dy * cos) for dx, dy in half)
+
+
+def rounded_rectangle(width: float, height: float, radius: float) -> tuple[Point, ...]:
+    """The outline of a `width` by `height` rectangle from the origin, its corners rounded, counter-clockwise."""
+    if radius <= 0.0:
+        return ((0.0, 0.0), (width, 0.0), (width, height), (0.0, height))
+    centres = (
+        (radius, radius, math.pi),
+        (width - radius, radius, 1.5 * math.pi),
+        (width - radius, height - radius, 0.0),
+        (radius, height - radius, 0.5 * math.pi),
+    )
+    pieces = round(0.5 * math.pi / CORNER_STEP)
+    return tuple(
+        (x + radius * math.cos(start + i * CORNER_STEP), y + radius * math.sin(start + i * CORNER_STEP))
+        for x, y, start in centres
+        for i in range(pieces + 1)
+    )
+
+
+def signed_area(points: tuple[Point, ...]) -> float:
+    """The area inside an outline in m², negative when it runs clockwise."""
+    pairs = zip(points, points[1:] + points[:1], strict=True)
+    return 0.5 * sum(ax * by - bx * ay for (ax, ay), (bx, by) in pairs)
+
+
+def is_convex(points: tuple[Point, ...]) -> bool:
+    """Whether a counter-clockwise outline never bends inwards."""
+    count = len(points)
+    for i in range(count):
+        (ax, ay), (bx, by), (cx, cy) = points[i], points[(i + 1) % count], points[(i + 2) % count]
+        if (bx - ax) * (cy - by) - (by - ay) * (cx - bx) < -1e-12:
+            return False
+    return True
+
+
+def closed(points: tuple[Point, ...]) -> tuple[Point, ...]:
+    """The outline with its first point once more at the end."""
+    return (*points, points[0])

@@ -1,0 +1,79 @@
+"""Figures about a run, from the true poses: how far, how fast, how near, how often it stood."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import struct
+
+MOVING = 0.05
+"""A speed in m/s from which the robot drives."""
+STANDING = 0.02
+"""A speed in m/s below which it stands; turning in place is standing."""
+
+_POSE = struct.Struct("<3d")
+
+
+class Metrics:
+    """Sums over a run in constant steps of `dt` s."""
+
+    def __init__(self, dt: float) -> None:
+        self._dt = dt
+        self._digest = hashlib.blake2b(digest_size=16)
+        self._driving = False
+        self._standing_since = 0
+        self.steps = 0
+        self.distance = 0.0
+        self.min_clearance = math.inf
+        self.stops = 0
+        self._longest = 0
+
+    def update(self, x: float, y: float, heading: float, speed: float, clearance: float) -> None:
+        """Take the true state after a step: m, m, rad, m/s, and m from the hull to the nearest thing."""
+        self.steps += 1
+        self._digest.update(_POSE.pack(x, y, heading))
+        speed = abs(speed)
+        self.distance += speed * self._dt
+        self.min_clearance = min(self.min_clearance, clearance)
+        if self._driving and speed < STANDING:
+            self._driving = False
+            self.stops += 1
+        elif not self._driving and speed > MOVING:
+            self._driving = True
+        if speed >= STANDING:
+            self._standing_since = self.steps
+        else:
+            self._longest = max(self._longest, self.steps - self._standing_since)
+
+    @property
+    def duration(self) -> float:
+        """Simulated s so far."""
+        return self.steps * self._dt
+
+    @property
+    def mean_speed(self) -> float:
+        """Way over time in m/s."""
+        return self.distance / self.duration if self.steps else 0.0
+
+    @property
+    def longest_standstill(self) -> float:
+        """The longest time in s without driving."""
+        return self._longest * self._dt
+
+    @property
+    def digest(self) -> str:
+        """A hash of every pose of the run, bit by bit."""
+        return self._digest.hexdigest()
+
+    def report(self) -> dict[str, float | int | str | None]:
+        """The figures by name, ready for JSON; `min_clearance` is None while nothing was near."""
+        near = self.min_clearance
+        return {
+            "duration": round(self.duration, 6),
+            "distance": round(self.distance, 6),
+            "mean_speed": round(self.mean_speed, 6),
+            "min_clearance": round(near, 6) if math.isfinite(near) else None,
+            "stops": self.stops,
+            "longest_standstill": round(self.longest_standstill, 6),
+            "digest": self.digest,
+        }

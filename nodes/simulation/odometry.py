@@ -1,0 +1,40 @@
+"""What the wheels say about where the robot is: the way they turned, with an error that grows with the way."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from intelligent_robot.simulation.geometry import Pose
+
+
+@dataclass(frozen=True, slots=True)
+class OdometryNoise:
+    """Standard deviations after 1 m of way (m) and after 1 rad of turn (rad); they grow with the square root."""
+
+    distance: float = 0.01
+    heading: float = 0.02
+
+
+class Odometry:
+    """A pose summed up from noisy wheel turns; it drifts away from the truth for good."""
+
+    def __init__(self, pose: Pose, noise: OdometryNoise, rng: np.random.Generator) -> None:
+        self.pose = pose
+        self.noise = noise
+        self._rng = rng
+
+    def advance(self, way: float, turn: float) -> None:
+        """Add a forward way in m and a turn in rad, driven as an arc."""
+        if way == 0.0 and turn == 0.0:
+            return
+        error = self._rng.standard_normal(2)
+        way += self.noise.distance * math.sqrt(abs(way)) * float(error[0])
+        turn += self.noise.heading * math.sqrt(abs(turn)) * float(error[1])
+        middle = self.pose.heading + 0.5 * turn
+        self.pose = Pose(
+            self.pose.x + way * math.cos(middle),
+            self.pose.y + way * math.sin(middle),
+            math.remainder(self.pose.heading + turn, 2 * math.pi),
+        )

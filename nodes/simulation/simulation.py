@@ -1,0 +1,135 @@
+"""The robot in its world: commands in, time in constant steps, scans and poses out."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from intelligent_robot.simulation.arrays import Floats, table
+from intelligent_robot.simulation.collisions import CollisionLog
+from intelligent_robot.simulation.geometry import Pose
+from intelligent_robot.simulation.lidar import Lidar, LidarSettings, Scan, Surfaces
+from intelligent_robot.simulation.metrics import Metrics
+from intelligent_robot.simulation.moving import MovingObstacle
+from intelligent_robot.simulation.odometry import Odometry, OdometryNoise
+from intelligent_robot.simulation.robot import DifferentialDrive, DriveLimits
+from intelligent_robot.simulation.space import Space
+from intelligent_robot.simulation.world import World, WorldError, inside, populated
+
+STEP = 0.01
+"""The constant physics step in s. Elapsed wall time decides at most how many steps are made, never how long one is."""
+STEP_NS = 10_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """Everything about the robot that is not the world."""
+
+    limits: DriveLimits = field(default_factory=DriveLimits)
+    lidar: LidarSettings = field(default_factory=LidarSettings)
+    noise: OdometryNoise = field(default_factory=OdometryNoise)
+
+
+class Simulation:
+    """One run from a seed; the same seed, world, settings and commands give the same run, bit by bit.
+
+    Raises `WorldError` when the robot does not fit at the start.
+    """
+
+    def __init__(self, world: World, seed: int, settings: Settings | None = None) -> None:
+        settings = settings or Settings()
+        self.seed = seed
+        self._rng = np.random.default_rng(seed)
+        self.world = populated(world, self._rng)
+        self._movers = [MovingObstacle(each, self._rng) for each in self.world.movers]
+        self._mover_shine = np.array([each.reflectivity for each in self.world.movers], np.float64)
+        self._surfaces = Surfaces(self.world)
+        self.pose = self.world.start
+        self._space = Space(self.world, self._movers, self.pose, settings.limits.radius)
+        gap, what = self._space.nearest(self.pose.x, self.pose.y)
+        if gap <= 0.0:
+            raise WorldError(f"{world.name}: the robot does not fit at the start, a {what} is in its way")
+        self.drive = DifferentialDrive(settings.limits)
+        self.odometry = Odometry(self.pose, settings.noise, self._rng)
+        self.lidar = Lidar(settings.lidar, self._surfaces)
+        self.collisions = CollisionLog()
+        self.metrics = Metrics(STEP)
+        self.steps = 0
+        self.clearance = gap
+        self.speed = 0.0
+        self.turn_rate = 0.0
+
+    @property
+    def time_ns(self) -> int:
+        """Simulated time since the start in ns."""
+        return self.steps * STEP_NS
+
+    def configure(self, settings: Settings) -> None:
+        """Use other limits, noise or LIDAR from now on; the hull keeps its radius until the next run."""
+        radius = self.drive.limits.radius
+        self.drive.limits = replace(settings.limits, radius=radius)
+        self.odometry.noise = settings.noise
+        if settings.lidar != self.lidar.settings:
+            self.lidar = Lidar(settings.lidar, self._surfaces)
+
+    def command(self, linear: float, angular: float) -> None:
+        """Ask for a velocity in m/s and rad/s; raises `ValueError` for NaN and infinity."""
+        if not (math.isfinite(linear) and math.isfinite(angular)):
+            raise ValueError("a velocity must be a finite number")
+        self.drive.command(linear, angular)
+
+    def step(self) -> bool:
+        """Let 10 ms pass; whether a collision began."""
+        pose, drive, space = self.pose, self.drive, self._space
+        for mover in self._movers:
+            mover.advance(STEP, (pose.x, pose.y), drive.limits.radius)
+        drive.advance(STEP)
+        space.step(STEP, drive.linear, drive.angular)
+        self.steps += 1
+        self.odometry.advance(drive.linear * STEP, drive.angular * STEP)
+        x, y = space.body.position
+        heading = math.remainder(space.body.angle, 2 * math.pi)
+        middle = pose.heading + 0.5 * math.remainder(heading - pose.heading, 2 * math.pi)
+        self.speed = ((x - pose.x) * math.cos(middle) + (y - pose.y) * math.sin(middle)) / STEP
+        self.turn_rate = math.remainder(heading - pose.heading, 2 * math.pi) / STEP
+        self.pose = Pose(x, y, heading)
+        gap, what = space.nearest(x, y)
+        self.clearance = max(0.0, gap)
+        self.metrics.update(x, y, heading, self.speed, self.clearance)
+        return self.collisions.update(self.steps * STEP, gap, x, y, self.speed, what)
+
+    def scan(self) -> Scan:
+        """What the LIDAR reports now."""
+        return self.lidar.scan(self.pose, self.moving(), self._mover_shine, self._rng)
+
+    def moving(self) -> Floats:
+        """The moving obstacles now, one row x, y, radius (m) each."""
+        return table([(each.x, each.y, each.mover.radius) for each in self._movers], 3)
+
+    def true_range(self, angle: float, reach: float) -> float:
+        """The distance in m to the first thing in a direction of the map (rad), found by pymunk."""
+        return self._space.distance_ahead(self.pose.x, self.pose.y, angle, reach)
+
+    def gap_at(self, x: float, y: float) -> float:
+        """The room in m around a robot that would stand at a place; negative when it does not fit."""
+        return self._space.nearest(x, y)[0] if inside(self.world.boundary, x, y) else -math.inf
+
+    def place(self, pose: Pose) -> None:
+        """Put the robot somewhere at rest; odometry follows. Raises `ValueError` when it does not fit there."""
+        if self.gap_at(pose.x, pose.y) <= 0.0:
+            raise ValueError(f"the robot does not fit at x = {pose.x:.2f} m, y = {pose.y:.2f} m")
+        self._space.place(pose)
+        self.pose = pose
+        self.odometry.pose = pose
+        self.drive.linear = self.drive.angular = 0.0
+        self.drive.command(0.0, 0.0)
+
+    def report(self) -> dict[str, float | int | str | None]:
+        """The figures of the run so far, ready for JSON."""
+        return {
+            "world": self.world.name,
+            "seed": self.seed,
+            **self.metrics.report(),
+            "collisions": self.collisions.count,
+        }

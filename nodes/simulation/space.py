@@ -1,0 +1,88 @@
+"""A world as a pymunk space: what stands still, what moves by itself, and the robot's body."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import pymunk
+from intelligent_robot.simulation.geometry import Disc, Pose, closed
+from intelligent_robot.simulation.moving import MovingObstacle
+from intelligent_robot.simulation.world import World
+
+OBSTACLE = pymunk.ShapeFilter(categories=0b01)
+ROBOT = pymunk.ShapeFilter(categories=0b10)
+OBSTACLES_ONLY = pymunk.ShapeFilter(mask=0b01)
+FAR = 5.0
+"""Distances in m beyond which nothing is looked for."""
+MASS = 10.0
+SLOP = 0.001
+
+
+class Space:
+    """The physics of one world with a round robot in it; the caller sets its velocity before each step."""
+
+    def __init__(self, world: World, movers: list[MovingObstacle], pose: Pose, radius: float) -> None:
+        self._space = pymunk.Space()
+        self._space.collision_slop = SLOP
+        self._kinds: dict[pymunk.Shape, str] = {}
+        self._radius = radius
+        self._add_still(world)
+        for mover in movers:
+            self._add(pymunk.Circle(mover.body, mover.mover.radius), "moving obstacle", mover.body)
+        self.body = pymunk.Body(MASS, pymunk.moment_for_circle(MASS, 0, radius))
+        hull = pymunk.Circle(self.body, radius)
+        hull.filter = ROBOT
+        self._space.add(self.body, hull)
+        self.place(pose)
+
+    def _add_still(self, world: World) -> None:
+        still = self._space.static_body
+        lines = [("boundary", closed(world.boundary))] + [("wall", wall.points) for wall in world.walls]
+        for kind, points in lines:
+            for a, b in itertools.pairwise(points):
+                self._add(pymunk.Segment(still, a, b, 0.0), kind)
+        for block in world.blocks:
+            self._add(pymunk.Poly(still, list(block.points)), "obstacle")
+        for disc in world.discs:
+            self._add(_circle(still, disc), "obstacle")
+
+    def _add(self, shape: pymunk.Shape, kind: str, body: pymunk.Body | None = None) -> None:
+        shape.filter = OBSTACLE
+        self._kinds[shape] = kind
+        self._space.add(*((body, shape) if body else (shape,)))
+
+    def place(self, pose: Pose) -> None:
+        """Put the robot somewhere, at rest."""
+        self.body.position, self.body.angle = (pose.x, pose.y), pose.heading
+        self.body.velocity, self.body.angular_velocity = (0.0, 0.0), 0.0
+        self._space.reindex_shapes_for_body(self.body)
+
+    def step(self, dt: float, linear: float, angular: float) -> None:
+        """Let `dt` s pass with the robot's wheels driving at m/s and rad/s; walls hold it back."""
+        body = self.body
+        # A step moves bodies first and resolves contacts after, so a velocity set here would pass through walls.
+        # As a force it is resolved against them; the heading is that of the middle of the move it leads to.
+        heading = body.angle + (body.angular_velocity + 0.5 * angular) * dt
+        vx, vy = body.velocity
+        push = body.mass / dt
+        body.force = ((linear * math.cos(heading) - vx) * push, (linear * math.sin(heading) - vy) * push)
+        body.torque = (angular - body.angular_velocity) * body.moment / dt
+        self._space.step(dt)
+
+    def nearest(self, x: float, y: float) -> tuple[float, str]:
+        """The gap in m between a robot standing there and the nearest thing, negative within it, and its kind."""
+        found = self._space.point_query_nearest((x, y), FAR, OBSTACLES_ONLY)
+        if found is None:
+            return math.inf, ""
+        return found.distance - self._radius, self._kinds[found.shape]
+
+    def distance_ahead(self, x: float, y: float, angle: float, reach: float) -> float:
+        """The distance in m to the first surface in a direction, one beam at a time; `inf` beyond `reach`."""
+        end = (x + reach * math.cos(angle), y + reach * math.sin(angle))
+        found = self._space.segment_query_first((x, y), end, 0.0, OBSTACLES_ONLY)
+        return math.inf if found is None else found.alpha * reach
+
+
+def _circle(body: pymunk.Body, disc: Disc) -> pymunk.Circle:
+    return pymunk.Circle(body, disc.radius, (disc.x, disc.y))
