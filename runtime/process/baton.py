@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from .thread_state import ThreadState
 
 LAST = 1 << 60
-"""The rank of a driver's wait for the end of a run: after everything else that happens at that time."""
+"""The driver's rank: it sees everything that happens at the time until which it waits."""
 POLL_NS = 20_000
 """What a wait costs that would not block (ns), so that a loop of polls does not stand still in time."""
 INSTANT_WAITS = 50_000
@@ -33,7 +33,6 @@ class Seat:
         "detached",
         "due",
         "in_heap",
-        "is_driver",
         "is_outside",
         "lock",
         "rank",
@@ -50,12 +49,11 @@ class Seat:
         self.lock = allocate_lock()
         self.lock.acquire()
         self.wakeup: SteppedWakeup | None = None
-        self.due: tuple[int, int] | None = None
-        self.in_heap: tuple[int, int] | None = None
+        self.due: int | None = None
+        self.in_heap: int | None = None
         self.waiting = False
         self.woken = False
         self.detached = False
-        self.is_driver = False
         self.is_outside = False
 
     def take(self) -> None:
@@ -74,11 +72,11 @@ class Seat:
         """Hand the baton on until woken or due (ns); whether woken. Raises what is to be raised in this thread."""
         state = self.state
         if state is None:
-            return self.baton.wait(self, wakeup, deadline, self.rank)
+            return self.baton.wait(self, wakeup, deadline)
         while True:
             try:
                 state.begin_wait(self.rouse)
-                woken = self.baton.wait(self, wakeup, deadline, self.rank)
+                woken = self.baton.wait(self, wakeup, deadline)
             finally:
                 state.end_wait()
             if state.called:
@@ -104,23 +102,17 @@ class Baton:
 
     def driver_seat(self) -> Seat:
         """The seat of a thread that has the baton from the start and may keep it as long as it likes."""
-        seat = self._new_seat(None)
-        seat.is_driver = True
-        self.holder = seat
+        self.holder = seat = self.seats[LAST] = Seat(self, LAST, None)
         return seat
 
     def seat(self, state: ThreadState | None) -> Seat:
         """A seat for a new thread, which is ready to run."""
         with self._guard:
-            seat = self._new_seat(state)
+            self._next_rank += 1
+            seat = self.seats[self._next_rank] = Seat(self, self._next_rank, state)
             self._ready.append(seat)
             if self.holder is None:
                 self._grant_next()
-        return seat
-
-    def _new_seat(self, state: ThreadState | None) -> Seat:
-        self._next_rank += 1
-        seat = self.seats[self._next_rank] = Seat(self, self._next_rank, state)
         return seat
 
     def leave(self, seat: Seat) -> None:
@@ -133,7 +125,7 @@ class Baton:
                 with suppress(ValueError):
                     self._ready.remove(seat)
 
-    def wait(self, seat: Seat, wakeup: SteppedWakeup | None, deadline: int | None, rank: int) -> bool:
+    def wait(self, seat: Seat, wakeup: SteppedWakeup | None, deadline: int | None) -> bool:
         """Hand the baton on; True when the wakeup is set, False when due or roused."""
         with self._guard:
             self.turns += 1
@@ -145,7 +137,7 @@ class Baton:
                     return True
                 self._ready.append(seat)
             else:
-                self._enlist(seat, wakeup, deadline, rank)
+                self._enlist(seat, wakeup, deadline)
             if not self._hand_on(seat):
                 return self._withdraw(seat, wakeup)
         self._await_turn(seat)
@@ -159,7 +151,7 @@ class Baton:
             self._next_rank += 1
             seat = Seat(self, self._next_rank, None)
             seat.is_outside = True
-            self._enlist(seat, wakeup, deadline, seat.rank)
+            self._enlist(seat, wakeup, deadline)
             if self.holder is None:
                 self._grant_next()
         try:
@@ -196,7 +188,7 @@ class Baton:
             self._grant_next()
             return True
 
-    def _enlist(self, seat: Seat, wakeup: SteppedWakeup | None, deadline: int | None, rank: int) -> None:
+    def _enlist(self, seat: Seat, wakeup: SteppedWakeup | None, deadline: int | None) -> None:
         seat.waiting = True
         seat.woken = False
         seat.wakeup = wakeup
@@ -205,12 +197,12 @@ class Baton:
         if deadline is None:
             seat.due = None
         else:
-            if deadline <= self.now and rank != LAST:
+            if deadline <= self.now and wakeup is not None:
                 deadline = self.now + POLL_NS
-            seat.due = due = (deadline, rank)
-            if due != seat.in_heap:
-                seat.in_heap = due
-                heappush(self._timers, (deadline, rank, seat))
+            seat.due = deadline
+            if deadline != seat.in_heap:
+                seat.in_heap = deadline
+                heappush(self._timers, (deadline, seat.rank, seat))
         if seat.state is not None and seat.state.called:
             self._make_ready(seat)
 
@@ -239,7 +231,7 @@ class Baton:
         ready, timers = self._ready, self._timers
         while timers and (not ready or timers[0][0] <= self.now):
             deadline, rank, seat = timers[0]
-            if seat.waiting and seat.due == (deadline, rank):
+            if seat.waiting and seat.due == deadline:
                 if rank == LAST and ready and deadline == self.now:
                     break
                 if deadline > self.now:
@@ -247,7 +239,7 @@ class Baton:
                     self.reads = self._instant_waits = 0
                 self._make_ready(seat)
             heappop(timers)
-            if seat.in_heap == (deadline, rank):
+            if seat.in_heap == deadline:
                 seat.in_heap = None
         return ready.popleft() if ready else None
 
@@ -272,12 +264,12 @@ class Baton:
         return True
 
     def _drop_stale_timers(self) -> None:
-        live = {entry for entry in self._timers if entry[2].waiting and entry[2].due == entry[:2]}
+        live = {entry for entry in self._timers if entry[2].waiting and entry[2].due == entry[0]}
         for _deadline, _rank, seat in self._timers:
             seat.in_heap = None
         self._timers[:] = live
-        for deadline, rank, seat in self._timers:
-            seat.in_heap = (deadline, rank)
+        for deadline, _rank, seat in self._timers:
+            seat.in_heap = deadline
         heapify(self._timers)
 
     def _await_turn(self, seat: Seat) -> None:

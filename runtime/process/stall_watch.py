@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from . import real
+from .baton import LAST
 
 if TYPE_CHECKING:
     from .baton import Baton, Seat
@@ -38,12 +39,12 @@ class StallWatch:
             seat, turns = self._baton.holder, self._baton.turns
             looks = looks + 1 if turns == seen else 0
             seen = turns
-            if looks >= LOOKS_PER_STALL and seat is not None and not seat.is_driver:
+            if looks >= LOOKS_PER_STALL and seat is not None and seat.rank != LAST:
                 looks = 0
                 if self._baton.detach(seat, turns):
                     self._report(seat)
 
     def _go_on(self) -> bool:
         with self._guard:
-            self._running = any(not seat.is_driver for seat in tuple(self._baton.seats.values()))
+            self._running = any(rank != LAST for rank in tuple(self._baton.seats))
             return self._running

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from . import frames
-from .baton import LAST, Baton, Seat
+from .baton import Baton, Seat
 from .current import MAIN
 from .notices import notify
 from .one_cpu import pin_thread
@@ -79,7 +79,7 @@ class SteppedTime:
         seat = local.seat
         if seat is None or seat.baton is not self._baton:
             raise RuntimeError("this thread takes no part in the stepped run: see SteppedTime.participate")
-        self._baton.wait(seat, None, steady_ns, LAST)
+        self._baton.wait(seat, None, steady_ns)
 
     def run_for(self, seconds: float) -> None:
         """Run everything that happens in the next `seconds` s of virtual time."""

@@ -46,11 +46,11 @@ class _Waiter:
 def condition_wait(condition: Any, timeout: float | None = None) -> bool:
     """`threading.Condition.wait` on the clock of the calling thread's node process."""
     clock = local.waits_on
-    if clock is None:
+    if clock is None or (timeout is not None and timeout <= 0):  # what does not block needs no turn
         return _condition_wait(condition, timeout)
     if not condition._is_owned():
         raise RuntimeError("cannot wait on un-acquired lock")
-    deadline = None if timeout is None else clock.steady_ns() + int(max(timeout, 0.0) * 1e9)
+    deadline = None if timeout is None else clock.steady_ns() + int(timeout * 1e9)
     waiter = _Waiter(clock.wakeup())
     condition._waiters.append(waiter)
     saved = condition._release_save()
