@@ -17,6 +17,7 @@ from importlib.machinery import FileFinder, ModuleSpec, PathFinder
 from types import ModuleType
 from typing import Any
 
+from .module_table import ModuleTable
 from .thread_state import local
 
 _import_module = importlib.import_module
@@ -42,6 +43,7 @@ class FreshModules:
         self._packages = frozenset(packages)
         self._shared = shared
         self._modules: dict[str, ModuleType] = {}
+        self.table = ModuleTable(self._modules)
         self._tops: dict[str, ModuleSpec | None] = {}
         self._searched: list[str] = []
         self._lock = RLock()
@@ -59,12 +61,11 @@ class FreshModules:
             module = self._modules.get(name)
             return self._execute(name) if module is None else module
 
-    def new_main(self, filename: str) -> ModuleType:
+    def new_main(self) -> ModuleType:
         """An empty `__main__` whose imports are the process's own."""
-        module = ModuleType("__main__")
-        vars(module).update(__file__=filename, __builtins__=self.builtins, __cached__=None)
-        self._modules["__main__"] = module
-        return module
+        main = self._modules["__main__"] = ModuleType("__main__")
+        vars(main)["__builtins__"] = self.builtins
+        return main
 
     def _top_spec(self, top: str) -> ModuleSpec | None:
         added = [folder for folder in sys.path if folder not in self._base_path]
@@ -86,6 +87,7 @@ class FreshModules:
 
     def _execute(self, name: str) -> ModuleType:
         parent_name, _, child = name.rpartition(".")
+        parent: ModuleType | None = None
         if not parent_name:
             spec = self._top_spec(name)
         else:
@@ -97,22 +99,21 @@ class FreshModules:
             spec = _find_spec(name, parent.__path__)
         if spec is None:
             raise ModuleNotFoundError(f"No module named {name!r}", name=name)
-        module = self._run(spec)
-        if parent_name:
-            setattr(self._modules[parent_name], child, module)
-        return module
+        return self._run(spec, parent, child)
 
-    def _run(self, spec: ModuleSpec) -> ModuleType:
+    def _run(self, spec: ModuleSpec, parent: ModuleType | None, child: str) -> ModuleType:
         module = importlib.util.module_from_spec(spec)
         vars(module)["__builtins__"] = self.builtins
         self._modules[spec.name] = module
-        sys.modules[spec.name] = module  # the newest copy, for those who look a class's module up by name
+        if parent is not None:
+            setattr(parent, child, module)  # before it runs: in a circle of imports the interpreter looks here first
         try:
             if spec.loader is not None:
                 spec.loader.exec_module(module)
         except BaseException:
             self._modules.pop(spec.name, None)
-            sys.modules.pop(spec.name, None)
+            if parent is not None and vars(parent).get(child) is module:
+                delattr(parent, child)
             raise
         return self._modules[spec.name]
 

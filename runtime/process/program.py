@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 import sys
 from collections.abc import Callable
+from types import ModuleType
 from typing import Any
 
 from .fresh_import import FreshModules
@@ -37,19 +39,22 @@ class _FileProgram:
         self._modules = modules
 
     def __call__(self) -> None:
-        try:
-            with open(self._path, "rb") as source_file:
-                source = source_file.read()
-        except OSError as error:
-            print(f"python3: can't open file {self._path!r}: [Errno {error.errno}] {error.strerror}", file=sys.stderr)
-            sys.exit(2)
+        source = self._read()
         folder = os.path.dirname(os.path.abspath(self._path))
         modules = _adopt(self._modules or FreshModules([folder]))
         sys.path.insert(0, folder)
-        main = modules.new_main(self._path)
-        if local.process.main_state is None:
-            sys.modules["__main__"] = main  # the real process has no other main program
+        main = ModuleType("__main__") if modules is None else modules.new_main()
+        vars(main).update(__file__=self._path, __cached__=None)
+        sys.modules["__main__"] = main
         exec(compile(source, self._path, "exec", dont_inherit=True), vars(main))
+
+    def _read(self) -> bytes:
+        try:
+            with open(self._path, "rb") as source_file:
+                return source_file.read()
+        except OSError as error:
+            print(f"python3: can't open file {self._path!r}: [Errno {error.errno}] {error.strerror}", file=sys.stderr)
+            sys.exit(2)
 
 
 class _EntryPoint:
@@ -60,12 +65,16 @@ class _EntryPoint:
 
     def __call__(self) -> None:
         modules = _adopt(self._modules or FreshModules(packages=[self._module.partition(".")[0]]))
-        function: Any = modules.load(self._module)
+        function: Any = importlib.import_module(self._module) if modules is None else modules.load(self._module)
         for name in self._function.split("."):
             function = getattr(function, name)
         sys.exit(function())
 
 
-def _adopt(modules: FreshModules) -> FreshModules:
+def _adopt(modules: FreshModules) -> FreshModules | None:
+    """Make them the calling node process's own; in the real process nothing is virtual, its `sys.path` gets folders."""
+    if local.process.main_state is None:
+        sys.path[:0] = modules.folders
+        return None
     local.process.modules = modules
     return modules

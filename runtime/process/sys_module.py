@@ -81,7 +81,12 @@ def _add_properties(virtual: Any) -> None:
         setattr(virtual, name, _stream(name))
     virtual.argv = process_variable("argv", lambda process: process.argv)
     virtual.path = process_variable("path", lambda process: process.path)
+    virtual.modules = process_variable("modules", _modules)
     virtual.excepthook = process_variable("excepthook", lambda _process: sys.__excepthook__)
+
+
+def _modules(process: Any) -> Any:
+    return sys.__dict__["modules"] if process.modules is None else process.modules.table
 
 
 _add_properties(VirtualSys)

@@ -1,0 +1,161 @@
+"""A Python file or an entry point runs as the main program of a node process."""
+
+from __future__ import annotations
+
+import sys
+import textwrap
+
+import pytest
+from bot_console.runtime.process import entry_point_program, file_program
+from bot_console.runtime.process.fresh_import import FreshModules
+
+
+@pytest.fixture
+def script(tmp_path):
+    def write(text, name="node.py"):
+        path = tmp_path / name
+        path.write_text(textwrap.dedent(text))
+        return str(path)
+
+    return write
+
+
+def test_a_file_runs_as_main_with_its_arguments(run, script):
+    path = script("""
+        import sys
+        print(__name__, __file__ == sys.argv[0], sys.argv[1:], sys.path[0] in __file__)
+        if __name__ == '__main__':
+            sys.exit(len(sys.argv))
+    """)
+    ended = run(file_program(path), argv=[path, "a", "b"])
+    assert ended.stdout == "__main__ True ['a', 'b'] True\n"
+    assert ended.process.exit_code == 3
+
+
+def test_modules_beside_the_file_are_its_own(run, script):
+    script("value = []", "helper_of_test.py")
+    path = script("""
+        import helper_of_test
+        helper_of_test.value.append(1)
+        print(helper_of_test.value)
+    """)
+    for _ in range(2):
+        assert run(file_program(path)).stdout == "[1]\n"
+
+
+def test_folders_that_the_file_adds_are_its_own(run, script, tmp_path):
+    (tmp_path / "lib").mkdir()
+    script("value = []", "lib/library_of_test.py")
+    path = script("""
+        import os, sys
+        try:
+            import library_of_test
+        except ImportError:
+            sys.path.append(os.path.join(os.path.dirname(__file__), 'lib'))
+        import library_of_test
+        library_of_test.value.append(1)
+        print(library_of_test.value)
+    """)
+    before = list(sys.path)
+    for _ in range(2):
+        assert run(file_program(path)).stdout == "[1]\n"
+    assert sys.path == before
+
+
+def test_traceback_shows_the_file_alone(run, script):
+    path = script("""
+        def main():
+            raise RuntimeError('no battery')
+        main()
+    """)
+    assert run(file_program(path)).stderr == textwrap.dedent(f"""\
+        Traceback (most recent call last):
+          File "{path}", line 4, in <module>
+            main()
+          File "{path}", line 3, in main
+            raise RuntimeError('no battery')
+        RuntimeError: no battery
+    """)
+
+
+def test_an_edited_file_shows_its_new_lines(run, script):
+    run(file_program(script("raise ValueError('first')")))
+    ended = run(file_program(script("x = 1\nraise ValueError('second')")))
+    assert "raise ValueError('second')" in ended.stderr
+
+
+def test_syntax_error_as_the_interpreter_prints_it(run, script):
+    path = script("x = = 1\n")
+    ended = run(file_program(path))
+    assert ended.process.exit_code == 1
+    lines = ended.stderr.splitlines()
+    assert lines[0] == f'  File "{path}", line 1'
+    assert lines[-1] == "SyntaxError: invalid syntax"
+
+
+def test_missing_file(run, tmp_path):
+    path = str(tmp_path / "no.py")
+    ended = run(file_program(path))
+    assert ended.process.exit_code == 2
+    assert ended.stderr == f"python3: can't open file {path!r}: [Errno 2] No such file or directory\n"
+
+
+def test_exit_functions_of_the_file_run_at_its_end(run, script):
+    path = script("""
+        import atexit
+        atexit.register(print, 'first')
+        atexit.register(print, 'second')
+        never = lambda: print('never')
+        atexit.register(never)
+        atexit.unregister(never)
+        print('main')
+    """)
+    assert run(file_program(path)).stdout == "main\nsecond\nfirst\n"
+
+
+def test_dataclasses_and_type_hints_in_a_file(run, script):
+    path = script("""
+        from __future__ import annotations
+        from dataclasses import dataclass, field
+        from typing import ClassVar
+        @dataclass
+        class Pose:
+            x: float = 0.0
+            tags: list[str] = field(default_factory=list)
+            frame: ClassVar[str] = 'map'
+        print(Pose(1.0), Pose.frame)
+    """)
+    assert run(file_program(path)).stdout == "Pose(x=1.0, tags=[]) map\n"
+
+
+def test_a_file_finds_itself_and_its_modules_in_the_table(run, script):
+    script("value = 1", "sibling_of_test.py")
+    path = script("""
+        import sys, json, sibling_of_test, typing
+        class Here: x: 'Here'
+        print(sys.modules['__main__'].Here is Here, sys.modules['sibling_of_test'] is sibling_of_test)
+        print(sys.modules.get('json') is json, 'sibling_of_test' in sys.modules, 'nonsense' in sys.modules)
+        print(typing.get_type_hints(Here)['x'] is Here)
+        print(len(sys.modules) == len(list(sys.modules)) == len(sys.modules.copy()))
+    """)
+    assert run(file_program(path)).out == ["True True\n", "True True False\n", "True\n", "True\n"]
+    assert "sibling_of_test" not in sys.modules
+
+
+@pytest.mark.parametrize(("returned", "code", "err"), [("None", 0, ""), ("4", 4, ""), ("'sorry'", 1, "sorry\n")])
+def test_what_an_entry_point_returns_is_the_exit_code(run, script, tmp_path, returned, code, err):
+    script(f"class App:\n    @staticmethod\n    def main():\n        return {returned}", "entry_of_test.py")
+    ended = run(entry_point_program("entry_of_test:App.main", FreshModules([str(tmp_path)])))
+    assert (ended.process.exit_code, ended.stderr) == (code, err)
+
+
+@pytest.mark.parametrize("entry_point", ["module", "module:", ":main", ""])
+def test_bad_entry_points(entry_point):
+    with pytest.raises(ValueError, match="must have the form 'module:function'"):
+        entry_point_program(entry_point)
+
+
+def test_a_missing_function_is_named(run, script, tmp_path):
+    script("", "empty_of_test.py")
+    ended = run(entry_point_program("empty_of_test:main", FreshModules([str(tmp_path)])))
+    assert ended.err[-1] == "AttributeError: module 'empty_of_test' has no attribute 'main'\n"
