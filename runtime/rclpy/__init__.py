@@ -1,0 +1,158 @@
+"""The embedded rclpy: the public API of rclpy for ROS 2 Jazzy, in one process and without ROS 2.
+
+Modules, names and behaviour are those of rclpy 7.1; `with rclpy.init():` of later releases works as well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from types import TracebackType
+from typing import TYPE_CHECKING, Any
+
+from bot_console.runtime.process import ProcessLocal
+from rclpy.context import Context as Context
+from rclpy.parameter import Parameter as Parameter
+from rclpy.signals import SignalHandlerOptions as SignalHandlerOptions
+from rclpy.signals import install_signal_handlers as install_signal_handlers
+from rclpy.signals import uninstall_signal_handlers as uninstall_signal_handlers
+from rclpy.task import Future as Future
+from rclpy.utilities import get_default_context as get_default_context
+from rclpy.utilities import get_rmw_implementation_identifier as get_rmw_implementation_identifier
+from rclpy.utilities import ok as ok
+from rclpy.utilities import renew_default_context as _renew_default_context
+from rclpy.utilities import try_shutdown as _try_shutdown
+
+if TYPE_CHECKING:
+    from rclpy.executors import Executor
+    from rclpy.node import Node
+
+_global_executor: ProcessLocal[list[Any]] = ProcessLocal(list)
+
+
+class InitContextManager:
+    """What `init` gives: shuts the context down at the end of a `with` block."""
+
+    def __init__(self, context: Context) -> None:
+        self.context = context
+
+    def __enter__(self) -> InitContextManager:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        try_shutdown(context=self.context)
+
+
+def init(
+    *,
+    args: Sequence[str] | None = None,
+    context: Context | None = None,
+    domain_id: int | None = None,
+    signal_handler_options: SignalHandlerOptions | None = None,
+) -> InitContextManager:
+    """Begin; `args` None means `sys.argv`. Raises `RuntimeError` the second time, `RCLError` for bad arguments."""
+    if context is None:
+        context = get_default_context()
+        if context.ended:
+            _renew_default_context()
+            context = get_default_context()
+        if signal_handler_options is None:
+            signal_handler_options = SignalHandlerOptions.ALL
+    elif signal_handler_options is None:
+        signal_handler_options = SignalHandlerOptions.NO
+    context.init(args, domain_id=domain_id)
+    install_signal_handlers(signal_handler_options) if signal_handler_options else None
+    return InitContextManager(context)
+
+
+def get_global_executor() -> Executor:
+    """The executor of `spin`, `spin_once` and `spin_until_future_complete` where none is named."""
+    from rclpy.executors import SingleThreadedExecutor
+
+    holder = _global_executor.get()
+    if not holder or holder[0].context is not get_default_context():
+        holder[:] = [SingleThreadedExecutor()]
+    return holder[0]
+
+
+def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
+    """End; raises `RuntimeError` before `init`, and `RCLError` where that has happened already."""
+    holder = _global_executor.get()
+    if holder:
+        holder.pop().shutdown()
+    (get_default_context() if context is None else context).shutdown()
+    if uninstall_handlers or (uninstall_handlers is None and context is None):
+        uninstall_signal_handlers()
+
+
+def try_shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
+    """End unless that has happened."""
+    _try_shutdown(context=context)
+    if uninstall_handlers or (uninstall_handlers is None and context is None):
+        uninstall_signal_handlers()
+
+
+def create_node(
+    node_name: str,
+    *,
+    context: Context | None = None,
+    cli_args: Sequence[str] | None = None,
+    namespace: str | None = None,
+    use_global_arguments: bool = True,
+    enable_rosout: bool = True,
+    start_parameter_services: bool = True,
+    parameter_overrides: Sequence[Parameter] | None = None,
+    allow_undeclared_parameters: bool = False,
+    automatically_declare_parameters_from_overrides: bool = False,
+    enable_logger_service: bool = False,
+) -> Node:
+    """Make a node; see `rclpy.node.Node`."""
+    from rclpy.node import Node
+
+    return Node(
+        node_name,
+        context=context,
+        cli_args=cli_args,
+        namespace=namespace,
+        use_global_arguments=use_global_arguments,
+        enable_rosout=enable_rosout,
+        start_parameter_services=start_parameter_services,
+        parameter_overrides=parameter_overrides,
+        allow_undeclared_parameters=allow_undeclared_parameters,
+        automatically_declare_parameters_from_overrides=automatically_declare_parameters_from_overrides,
+        enable_logger_service=enable_logger_service,
+    )
+
+
+def spin_once(node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None) -> None:
+    """Run one callback of a node; None or a negative time-out (s) waits for ever."""
+    executor = get_global_executor() if executor is None else executor
+    try:
+        executor.add_node(node)
+        executor.spin_once(timeout_sec=timeout_sec)
+    finally:
+        executor.remove_node(node)
+
+
+def spin(node: Node, executor: Executor | None = None) -> None:
+    """Serve a node until its context is shut down."""
+    executor = get_global_executor() if executor is None else executor
+    try:
+        executor.add_node(node)
+        while executor.context.ok():
+            executor.spin_once()
+    finally:
+        executor.remove_node(node)
+
+
+def spin_until_future_complete(
+    node: Node, future: Future[Any], executor: Executor | None = None, timeout_sec: float | None = None
+) -> None:
+    """Serve a node until a future is done or time (s) is over."""
+    executor = get_global_executor() if executor is None else executor
+    try:
+        executor.add_node(node)
+        executor.spin_until_future_complete(future, timeout_sec)
+    finally:
+        executor.remove_node(node)

@@ -1,0 +1,76 @@
+"""Callback groups: which callbacks may run at the same time."""
+
+from __future__ import annotations
+
+import threading
+import weakref
+from typing import Any
+
+
+class CallbackGroup:
+    """Holds entities by weak reference and says which of them may run now. The base of both kinds of group."""
+
+    def __init__(self) -> None:
+        self.entities: set[Any] = set()
+
+    def add_entity(self, entity: Any) -> None:
+        """Let an entity belong to the group."""
+        self.entities.add(weakref.ref(entity))
+
+    def has_entity(self, entity: Any) -> bool:
+        """Whether an entity belongs to the group."""
+        return weakref.ref(entity) in self.entities
+
+    def can_execute(self, entity: Any) -> bool:
+        """Whether the entity's callback may begin now."""
+        raise NotImplementedError
+
+    def beginning_execution(self, entity: Any) -> bool:
+        """Begin, if that is allowed; whether it was."""
+        raise NotImplementedError
+
+    def ending_execution(self, entity: Any) -> None:
+        """The entity's callback has ended."""
+        raise NotImplementedError
+
+
+class ReentrantCallbackGroup(CallbackGroup):
+    """Every callback may run at any time."""
+
+    def can_execute(self, entity: Any) -> bool:
+        """Whether the entity's callback may begin now: always."""
+        return True
+
+    def beginning_execution(self, entity: Any) -> bool:
+        """Begin; always allowed."""
+        return True
+
+    def ending_execution(self, entity: Any) -> None:
+        """The callback has ended."""
+
+
+class MutuallyExclusiveCallbackGroup(CallbackGroup):
+    """At most one callback of the group runs at any time."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._active_entity: Any = None
+        self._lock = threading.Lock()
+
+    def can_execute(self, entity: Any) -> bool:
+        """Whether no callback of the group runs."""
+        return self._active_entity is None
+
+    def beginning_execution(self, entity: Any) -> bool:
+        """Begin, unless another callback of the group runs."""
+        with self._lock:
+            if self._active_entity is None:
+                self._active_entity = entity
+                return True
+        return False
+
+    def ending_execution(self, entity: Any) -> None:
+        """The callback has ended."""
+        with self._lock:
+            if self._active_entity is entity:
+                self._active_entity = None

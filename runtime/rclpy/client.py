@@ -1,0 +1,149 @@
+"""Service clients."""
+
+from __future__ import annotations
+
+import threading
+from typing import Any
+
+from bot_console.runtime.process import current
+from rclpy.impl.entity import CLIENT, Entity
+from rclpy.task import Future
+
+NANO = 1_000_000_000
+POLL = NANO // 4
+
+
+class Client(Entity):
+    """Asks a service; made by `Node.create_client`."""
+
+    KIND = CLIENT
+
+    def __init__(self, node: Any, srv_type: Any, srv_name: str, qos_profile: Any, callback_group: Any) -> None:
+        super().__init__(callback_group)
+        self._node = node
+        self.srv_type = srv_type
+        self.srv_name = srv_name
+        self.qos_profile = qos_profile
+        self.context = node.context
+        self.endpoint: Any = None
+        self._pending_requests: dict[int, Future[Any]] = {}
+        self._number = 0
+        self._lock = threading.Lock()
+
+    @property
+    def handle(self) -> Client:
+        """What upstream's client wraps: here the client itself."""
+        return self
+
+    @property
+    def service_name(self) -> str:
+        """The fully qualified name, remapped."""
+        self.use()
+        return self.endpoint.name
+
+    @property
+    def logger_name(self) -> str:
+        """The name of the node's logger."""
+        return self._node.get_logger().name
+
+    def call(self, request: Any, timeout_sec: float | None = None) -> Any:
+        """Ask and wait for the answer, served by another thread; None when time (s) is over."""
+        if not isinstance(request, self.srv_type.Request):
+            raise TypeError
+        wakeup = current().clock.wakeup()
+        future = self.call_async(request)
+        future._when_settled(wakeup.set)
+        if not future.done():
+            clock = current().clock
+            deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * NANO)
+            wakeup.wait(deadline)
+            if not future.done():
+                self.remove_pending_request(future)
+                return None
+        if future.exception() is not None:
+            raise future.exception()  # type: ignore[misc]
+        return future.result()
+
+    def call_async(self, request: Any) -> Future[Any]:
+        """Ask; the future is done when the answer has come and an executor has taken it."""
+        if not isinstance(request, self.srv_type.Request):
+            raise TypeError
+        self.use()
+        with self._lock:
+            self._number += 1
+            number = self._number
+            future: Future[Any] = Future()
+            self._pending_requests[number] = future
+        self._node._bus.request(self.endpoint, number, request)
+        return future
+
+    def get_pending_request(self, sequence_number: int) -> Future[Any]:
+        """The future of a request; raises `KeyError` for one that is not pending."""
+        return self._pending_requests[sequence_number]
+
+    def remove_pending_request(self, future: Future[Any]) -> None:
+        """Wait for an answer no more; it is dropped when it comes."""
+        with self._lock:
+            for number, each in self._pending_requests.items():
+                if each is future:
+                    del self._pending_requests[number]
+                    return
+
+    def pending(self) -> bool:
+        """Whether an answer is there."""
+        return bool(self.endpoint.queue) and not self.destroyed
+
+    def run(self) -> Any:
+        """Take one answer and settle its future."""
+        try:
+            number, response = self.endpoint.queue.popleft()
+        except IndexError:
+            return None
+        with self._lock:
+            future = self._pending_requests.pop(number, None)
+        if future is not None:
+            future._set_executor(self.sink)
+            future.set_result(response)
+        return None
+
+    def service_is_ready(self) -> bool:
+        """Whether a server is there."""
+        self.use()
+        return self._node._bus.has_server(self.endpoint)
+
+    def wait_for_service(self, timeout_sec: float | None = None) -> bool:
+        """Block until a server is there; False when time (s) is over or the context was shut down."""
+        clock = current().clock
+        deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * NANO)
+        wakeup = clock.wakeup()
+        forget = self._node._bus.on_graph_change(wakeup.set)
+        try:
+            while self.context.ok() and not self.service_is_ready():
+                now = clock.steady_ns()
+                if deadline is not None and now >= deadline:
+                    break
+                # The graph wakes this up; the poll is for a shutdown of the context.
+                until = now + POLL
+                wakeup.wait(until if deadline is None else min(until, deadline))
+                wakeup.clear()
+        finally:
+            forget()
+        return self.service_is_ready()
+
+    def configure_introspection(self, clock: Any, service_event_qos_profile: Any, introspection_state: Any) -> None:
+        """Publish what the client does on a topic beside the service."""
+        from rclpy.service_introspection import configure
+
+        configure(self, clock, service_event_qos_profile, introspection_state)
+
+    def destroy(self) -> None:
+        """Ask no more."""
+        self.destroyed = True
+        self._node._bus.remove(self.endpoint)
+        self.detach()
+
+    def __enter__(self) -> Client:
+        return self
+
+    def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
+        self.destroy()

@@ -1,0 +1,263 @@
+"""Clocks: system, steady, and ROS time, which `/clock` may drive."""
+
+from __future__ import annotations
+
+import threading
+import weakref
+from collections.abc import Callable
+from enum import IntEnum
+from types import TracebackType
+from typing import Any
+
+from bot_console.runtime.process import current
+from rclpy.clock_type import ClockType
+from rclpy.duration import Duration
+from rclpy.exceptions import NotInitializedException
+from rclpy.time import Time
+from rclpy.utilities import get_default_context
+
+__all__ = [
+    "Clock",
+    "ClockChange",
+    "ClockType",
+    "JumpHandle",
+    "JumpThreshold",
+    "ROSClock",
+    "TimeJump",
+]
+
+
+class ClockChange(IntEnum):
+    """How the source of ROS time changed in a jump."""
+
+    ROS_TIME_NO_CHANGE = 1
+    ROS_TIME_ACTIVATED = 2
+    ROS_TIME_DEACTIVATED = 3
+    SYSTEM_TIME_NO_CHANGE = 4
+
+
+class JumpThreshold:
+    """Which jumps a callback is told of: forward by `min_forward` or more, back by `min_backward` or more."""
+
+    def __init__(
+        self, *, min_forward: Duration | None, min_backward: Duration | None, on_clock_change: bool = True
+    ) -> None:
+        if min_forward is not None and min_forward.nanoseconds <= 0:
+            raise ValueError("min_forward must be a positive non-zero duration")
+        if min_backward is not None and min_backward.nanoseconds >= 0:
+            raise ValueError("min_backward must be a negative non-zero duration")
+        if min_forward is None and min_backward is None and not on_clock_change:
+            raise ValueError("At least one jump threshold must be enabled")
+        self.min_forward = min_forward
+        self.min_backward = min_backward
+        self.on_clock_change = on_clock_change
+
+
+class TimeJump:
+    """A jump: the change of the source, and by how much time moved."""
+
+    def __init__(self, clock_change: ClockChange, delta: Duration) -> None:
+        if not isinstance(clock_change, ClockChange):
+            raise TypeError("clock_change must be an instance of rclpy.clock.ClockChange")
+        self._clock_change = clock_change
+        self._delta = delta
+
+    @property
+    def clock_change(self) -> ClockChange:
+        """How the source changed."""
+        return self._clock_change
+
+    @property
+    def delta(self) -> Duration:
+        """By how much time moved."""
+        return self._delta
+
+
+class JumpHandle:
+    """Callbacks before and after jumps, until `unregister` is called."""
+
+    def __init__(self, clock: Any, threshold: JumpThreshold, pre_callback: Any, post_callback: Any) -> None:
+        self._clock = clock
+        self.threshold = threshold
+        self.pre_callback = pre_callback
+        self.post_callback = post_callback
+        clock._jump_handles.append(self)
+
+    def unregister(self) -> None:
+        """Be told no more."""
+        if self._clock is not None:
+            self._clock._jump_handles.remove(self)
+            self._clock = None
+
+    def __enter__(self) -> JumpHandle:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.unregister()
+
+
+class Clock:
+    """A clock; one of type ROS_TIME is made as a `ROSClock`."""
+
+    def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> Clock:
+        if not isinstance(clock_type, ClockType):
+            raise TypeError("Clock type must be a ClockType enum")
+        return super().__new__(ROSClock if clock_type is ClockType.ROS_TIME else cls)
+
+    def __init__(self, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> None:
+        self._clock_type = clock_type
+        self._source = current().clock
+        self._jump_handles: list[JumpHandle] = []
+        self._timers: weakref.WeakSet[Any] = weakref.WeakSet()
+        self._lock = threading.Lock()
+
+    @property
+    def clock_type(self) -> ClockType:
+        """What the clock measures."""
+        return self._clock_type
+
+    @property
+    def handle(self) -> Clock:
+        """What upstream's clock wraps: here the clock itself."""
+        return self
+
+    def __repr__(self) -> str:
+        return f"Clock(clock_type={self._clock_type.name})"
+
+    def now(self) -> Time:
+        """The time now."""
+        return Time(nanoseconds=self._now_ns(), clock_type=self._clock_type)
+
+    def _now_ns(self) -> int:
+        if self._clock_type is ClockType.STEADY_TIME:
+            return self._source.steady_ns()
+        return self._source.system_ns()
+
+    def _steady_deadline(self, when: int) -> int | None:
+        """The steady time (ns) at which this clock shows `when`; None where something else drives the clock."""
+        if self._clock_type is ClockType.STEADY_TIME:
+            return when
+        return self._source.steady_ns() + when - self._source.system_ns()
+
+    def _add_timer(self, timer: Any) -> None:
+        self._timers.add(timer)
+
+    def _remove_timer(self, timer: Any) -> None:
+        self._timers.discard(timer)
+
+    def create_jump_callback(
+        self,
+        threshold: JumpThreshold,
+        *,
+        pre_callback: Callable[[], Any] | None = None,
+        post_callback: Callable[[Any], Any] | None = None,
+    ) -> JumpHandle:
+        """Be told of jumps beyond a threshold, before and after."""
+        if pre_callback is None and post_callback is None:
+            raise ValueError("One of pre_callback or post_callback must be callable")
+        return JumpHandle(self, threshold, pre_callback, post_callback)
+
+    def sleep_until(self, until: Time, context: Any = None) -> bool:
+        """Block until a time of this clock; False when the context was shut down or the clock jumped back meanwhile."""
+        context = get_default_context() if context is None else context
+        if not context.ok():
+            raise NotInitializedException
+        if until._clock_type != self._clock_type:
+            raise ValueError("until's clock type does not match this clock's type")
+        wakeup = self._source.wakeup()
+        remove = context.on_shutdown(wakeup.set)
+        changed: list[bool] = []
+
+        def jumped(jump: Any) -> None:
+            if jump.clock_change in (ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED):
+                changed.append(True)
+            wakeup.set()
+
+        threshold = JumpThreshold(min_forward=Duration(nanoseconds=1), min_backward=None, on_clock_change=True)
+        with self.create_jump_callback(threshold, post_callback=jumped):
+            while context.ok() and not changed and self._now_ns() < until.nanoseconds:
+                wakeup.clear()
+                if context.ok() and self._now_ns() < until.nanoseconds:
+                    wakeup.wait(self._steady_deadline(until.nanoseconds))
+        if callable(remove):
+            remove()
+        return bool(context.ok()) and not changed
+
+    def sleep_for(self, rel_time: Duration, context: Any = None) -> bool:
+        """Block for a duration of this clock."""
+        return self.sleep_until(self.now() + rel_time, context)
+
+
+class ROSClock(Clock):
+    """ROS time: system time, unless a time source drives it."""
+
+    def __new__(cls, **_: Any) -> ROSClock:
+        return object.__new__(cls)
+
+    def __init__(self, *, clock_type: ClockType = ClockType.ROS_TIME) -> None:
+        super().__init__(clock_type=ClockType.ROS_TIME)
+        self._active = False
+        self._ros_time = 0
+
+    @property
+    def ros_time_is_active(self) -> bool:
+        """Whether a time source drives the clock."""
+        return self._active
+
+    def _now_ns(self) -> int:
+        return self._ros_time if self._active else self._source.system_ns()
+
+    def _steady_deadline(self, when: int) -> int | None:
+        return None if self._active else super()._steady_deadline(when)
+
+    def _set_ros_time_is_active(self, enabled: bool) -> None:
+        if enabled == self._active:
+            return
+        before = self._now_ns()
+        after = self._ros_time if enabled else self._source.system_ns()
+        change = ClockChange.ROS_TIME_ACTIVATED if enabled else ClockChange.ROS_TIME_DEACTIVATED
+
+        def switch() -> None:
+            self._active = enabled
+
+        self._jump(TimeJump(change, Duration(nanoseconds=after - before)), switch)
+        for timer in list(self._timers):
+            timer.time_jumped(True)
+
+    def set_ros_time_override(self, time: Time) -> None:
+        """Set the time that the clock shows while it is driven."""
+        if not isinstance(time, Time):
+            raise TypeError(f"Time must be specified as rclpy.time.Time. Received type: {type(time)}")
+        before, after = self._ros_time, time.nanoseconds
+
+        def switch() -> None:
+            self._ros_time = after
+
+        if not self._active:
+            switch()
+            return
+        self._jump(TimeJump(ClockChange.ROS_TIME_NO_CHANGE, Duration(nanoseconds=after - before)), switch)
+        for timer in list(self._timers):
+            timer.time_jumped(after < before)
+
+    def _jump(self, jump: TimeJump, switch: Callable[[], None]) -> None:
+        told = [each for each in self._jump_handles if _tells(each.threshold, jump)]
+        for each in told:
+            if each.pre_callback is not None:
+                each.pre_callback()
+        switch()
+        for each in told:
+            if each.post_callback is not None:
+                each.post_callback(jump)
+
+
+def _tells(threshold: JumpThreshold, jump: TimeJump) -> bool:
+    if jump.clock_change in (ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED):
+        return threshold.on_clock_change
+    delta = jump.delta.nanoseconds
+    forward, backward = threshold.min_forward, threshold.min_backward
+    if delta > 0:
+        return forward is not None and delta >= forward.nanoseconds
+    return backward is not None and delta <= backward.nanoseconds

@@ -1,0 +1,156 @@
+"""Contexts: what `rclpy.init` makes and `rclpy.shutdown` ends."""
+
+from __future__ import annotations
+
+import os
+import threading
+import weakref
+from collections.abc import Callable, Sequence
+from types import TracebackType
+from typing import Any
+
+from bot_console.runtime.process import current
+from bot_console.runtime.rmw.local import local_bus
+from rclpy._rclpy_pybind11 import RCLError
+from rclpy.signals import remember_context
+
+DOMAIN_VARIABLE = "ROS_DOMAIN_ID"
+
+
+class Context:
+    """The life of a set of nodes: its arguments, its domain, and whether it is still going on."""
+
+    def __init__(self) -> None:
+        self._lock = threading.RLock()
+        self._callbacks: list[Callable[[], Any]] = []
+        self._nodes: weakref.WeakSet[Any] = weakref.WeakSet()
+        self._initialized = False
+        self.ended = False
+        """Whether it was shut down."""
+        self.arguments: Any = None
+        self._domain = 0
+        self.bus: Any = None
+
+    def init(self, args: Sequence[str] | None = None, *, domain_id: int | None = None) -> None:
+        """Begin; raises `RuntimeError` the second time and `RCLError` for arguments that cannot be parsed."""
+        import sys
+
+        from rclpy.impl.command_line import parse_global
+
+        with self._lock:
+            if self._initialized:
+                raise RuntimeError("Context.init() must only be called once")
+            self.arguments = parse_global(sys.argv if args is None else args)
+            if domain_id is None:
+                domain_id = _domain_of_environment()
+            elif domain_id < 0:
+                raise RuntimeError(f"Domain id ({domain_id}) should not be lower than zero.")
+            self._domain = domain_id
+            self.bus = local_bus(domain_id)
+            self._initialized = True
+        remember_context(self)
+        self._forget_abandon = current().on_abandon(self._abandon)
+
+    def ok(self) -> bool:
+        """Whether it was initialised and not shut down."""
+        return self._initialized and not self.ended
+
+    @property
+    def handle(self) -> Context:
+        """What upstream's context wraps: here the context itself."""
+        return self
+
+    def get_domain_id(self) -> int:
+        """The ROS domain."""
+        if not self._initialized:
+            raise RuntimeError("Context must be initialized before it can have a domain id")
+        return self._domain
+
+    def shutdown(self) -> None:
+        """End; raises `RuntimeError` before `init` and `RCLError` the second time."""
+        if not self._initialized:
+            raise RuntimeError("Context must be initialized before it can be shutdown")
+        if self.ended:
+            raise RCLError("failed to shutdown: rcl_shutdown already called on the given context")
+        self._end()
+
+    def try_shutdown(self) -> None:
+        """End unless that has happened."""
+        if self._initialized and not self.ended:
+            self._end()
+
+    def shut_down_by_signal(self) -> None:
+        """End because the process was asked to; without an error where that has happened."""
+        self.try_shutdown()
+
+    def _end(self) -> None:
+        with self._lock:
+            if self.ended:
+                return
+            self.ended = True
+            callbacks, self._callbacks = self._callbacks, []
+        for callback in callbacks:
+            callback()
+
+    def on_shutdown(self, callback: Callable[[], Any]) -> Callable[[], None]:
+        """Call back once at the shutdown, at once where it has happened; returns what takes the callback away."""
+        if not callable(callback):
+            raise TypeError(f"callback should be a callable, got {type(callback)}")
+        held = weakref.WeakMethod(callback) if hasattr(callback, "__self__") and not _is_builtin(callback) else None
+
+        def call() -> None:
+            found = held() if held is not None else callback
+            if found is not None:
+                found()
+
+        with self._lock:
+            if not self.ended:
+                self._callbacks.append(call)
+                return lambda: self._forget(call)
+        call()
+        return lambda: None
+
+    def _forget(self, call: Callable[[], Any]) -> None:
+        with self._lock:
+            if call in self._callbacks:
+                self._callbacks.remove(call)
+
+    def track_node(self, node: Any) -> None:
+        """A node was made in this context."""
+        self._nodes.add(node)
+
+    def untrack_node(self, node: Any) -> None:
+        """A node was destroyed."""
+        self._nodes.discard(node)
+
+    def _abandon(self) -> None:
+        """The process was killed while its code may go on: its nodes leave the graph and are heard no more."""
+        self.ended = True
+        for node in list(self._nodes):
+            node._leave_graph()
+
+    def destroy(self) -> None:
+        """Free what the context holds."""
+        self.try_shutdown()
+
+    def __enter__(self) -> Context:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.try_shutdown()
+
+
+def _is_builtin(callback: Any) -> bool:
+    return not hasattr(callback, "__func__")
+
+
+def _domain_of_environment() -> int:
+    text = os.environ.get(DOMAIN_VARIABLE, "")
+    try:
+        return int(text) if text else 0
+    except ValueError:
+        raise RCLError(
+            f"failed to get domain ID from environment: {DOMAIN_VARIABLE} is '{text}', not a number"
+        ) from None

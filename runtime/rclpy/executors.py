@@ -1,0 +1,381 @@
+"""Executors: they run the callbacks of their nodes' ready entities, in rclpy's order."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from collections.abc import Callable, Coroutine
+from operator import attrgetter
+from types import TracebackType
+from typing import Any
+
+from bot_console.runtime.process import current
+from rclpy._rclpy_pybind11 import InvalidHandle
+from rclpy.impl.entity import DESTROYED
+from rclpy.impl.timer_heap import TimerHeap
+from rclpy.impl.worker_pool import WorkerPool
+from rclpy.task import Future, Task
+from rclpy.utilities import get_default_context, timeout_sec_to_nsec
+
+_key = attrgetter("key")
+
+
+class TimeoutException(Exception):
+    """Nothing became ready in time."""
+
+
+class ShutdownException(Exception):
+    """The executor was shut down."""
+
+
+class ExternalShutdownException(Exception):
+    """The context was shut down."""
+
+    def __init__(self, *args: object) -> None:
+        super().__init__(*args)
+
+
+class ConditionReachedException(Exception):
+    """What was waited for has come about."""
+
+
+class Executor:
+    """Serves nodes; `spin_once` runs one callback.
+
+    An entity marks itself ready once, however much it has to do. A wake takes what is ready and the timers that are
+    due, and sorts that batch by (node, kind, creation): rclpy's order, at the cost of the ready entities only.
+    """
+
+    def __init__(self, *, context: Any = None) -> None:
+        self._context = get_default_context() if context is None else context
+        self._clock = current().clock
+        self._nodes: dict[Any, int] = {}
+        self._node_count = 0
+        self._ready: deque[Any] = deque()
+        self._batch: deque[Any] = deque()
+        self._blocked: list[Any] = []
+        self._tasks: dict[Task[Any], Any] = {}
+        self._ready_tasks: list[Task[Any]] = []
+        self._timers = TimerHeap()
+        self._lock = threading.Lock()
+        self._wakeup = self._clock.wakeup()
+        self._waiting = 0
+        self._is_shutdown = False
+        self.stale = False
+        """Whether a node was destroyed while it was served here."""
+        self._context.on_shutdown(self.wake)
+
+    @property
+    def context(self) -> Any:
+        """The context whose shutdown ends this executor's spinning."""
+        return self._context
+
+    def __enter__(self) -> Executor:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.shutdown()
+
+    # What becomes ready ------------------------------------------------------------------------------------------
+
+    def mark(self, entity: Any) -> None:
+        """An entity has something to do; from any thread."""
+        entity.marked = True
+        self._ready.append(entity)
+        if self._waiting:
+            self._wakeup.set()
+
+    def arm(self, timer: Any, deadline: int) -> None:
+        """A timer is due at a steady time (ns)."""
+        with self._lock:
+            self._timers.push(deadline, timer)
+        if self._waiting:
+            self._wakeup.set()
+
+    def wake(self) -> None:
+        """Let a waiting `spin_once` look again."""
+        self._wakeup.set()
+
+    def create_task(
+        self, callback: Callable[..., Any] | Coroutine[Any, Any, Any], *args: Any, **kwargs: Any
+    ) -> Task[Any]:
+        """Run a function or coroutine in this executor; from any thread."""
+        task: Task[Any] = Task(callback, args, kwargs, executor=self)
+        self._enter(task, None)
+        return task
+
+    def _enter(self, task: Task[Any], entity: Any) -> None:
+        with self._lock:
+            self._tasks[task] = entity
+            self._ready_tasks.append(task)
+        if self._waiting:
+            self._wakeup.set()
+
+    def _resume(self, task: Task[Any]) -> None:
+        with self._lock:
+            if task in self._tasks and task not in self._ready_tasks:
+                self._ready_tasks.append(task)
+        if self._waiting:
+            self._wakeup.set()
+
+    # Nodes -------------------------------------------------------------------------------------------------------
+
+    def add_node(self, node: Any) -> bool:
+        """Serve a node; whether it was new. It leaves the executor that it was in."""
+        if node in self._nodes:
+            return False
+        self._nodes[node] = self._node_count
+        self._node_count += 1
+        node.executor = self
+        node._attach(self, self._nodes[node])
+        self.wake()
+        return True
+
+    def remove_node(self, node: Any) -> None:
+        """Serve a node no more; its `executor` goes on pointing here, as upstream leaves it."""
+        if self._nodes.pop(node, None) is not None:
+            node._detach(self)
+
+    def get_nodes(self) -> list[Any]:
+        """The nodes that are served."""
+        return list(self._nodes)
+
+    # Spinning ----------------------------------------------------------------------------------------------------
+
+    def shutdown(self, timeout_sec: float | None = None) -> bool:
+        """Stop serving; whether running callbacks ended in time."""
+        self._is_shutdown = True
+        self.wake()
+        for node in self.get_nodes():
+            self.remove_node(node)
+        return True
+
+    def spin(self) -> None:
+        """Serve until shut down; raises `ExternalShutdownException` when the context is."""
+        while not self._is_shutdown:
+            self.spin_once()
+            if not self._context.ok():
+                raise ExternalShutdownException
+
+    def spin_once(self, timeout_sec: float | None = None) -> None:
+        """Run one callback; None or a negative time-out waits for ever, 0 not at all."""
+        raise NotImplementedError
+
+    def spin_once_until_future_complete(self, future: Future[Any], timeout_sec: float | None = None) -> None:
+        """Run one callback, or return when the future is done."""
+        future.add_done_callback(lambda _: self.wake())
+        self._spin_once(timeout_sec, future.done)
+
+    def spin_until_future_complete(self, future: Future[Any], timeout_sec: float | None = None) -> None:
+        """Serve until the future is done or time is over."""
+        future._when_settled(self.wake)
+        timeout = timeout_sec_to_nsec(timeout_sec)
+        deadline = None if timeout is None else self._clock.steady_ns() + timeout
+        while self._context.ok() and not future.done() and not future.cancelled() and not self._is_shutdown:
+            left = None if deadline is None else max(0, deadline - self._clock.steady_ns()) * 1e-9
+            self._spin_once(left, future.done)
+            if deadline is not None and self._clock.steady_ns() >= deadline:
+                return
+
+    def _spin_once(self, timeout_sec: float | None, condition: Callable[[], bool] = lambda: False) -> None:
+        raise NotImplementedError
+
+    def _take(self, timeout_sec: float | None, condition: Callable[[], bool]) -> Any:
+        """The next entity or task, with its callback group begun; raises what says why there is none."""
+        timeout = timeout_sec_to_nsec(timeout_sec)
+        deadline = None if timeout is None else self._clock.steady_ns() + timeout
+        while True:
+            item = self._next_of_batch()
+            if item is not None:
+                return item
+            if self._is_shutdown:
+                raise ShutdownException
+            if not self._context.ok():
+                raise ExternalShutdownException
+            if condition():
+                raise ConditionReachedException
+            if not self._new_batch():
+                self._wait(deadline)
+
+    def _next_of_batch(self) -> Any:
+        batch = self._batch
+        while batch:
+            try:
+                item = batch.popleft()
+            except IndexError:
+                break
+            if item.__class__ is Task:
+                return item
+            if item.sink is not self or not item.pending():
+                continue
+            if item.callback_group.beginning_execution(item):
+                return item
+            self._blocked.append(item)
+        return None
+
+    def _new_batch(self) -> bool:
+        """Collect what is ready; whether there was anything."""
+        if self.stale and any(node.destroyed for node in self._nodes):
+            raise InvalidHandle(DESTROYED)
+        entities: list[Any] = []
+        ready = self._ready
+        while ready:
+            entity = ready.popleft()
+            entity.marked = False
+            if entity.sink is self:
+                entities.append(entity)
+        with self._lock:
+            tasks, self._ready_tasks = self._ready_tasks, []
+            entities += self._timers.pop_due(self._clock.steady_ns(), self)
+        if len(entities) > 1:
+            entities.sort(key=_key)
+        if len(tasks) > 1:
+            order = {task: place for place, task in enumerate(self._tasks)}
+            tasks.sort(key=lambda task: order.get(task, 0), reverse=True)
+        self._batch.extend(tasks)
+        self._batch.extend(entities)
+        return bool(self._batch)
+
+    def _wait(self, deadline: int | None) -> None:
+        with self._lock:
+            timer = self._timers.next_deadline(self)
+        until = timer if deadline is None else deadline if timer is None else min(deadline, timer)
+        self._wakeup.clear()
+        self._waiting += 1
+        try:
+            if self._ready or self._ready_tasks or self._is_shutdown or not self._context.ok():
+                return
+            woken = self._wakeup.wait(until)
+        finally:
+            self._waiting -= 1
+        if not woken and deadline is not None and self._clock.steady_ns() >= deadline:
+            raise TimeoutException
+
+    def _run(self, item: Any) -> None:
+        """Run what `_take` gave; raises what the callback raises."""
+        if item.__class__ is Task:
+            self._run_task(item)
+            return
+        try:
+            result = item.run()
+        except BaseException:
+            self._ended(item)
+            raise
+        if result is None:
+            self._ended(item)
+            return
+        # A coroutine: its group stays busy until it has ended.
+        task: Task[Any] = Task(result, executor=self)
+        with self._lock:
+            self._tasks[task] = item
+        self._run_task(task)
+
+    def _run_task(self, task: Task[Any]) -> None:
+        task()
+        if not task.done():
+            if task.cancelled():
+                self._forget(task)
+            elif task.waits_for is not None:
+                task.waits_for._when_settled(lambda: self._resume(task))
+            else:
+                self._resume(task)
+            return
+        self._forget(task)
+        error = task.exception()
+        if error is not None:
+            raise error
+
+    def _forget(self, task: Task[Any]) -> None:
+        with self._lock:
+            entity = self._tasks.pop(task, None)
+        if entity is not None:
+            self._ended(entity)
+
+    def _ended(self, entity: Any) -> None:
+        entity.callback_group.ending_execution(entity)
+        if entity.pending():
+            entity.notify()
+        if self._blocked:
+            blocked, self._blocked = self._blocked, []
+            for each in blocked:
+                each.notify()
+
+
+class SingleThreadedExecutor(Executor):
+    """Runs callbacks in the thread that calls `spin`."""
+
+    def spin_once(self, timeout_sec: float | None = None) -> None:
+        """Run one callback."""
+        self._spin_once(timeout_sec)
+
+    def _spin_once(self, timeout_sec: float | None, condition: Callable[[], bool] = lambda: False) -> None:
+        try:
+            item = self._take(timeout_sec, condition)
+        except (ShutdownException, TimeoutException, ConditionReachedException):
+            return
+        self._run(item)
+
+
+class MultiThreadedExecutor(Executor):
+    """Runs callbacks in a pool of threads; an exception of one is raised at a later `spin_once`."""
+
+    def __init__(self, num_threads: int | None = None, *, context: Any = None) -> None:
+        super().__init__(context=context)
+        if num_threads is None:
+            num_threads = _cpu_count()
+        if num_threads == 1:
+            import warnings
+
+            warnings.warn(
+                "MultiThreadedExecutor is used with a single thread.\nUse the SingleThreadedExecutor instead.",
+                stacklevel=2,
+            )
+        self._pool = WorkerPool(num_threads, "executor")
+        self._futures: deque[Task[Any]] = deque()
+
+    def spin_once(self, timeout_sec: float | None = None) -> None:
+        """Give one callback to the pool."""
+        self._spin_once(timeout_sec)
+
+    def _spin_once(self, timeout_sec: float | None, condition: Callable[[], bool] = lambda: False) -> None:
+        try:
+            item = self._take(timeout_sec, lambda: condition() or bool(self._failed()))
+        except (ExternalShutdownException, ShutdownException, TimeoutException, ConditionReachedException):
+            self._raise_failed()
+            return
+        done: Task[Any] = Task(self._run, (item,))
+        done._when_settled(self.wake)
+        self._futures.append(done)
+        self._pool.submit(done)
+        self._raise_failed()
+
+    def _failed(self) -> list[Task[Any]]:
+        return [each for each in list(self._futures) if each.done() and each._exception is not None]
+
+    def _raise_failed(self) -> None:
+        for each in list(self._futures):
+            if each.done():
+                self._futures.remove(each)
+                each.result()
+
+    def spin(self) -> None:
+        """Serve until shut down; a context's shutdown ends this silently."""
+        while self._context.ok() and not self._is_shutdown:
+            self.spin_once()
+
+    def shutdown(self, timeout_sec: float | None = None) -> bool:
+        """Stop serving, and end the pool's threads."""
+        result = super().shutdown(timeout_sec)
+        self._pool.close()
+        return result
+
+
+def _cpu_count() -> int:
+    import os
+
+    try:
+        return len(os.sched_getaffinity(0))
+    except AttributeError:
+        return 2

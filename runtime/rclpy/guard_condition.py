@@ -1,0 +1,42 @@
+"""Guard conditions."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from typing import Any
+
+from rclpy.impl.entity import GUARD, Entity
+
+
+class GuardCondition(Entity):
+    """Calls back once in an executor for each time it is triggered, at most once per wake."""
+
+    KIND = GUARD
+
+    def __init__(self, callback: Callable[[], Any] | None, callback_group: Any, context: Any = None) -> None:
+        super().__init__(callback_group)
+        self.callback = callback
+        self._triggered = False
+        self._is_async = inspect.iscoroutinefunction(callback)
+
+    def trigger(self) -> None:
+        """Let the callback run; from any thread."""
+        self.use()
+        self._triggered = True
+        self.notify()
+
+    def pending(self) -> bool:
+        """Whether it was triggered."""
+        return self._triggered and not self.destroyed
+
+    def run(self) -> Any:
+        """Call back."""
+        self._triggered = False
+        result = self.callback() if self.callback is not None else None
+        return result if self._is_async else None
+
+    def destroy(self) -> None:
+        """End it."""
+        self.destroyed = True
+        self.detach()

@@ -1,0 +1,1 @@
+"""Parts of rclpy that are not meant to be imported by programs."""

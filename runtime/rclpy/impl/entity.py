@@ -1,0 +1,60 @@
+"""What an executor serves: timers, subscriptions, guard conditions, clients, services and waitables."""
+
+from __future__ import annotations
+
+import itertools
+from typing import Any
+
+from rclpy._rclpy_pybind11 import InvalidHandle
+
+WAITABLE, TIMER, SUBSCRIPTION, GUARD, CLIENT, SERVICE = range(6)
+"""Kinds, in the order in which one wake of an executor serves them."""
+
+DESTROYED = "cannot use Destroyable because destruction was requested"
+_creation = itertools.count()
+
+
+class Entity:
+    """Something that becomes ready, and whose callback an executor then runs."""
+
+    KIND = WAITABLE
+
+    def __init__(self, callback_group: Any) -> None:
+        self.callback_group = callback_group
+        self.order = next(_creation)
+        self.key: tuple[int, int, int] = (0, self.KIND, self.order)
+        self.marked = False
+        self.destroyed = False
+        self.sink: Any = None
+        """The executor that serves the entity's node."""
+
+    def notify(self) -> None:
+        """There is something to do; from any thread."""
+        sink = self.sink
+        if sink is not None and not self.marked:
+            sink.mark(self)
+
+    def pending(self) -> bool:
+        """Whether there is something to do."""
+        raise NotImplementedError
+
+    def run(self) -> Any:
+        """Take one piece of work and do it; a coroutine is driven on by the executor."""
+        raise NotImplementedError
+
+    def attach(self, sink: Any, node_order: int) -> None:
+        """Let an executor serve this from now on."""
+        self.key = (-1 if self.KIND == WAITABLE else node_order, self.KIND, self.order)
+        self.sink = sink
+        if self.pending():
+            self.notify()
+
+    def detach(self) -> None:
+        """No executor serves this any more."""
+        self.sink = None
+        self.marked = False
+
+    def use(self) -> None:
+        """Raise `InvalidHandle` once the entity was destroyed."""
+        if self.destroyed:
+            raise InvalidHandle(DESTROYED)

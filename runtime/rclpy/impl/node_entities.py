@@ -1,0 +1,320 @@
+"""The entities that a node makes and destroys."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from bot_console.runtime.rmw.bus import ClientEndpoint, Endpoint, ServiceEndpoint, SubscriptionEndpoint
+from bot_console.runtime.rmw.local import new_gid, queue_for
+from bot_console.runtime.rosidl.conversion import type_name
+from rclpy._rclpy_pybind11 import RCLError
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.client import Client
+from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
+from rclpy.guard_condition import GuardCondition
+from rclpy.impl.topic_names import checked
+from rclpy.publisher import Publisher
+from rclpy.qos import QoSProfile, qos_profile_services_default
+from rclpy.service import Service
+from rclpy.subscription import Subscription
+from rclpy.timer import Rate, Timer
+from rclpy.type_support import check_is_valid_msg_type, check_is_valid_srv_type
+
+NANO = 1_000_000_000
+SERVICE_QUEUE_LIMIT = 1000
+
+
+class NodeEntities:
+    """Factories of `Node`."""
+
+    _bus: Any
+    _id: Any
+    context: Any
+
+    def _attach(self, executor: Any, order: int) -> None:
+        self._sink, self._order = executor, order
+        for entity in [*self._entities]:
+            entity.attach(executor, order)
+
+    def _detach(self) -> None:
+        self._sink = None
+        for entity in [*self._entities]:
+            entity.detach()
+
+    def _enter(self, entity: Any, group: Any) -> None:
+        """Let a new entity belong to this node, to its group, and to the executor that serves the node."""
+        self._entities[entity] = None
+        group.add_entity(entity)
+        if self._sink is not None:
+            entity.attach(self._sink, self._order)
+
+    def _group(self, group: Any) -> Any:
+        return self.default_callback_group if group is None else group
+
+    def _may_create(self, what: str) -> None:
+        self._use()
+        if not self.context.ok():
+            raise RCLError(f"Failed to create {what}: rcl node's context is invalid")
+
+    @staticmethod
+    def _profile(qos: Any) -> QoSProfile:
+        if isinstance(qos, QoSProfile):
+            return qos
+        if isinstance(qos, int):
+            if qos < 0:
+                raise ValueError("history depth must be greater than or equal to zero")
+            return QoSProfile(depth=qos)
+        raise TypeError(f"Expected QoSProfile or int, but received {type(qos)!r}")
+
+    def create_publisher(
+        self,
+        msg_type: Any,
+        topic: str,
+        qos_profile: QoSProfile | int,
+        *,
+        callback_group: Any = None,
+        event_callbacks: PublisherEventCallbacks | None = None,
+        qos_overriding_options: Any = None,
+        publisher_class: type[Publisher] = Publisher,
+    ) -> Publisher:
+        """Make a publisher; a number as QoS is a history depth."""
+        qos = self._profile(qos_profile)
+        group = self._group(callback_group)
+        self._may_create("publisher")
+        name = checked(self, topic)
+        check_is_valid_msg_type(msg_type)
+        qos = self._overridden(qos, name, qos_overriding_options, publisher=True)
+        handlers = (event_callbacks or PublisherEventCallbacks()).create_event_handlers(group, self.get_logger, topic)
+        endpoint = Endpoint(self._id, name, type_name(msg_type), qos, new_gid(), msg_type)
+        made = self._bus.create_publisher(endpoint, _teller(handlers))
+        publisher = publisher_class(self, made, msg_type, topic, qos, handlers, group)
+        self._publishers[publisher] = None
+        for handler in handlers:
+            self._enter(handler, group)
+        return publisher
+
+    def create_subscription(
+        self,
+        msg_type: Any,
+        topic: str,
+        callback: Callable[..., Any],
+        qos_profile: QoSProfile | int,
+        *,
+        callback_group: Any = None,
+        event_callbacks: SubscriptionEventCallbacks | None = None,
+        qos_overriding_options: Any = None,
+        raw: bool = False,
+    ) -> Subscription:
+        """Make a subscription; the callback takes (message) or (message, info), bytes with `raw`."""
+        qos = self._profile(qos_profile)
+        group = self._group(callback_group)
+        self._may_create("subscription")
+        name = checked(self, topic)
+        check_is_valid_msg_type(msg_type)
+        qos = self._overridden(qos, name, qos_overriding_options, publisher=False)
+        handlers = (event_callbacks or SubscriptionEventCallbacks()).create_event_handlers(
+            group, self.get_logger, topic
+        )
+        subscription = Subscription(self, msg_type, topic, callback, group, qos, raw, handlers)
+        endpoint = Endpoint(self._id, name, type_name(msg_type), qos, new_gid(), msg_type)
+        subscription.endpoint = SubscriptionEndpoint(
+            endpoint, raw, queue_for(qos), subscription.notify, _teller(handlers)
+        )
+        for handler in handlers:
+            self._enter(handler, group)
+        self._enter(subscription, group)
+        self._bus.create_subscription(subscription.endpoint)
+        return subscription
+
+    def _overridden(self, qos: QoSProfile, name: str, options: Any, *, publisher: bool) -> QoSProfile:
+        if options is None:
+            return qos
+        from copy import copy
+
+        from rclpy.qos_overriding_options import _declare_qos_parameters
+
+        qos = copy(qos)
+        _declare_qos_parameters(Publisher if publisher else Subscription, self, name, qos, options)
+        return qos
+
+    def create_service(
+        self,
+        srv_type: Any,
+        srv_name: str,
+        callback: Callable[..., Any],
+        *,
+        qos_profile: QoSProfile = qos_profile_services_default,
+        callback_group: Any = None,
+    ) -> Service:
+        """Make a service server; the callback takes (request, response) and returns a response."""
+        group = self._group(callback_group)
+        self._may_create("service")
+        check_is_valid_srv_type(srv_type)
+        name = checked(self, srv_name, service=True)
+        service = Service(self, srv_type, srv_name, callback, group, qos_profile)
+        service.endpoint = ServiceEndpoint(self._id, name, type_name(srv_type), service.notify)
+        self._enter(service, group)
+        self._bus.create_service(service.endpoint)
+        return service
+
+    def create_client(
+        self,
+        srv_type: Any,
+        srv_name: str,
+        *,
+        qos_profile: QoSProfile = qos_profile_services_default,
+        callback_group: Any = None,
+    ) -> Client:
+        """Make a service client."""
+        group = self._group(callback_group)
+        self._may_create("client")
+        check_is_valid_srv_type(srv_type)
+        name = checked(self, srv_name, service=True)
+        client = Client(self, srv_type, srv_name, qos_profile, group)
+        client.endpoint = ClientEndpoint(self._id, name, type_name(srv_type), client.notify)
+        self._enter(client, group)
+        self._bus.create_client(client.endpoint)
+        return client
+
+    def create_timer(
+        self,
+        timer_period_sec: float,
+        callback: Callable[..., Any] | None,
+        callback_group: Any = None,
+        clock: Any = None,
+        autostart: bool = True,
+    ) -> Timer:
+        """Make a timer (s) on a clock, the node's own by default."""
+        period = int(float(timer_period_sec) * NANO)
+        group = self._group(callback_group)
+        self._use()
+        if not self.context.ok():
+            raise RCLError(
+                "failed to create timer: the given context is not valid, either rcl_init() was not called or rcl_shutdown() was called."
+            )
+        timer = Timer(callback, group, period, clock or self.get_clock(), context=self.context, autostart=autostart)
+        timer._node = self
+        self._enter(timer, group)
+        return timer
+
+    def create_guard_condition(self, callback: Callable[[], Any] | None, callback_group: Any = None) -> GuardCondition:
+        """Make a guard condition."""
+        group = self._group(callback_group)
+        self._use()
+        guard = GuardCondition(callback, group, context=self.context)
+        self._enter(guard, group)
+        return guard
+
+    def create_rate(self, frequency: float, clock: Any = None) -> Rate:
+        """Make a rate (Hz); it ticks while another thread serves the node."""
+        if frequency <= 0:
+            raise ValueError("frequency must be > 0")
+        timer = self.create_timer(1.0 / frequency, None, ReentrantCallbackGroup(), clock)
+        rate = Rate(timer, context=self.context)
+        self._rates[rate] = timer
+        return rate
+
+    def add_waitable(self, waitable: Any) -> None:
+        """Let executors serve a waitable."""
+        self._waitables[waitable] = None
+
+    def remove_waitable(self, waitable: Any) -> None:
+        """Let executors serve a waitable no more."""
+        self._waitables.pop(waitable, None)
+
+    def destroy_publisher(self, publisher: Publisher) -> bool:
+        """Destroy a publisher; whether it was one of this node."""
+        if publisher not in self._publishers:
+            return False
+        del self._publishers[publisher]
+        for handler in publisher.event_handlers:
+            self._entities.pop(handler, None)
+        publisher.destroy()
+        return True
+
+    def _destroy(self, entity: Any, kind: type) -> bool:
+        if entity not in self._entities or not isinstance(entity, kind):
+            return False
+        del self._entities[entity]
+        for handler in getattr(entity, "event_handlers", ()):
+            self._entities.pop(handler, None)
+        entity.destroy()
+        return True
+
+    def destroy_subscription(self, subscription: Subscription) -> bool:
+        """Destroy a subscription; whether it was one of this node."""
+        return self._destroy(subscription, Subscription)
+
+    def destroy_client(self, client: Client) -> bool:
+        """Destroy a client; whether it was one of this node."""
+        return self._destroy(client, Client)
+
+    def destroy_service(self, service: Service) -> bool:
+        """Destroy a service; whether it was one of this node."""
+        return self._destroy(service, Service)
+
+    def destroy_timer(self, timer: Timer) -> bool:
+        """Destroy a timer; whether it was one of this node."""
+        return self._destroy(timer, Timer)
+
+    def destroy_guard_condition(self, guard: GuardCondition) -> bool:
+        """Destroy a guard condition; whether it was one of this node."""
+        return self._destroy(guard, GuardCondition)
+
+    def destroy_rate(self, rate: Rate) -> bool:
+        """Destroy a rate; whether it was one of this node."""
+        timer = self._rates.pop(rate, None)
+        if timer is None:
+            return False
+        rate.destroy()
+        return self.destroy_timer(timer)
+
+    def _of(self, kind: type) -> list[Any]:
+        return [each for each in self._entities if isinstance(each, kind)]
+
+    @property
+    def publishers(self) -> Any:
+        """The node's publishers."""
+        yield from list(self._publishers)
+
+    @property
+    def subscriptions(self) -> Any:
+        """The node's subscriptions."""
+        yield from self._of(Subscription)
+
+    @property
+    def clients(self) -> Any:
+        """The node's service clients."""
+        yield from self._of(Client)
+
+    @property
+    def services(self) -> Any:
+        """The node's service servers."""
+        yield from self._of(Service)
+
+    @property
+    def timers(self) -> Any:
+        """The node's timers."""
+        yield from self._of(Timer)
+
+    @property
+    def guards(self) -> Any:
+        """The node's guard conditions."""
+        yield from self._of(GuardCondition)
+
+    @property
+    def waitables(self) -> Any:
+        """The node's waitables."""
+        yield from list(self._waitables)
+
+
+def _teller(handlers: list[Any]) -> Callable[[str, Any], None]:
+    """What tells the handlers of an event of the bus."""
+
+    def tell(kind: str, what: Any) -> None:
+        for handler in handlers:
+            if handler.kind == kind:
+                handler.happened(what)
+
+    return tell

@@ -1,0 +1,177 @@
+"""The graph as a node sees it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from bot_console.runtime.process import current
+from rclpy._rclpy_pybind11 import NodeNameNonExistentError
+from rclpy.impl.topic_names import expand_name
+
+NamesAndTypes = list[tuple[str, list[str]]]
+NANO = 1_000_000_000
+
+
+def _collect(pairs: Iterable[tuple[str, str]]) -> NamesAndTypes:
+    found: dict[str, set[str]] = {}
+    for name, kind in pairs:
+        found.setdefault(name, set()).add(kind)
+    return [(name, sorted(kinds)) for name, kinds in sorted(found.items())]
+
+
+class NodeGraph:
+    """Graph queries of `Node`."""
+
+    _bus: Any
+
+    def get_topic_names_and_types(self, no_demangle: bool = False) -> NamesAndTypes:
+        """All topics with their types, by name."""
+        self._use()
+        endpoints = [*self._bus.publishers(), *self._bus.subscriptions()]
+        return _collect((each.topic, each.type_name) for each in endpoints)
+
+    def get_service_names_and_types(self) -> NamesAndTypes:
+        """All services with their types, by name."""
+        self._use()
+        return _collect((each.name, each.type_name) for each in self._bus.servers())
+
+    def get_node_names(self) -> list[str]:
+        """The names of all nodes, without namespaces."""
+        self._use()
+        return [each.name for each in self._bus.nodes()]
+
+    def get_fully_qualified_node_names(self) -> list[str]:
+        """The full names of all nodes."""
+        return [f"{space.rstrip('/')}/{name}" for name, space in self.get_node_names_and_namespaces()]
+
+    def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
+        """Name and namespace of all nodes."""
+        self._use()
+        return [(each.name, each.namespace) for each in self._bus.nodes()]
+
+    def get_node_names_and_namespaces_with_enclaves(self) -> list[tuple[str, str, str]]:
+        """Name, namespace and enclave of all nodes."""
+        self._use()
+        return [(each.name, each.namespace, each.enclave) for each in self._bus.nodes()]
+
+    def get_publisher_names_and_types_by_node(
+        self, node_name: str, node_namespace: str, no_demangle: bool = False
+    ) -> NamesAndTypes:
+        """What a node publishes; raises `NodeNameNonExistentError`."""
+        return self._endpoints_of(self._bus.publishers(), node_name, node_namespace)
+
+    def get_subscriber_names_and_types_by_node(
+        self, node_name: str, node_namespace: str, no_demangle: bool = False
+    ) -> NamesAndTypes:
+        """What a node subscribes to; raises `NodeNameNonExistentError`."""
+        return self._endpoints_of(self._bus.subscriptions(), node_name, node_namespace)
+
+    def get_service_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
+        """What services a node offers; raises `NodeNameNonExistentError`."""
+        return self._services_of(self._bus.servers(), node_name, node_namespace)
+
+    def get_client_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
+        """What services a node asks; raises `NodeNameNonExistentError`."""
+        return self._services_of(self._bus.clients(), node_name, node_namespace)
+
+    def _who(self, name: str, namespace: str) -> set[Any]:
+        self._use()
+        found = {each for each in self._bus.nodes() if each.name == name and each.namespace == (namespace or "/")}
+        if not found:
+            raise NodeNameNonExistentError(
+                f"Cannot get names and types for nonexistent node name '{name}' and namespace '{namespace}'"
+            )
+        return found
+
+    def _endpoints_of(self, endpoints: Sequence[Any], name: str, namespace: str) -> NamesAndTypes:
+        who = self._who(name, namespace)
+        return _collect((each.topic, each.type_name) for each in endpoints if each.node in who)
+
+    def _services_of(self, services: Sequence[Any], name: str, namespace: str) -> NamesAndTypes:
+        who = self._who(name, namespace)
+        return _collect((each.name, each.type_name) for each in services if each.node in who)
+
+    def count_publishers(self, topic_name: str) -> int:
+        """How many publishers a topic has; the name is expanded but not remapped."""
+        name = expand_name(self, topic_name)
+        return sum(each.topic == name for each in self._bus.publishers())
+
+    def count_subscribers(self, topic_name: str) -> int:
+        """How many subscriptions a topic has; the name is expanded but not remapped."""
+        name = expand_name(self, topic_name)
+        return sum(each.topic == name for each in self._bus.subscriptions())
+
+    def count_clients(self, service_name: str) -> int:
+        """How many clients a service has; the name is expanded but not remapped."""
+        name = expand_name(self, service_name, service=True)
+        return sum(each.name == name for each in self._bus.clients())
+
+    def count_services(self, service_name: str) -> int:
+        """How many servers a service has; the name is expanded but not remapped."""
+        name = expand_name(self, service_name, service=True)
+        return sum(each.name == name for each in self._bus.servers())
+
+    def get_publishers_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[Any]:
+        """The publishers of a topic; the name is remapped."""
+        return self._infos(self._bus.publishers(), topic_name, no_mangle, publisher=True)
+
+    def get_subscriptions_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[Any]:
+        """The subscriptions of a topic; the name is remapped."""
+        return self._infos(self._bus.subscriptions(), topic_name, no_mangle, publisher=False)
+
+    def _infos(self, endpoints: Sequence[Any], topic: str, no_mangle: bool, *, publisher: bool) -> list[Any]:
+        from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
+
+        name = topic if no_mangle else self.resolve_topic_name(topic)
+        kind = TopicEndpointTypeEnum.PUBLISHER if publisher else TopicEndpointTypeEnum.SUBSCRIPTION
+        return [
+            TopicEndpointInfo(
+                node_name=each.node.name,
+                node_namespace=each.node.namespace,
+                topic_type=each.type_name,
+                topic_type_hash=_type_hash(each.message_class),
+                endpoint_type=kind,
+                endpoint_gid=list(each.gid),
+                qos_profile=each.qos,
+            )
+            for each in endpoints
+            if each.topic == name
+        ]
+
+    def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
+        """Whether a node is there, or comes within the time (s)."""
+        clock = current().clock
+        deadline = clock.steady_ns() + int(timeout * NANO)
+        wakeup = clock.wakeup()
+        forget = self._bus.on_graph_change(wakeup.set)
+        try:
+            while fully_qualified_node_name not in self.get_fully_qualified_node_names():
+                if clock.steady_ns() >= deadline:
+                    return False
+                wakeup.wait(deadline)
+                wakeup.clear()
+            return True
+        finally:
+            forget()
+
+    def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
+        """A topic's full name, remapped unless told otherwise; raises `RCLError`."""
+        from rclpy.impl.topic_names import resolve
+
+        return resolve(self, topic, only_expand=only_expand)
+
+    def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
+        """A service's full name, remapped unless told otherwise; raises `RCLError`."""
+        from rclpy.impl.topic_names import resolve
+
+        return resolve(self, service, only_expand=only_expand, service=True)
+
+    def _use(self) -> None:
+        raise NotImplementedError
+
+
+def _type_hash(message_class: Any) -> Any:
+    from rclpy.type_hash import type_hash_of
+
+    return type_hash_of(message_class)

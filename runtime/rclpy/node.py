@@ -1,0 +1,214 @@
+"""Nodes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from types import TracebackType
+from typing import Any
+
+from bot_console.runtime.rmw import names, remapping
+from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.clock import Clock, ROSClock
+from rclpy.exceptions import InvalidNamespaceException, InvalidNodeNameException, NotInitializedException
+from rclpy.impl.entity import DESTROYED
+from rclpy.impl.node_entities import NodeEntities
+from rclpy.impl.node_graph import NodeGraph
+from rclpy.impl.node_parameters import NodeParameters
+from rclpy.impl.node_rosout import Rosout
+from rclpy.logging import get_logger
+from rclpy.parameter import Parameter
+from rclpy.parameter_service import ParameterService
+from rclpy.qos import qos_profile_parameter_events
+from rclpy.time_source import TimeSource
+from rclpy.utilities import get_default_context
+
+HIDDEN_NODE_PREFIX = "_"
+LOGGER_SEPARATOR = "."
+
+
+class Node(NodeEntities, NodeParameters, NodeGraph):
+    """A node of the ROS graph: it has parameters, and makes publishers, subscriptions, services, clients and timers."""
+
+    PARAM_REL_TOL = 1e-6
+    """Relative tolerance of the range checks of doubles."""
+
+    def __init__(
+        self,
+        node_name: str,
+        *,
+        context: Any = None,
+        cli_args: Sequence[str] | None = None,
+        namespace: str | None = None,
+        use_global_arguments: bool = True,
+        enable_rosout: bool = True,
+        start_parameter_services: bool = True,
+        parameter_overrides: Sequence[Parameter] | None = None,
+        allow_undeclared_parameters: bool = False,
+        automatically_declare_parameters_from_overrides: bool = False,
+        enable_logger_service: bool = False,
+    ) -> None:
+        self.context = get_default_context() if context is None else context
+        self._entities: dict[Any, None] = {}
+        self._publishers: dict[Any, None] = {}
+        self._waitables: dict[Any, None] = {}
+        self._rates: dict[Any, Any] = {}
+        self._sink: Any = None
+        self._order = 0
+        self._executor: Any = None
+        self._id: Any = None
+        self.destroyed = False
+        self._default_callback_group = MutuallyExclusiveCallbackGroup()
+        if not self.context.ok():
+            raise NotInitializedException("cannot create node")
+        self._bus = self.context.bus
+        arguments = self._read_arguments(cli_args, use_global_arguments)
+        self._choose_name(node_name, namespace or "", arguments)
+        self._logger = get_logger(_logger_name(self._namespace, self._name))
+        self._id = self._bus.add_node(self._name, self._namespace, "/")
+        self.context.track_node(self)
+        self._rosout = Rosout(self) if enable_rosout and self.context.arguments.rosout_enabled else None
+        self._make_parameters(
+            arguments, parameter_overrides, allow_undeclared_parameters, automatically_declare_parameters_from_overrides
+        )
+        if start_parameter_services:
+            self._parameter_service = ParameterService(self)
+        if enable_logger_service:
+            from rclpy.logging_service import LoggingService
+
+            self._logger_service = LoggingService(self)
+        from rclpy.type_description_service import TypeDescriptionService
+
+        self._type_description_service = TypeDescriptionService(self)
+
+    def _read_arguments(self, cli_args: Sequence[str] | None, use_global: bool) -> list[Any]:
+        """The command lines that concern this node, the context's first."""
+        found = [self.context.arguments] if use_global else []
+        if cli_args is not None:
+            from rclpy.impl.command_line import parse_local
+
+            found.append(parse_local(cli_args))
+        return found
+
+    def _choose_name(self, name: str, namespace: str, arguments: list[Any]) -> None:
+        """Check and remap name and namespace; rules of the node's own command line come first."""
+        if not isinstance(name, str):
+            raise TypeError(f"node name must be a string, not {type(name).__name__}")
+        problem = names.validate_node_name(name)
+        if problem:
+            raise InvalidNodeNameException(name, *problem)
+        namespace = namespace if namespace.startswith("/") else f"/{namespace}"
+        problem = names.validate_namespace(namespace)
+        if problem:
+            raise InvalidNamespaceException(namespace, *problem)
+        self._remap_rules = tuple(rule for each in reversed(arguments) for rule in each.remap_rules)
+        self._name = remapping.remap_node_name(self._remap_rules, name) or name
+        self._namespace = remapping.remap_namespace(self._remap_rules, name) or namespace
+        problem = names.validate_namespace(self._namespace)
+        if problem:
+            raise RCLError(f"error creating node: invalid node namespace: {problem[0]}")
+
+    def _make_parameters(
+        self, arguments: list[Any], overrides: Sequence[Parameter] | None, undeclared: bool, automatic: bool
+    ) -> None:
+        from rcl_interfaces.msg import ParameterEvent
+
+        self._parameter_event_publisher = self.create_publisher(
+            ParameterEvent, "/parameter_events", qos_profile_parameter_events
+        )
+        self._clock = ROSClock()
+        self._init_parameters(arguments, overrides, undeclared, automatic)
+        self._time_source = TimeSource(node=self)
+        self._time_source.attach_clock(self._clock)
+
+    @property
+    def executor(self) -> Any:
+        """The executor that the node was added to last, or None."""
+        return self._executor() if self._executor is not None else None
+
+    @executor.setter
+    def executor(self, new: Any) -> None:
+        import weakref
+
+        before = self.executor
+        if before is new:
+            return
+        if before is not None:
+            before.remove_node(self)
+        if new is None:
+            self._executor = None
+        else:
+            self._executor = weakref.ref(new)
+            new.add_node(self)
+
+    @property
+    def default_callback_group(self) -> MutuallyExclusiveCallbackGroup:
+        """The group of entities for which none is named; mutually exclusive."""
+        return self._default_callback_group
+
+    @property
+    def handle(self) -> Node:
+        """What upstream's node wraps: here the node itself."""
+        return self
+
+    def _use(self) -> None:
+        if self.destroyed:
+            raise InvalidHandle(DESTROYED)
+
+    def get_name(self) -> str:
+        """The name, remapped."""
+        return self._name
+
+    def get_namespace(self) -> str:
+        """The namespace, remapped."""
+        return self._namespace
+
+    def get_fully_qualified_name(self) -> str:
+        """Namespace and name."""
+        return f"{self._namespace.rstrip('/')}/{self._name}"
+
+    def get_clock(self) -> Clock:
+        """The node's clock, of ROS time."""
+        return self._clock
+
+    def get_logger(self) -> Any:
+        """The node's logger."""
+        return self._logger
+
+    def destroy_node(self) -> None:
+        """Destroy all that the node has, and let it leave the graph; a second call does nothing."""
+        if self.destroyed:
+            return
+        executor = self.executor
+        if executor is not None:
+            executor.stale = True
+        for rate in list(self._rates):
+            self.destroy_rate(rate)
+        for publisher in list(self._publishers):
+            self.destroy_publisher(publisher)
+        for entity in list(self._entities):
+            self._destroy(entity, object)
+        self._leave_graph()
+        self.context.untrack_node(self)
+        self.destroyed = True
+        if executor is not None:
+            executor.wake()
+
+    def _leave_graph(self) -> None:
+        """Vanish from the graph and be heard no more, whatever this node's code goes on to do."""
+        if self._rosout is not None:
+            self._rosout.close()
+        if self._id is not None:
+            self._bus.remove_node(self._id)
+
+    def __enter__(self) -> Node:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.destroy_node()
+
+
+def _logger_name(namespace: str, name: str) -> str:
+    return f"{namespace.rstrip('/')}/{name}".lstrip("/").replace("/", LOGGER_SEPARATOR)

@@ -1,0 +1,118 @@
+"""Publishers."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+from bot_console.runtime.rosidl.conversion import FieldTypeError
+from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
+from rclpy.duration import Duration
+from rclpy.impl.entity import DESTROYED
+
+
+class Publisher:
+    """Publishes messages of one type on one topic; made by `Node.create_publisher`."""
+
+    def __init__(
+        self,
+        node: Any,
+        endpoint: Any,
+        msg_type: Any,
+        topic: str,
+        qos_profile: Any,
+        event_handlers: list[Any],
+        group: Any,
+    ) -> None:
+        self._node = node
+        self._endpoint = endpoint
+        self.msg_type = msg_type
+        self.topic = topic
+        self.qos_profile = qos_profile
+        self.event_handlers = event_handlers
+        self.callback_group = group
+        self._context = node.context
+        self.destroyed = False
+
+    @property
+    def handle(self) -> Publisher:
+        """What upstream's publisher wraps: here the publisher itself."""
+        return self
+
+    @property
+    def topic_name(self) -> str:
+        """The fully qualified name, remapped."""
+        self._use()
+        return self._endpoint.endpoint.topic
+
+    @property
+    def logger_name(self) -> str:
+        """The name of the node's logger."""
+        return self._node.get_logger().name
+
+    def _use(self) -> None:
+        if self.destroyed:
+            raise InvalidHandle(DESTROYED)
+
+    def publish(self, msg: Any) -> None:
+        """Publish a message, or its serialized bytes; each subscription gets a copy of its own.
+
+        Raises `TypeError` for another class, `FieldTypeError` (a `TypeError`) for a field of a wrong type.
+        """
+        if msg.__class__ is not self.msg_type:
+            self._publish_other(msg)
+            return
+        if self.destroyed or self._context.ended:
+            self._refuse()
+        try:
+            self._endpoint.publish(msg)
+        except FieldTypeError as error:
+            self._explain(error)
+            raise
+
+    def _publish_other(self, msg: Any) -> None:
+        if self.destroyed or self._context.ended:
+            self._refuse()
+        if isinstance(msg, bytes):
+            self._endpoint.publish_raw(msg)
+        elif isinstance(msg, self.msg_type):
+            self._endpoint.publish(msg)
+        else:
+            raise TypeError(f"Expected {self.msg_type}, got {type(msg)}")
+
+    def _refuse(self) -> None:
+        self._use()
+        raise RCLError("Failed to publish: publisher's context is invalid")
+
+    def _explain(self, error: FieldTypeError) -> None:
+        """One ERROR that names field, type and the line that published."""
+        frame = sys._getframe(2)
+        where = f"{frame.f_code.co_filename}:{frame.f_lineno}"
+        self._node.get_logger().error(f"cannot publish on '{self._endpoint.endpoint.topic}': {error}, at {where}")
+
+    def get_subscription_count(self) -> int:
+        """How many subscriptions receive."""
+        self._use()
+        return self._endpoint.matched_count()
+
+    def assert_liveliness(self) -> None:
+        """Say that this publisher is alive, for MANUAL_BY_TOPIC liveliness."""
+        self._use()
+
+    def wait_for_all_acked(self, timeout: Duration | None = None) -> bool:
+        """Whether all reliable subscriptions have what was published; within a process they have at once."""
+        self._use()
+        return True
+
+    def destroy(self) -> None:
+        """Publish no more; every use from now on raises `InvalidHandle`."""
+        for handler in self.event_handlers:
+            handler.destroy()
+        self.destroyed = True
+        self._node._bus.remove(self._endpoint)
+
+    def __enter__(self) -> Publisher:
+        return self
+
+    def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
+        self.destroy()

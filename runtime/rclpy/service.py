@@ -1,0 +1,92 @@
+"""Service servers."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from typing import Any
+
+from rclpy.impl.entity import SERVICE, Entity
+
+
+class Service(Entity):
+    """Answers requests; made by `Node.create_service`. The callback takes (request, response) and returns a response."""
+
+    KIND = SERVICE
+
+    def __init__(
+        self,
+        node: Any,
+        srv_type: Any,
+        srv_name: str,
+        callback: Callable[..., Any],
+        callback_group: Any,
+        qos_profile: Any,
+    ) -> None:
+        super().__init__(callback_group)
+        self._node = node
+        self.srv_type = srv_type
+        self.srv_name = srv_name
+        self.callback = callback
+        self.qos_profile = qos_profile
+        self.endpoint: Any = None
+        self._is_async = inspect.iscoroutinefunction(callback)
+
+    @property
+    def handle(self) -> Service:
+        """What upstream's service wraps: here the service itself."""
+        return self
+
+    @property
+    def service_name(self) -> str:
+        """The fully qualified name, remapped."""
+        self.use()
+        return self.endpoint.name
+
+    @property
+    def logger_name(self) -> str:
+        """The name of the node's logger."""
+        return self._node.get_logger().name
+
+    def pending(self) -> bool:
+        """Whether a request is there."""
+        return bool(self.endpoint.queue) and not self.destroyed
+
+    def run(self) -> Any:
+        """Take one request, call back and respond."""
+        try:
+            client, number, request = self.endpoint.queue.popleft()
+        except IndexError:
+            return None
+        if self._is_async:
+            return self._respond_later(client, number, request)
+        self.send_response(self.callback(request, self.srv_type.Response()), (client, number))
+        return None
+
+    async def _respond_later(self, client: Any, number: int, request: Any) -> None:
+        self.send_response(await self.callback(request, self.srv_type.Response()), (client, number))
+
+    def send_response(self, response: Any, header: Any) -> None:
+        """Answer a request; raises `TypeError` for anything but a response of the service."""
+        if not isinstance(response, self.srv_type.Response):
+            raise TypeError
+        self.use()
+        self._node._bus.respond(header[0], header[1], response)
+
+    def configure_introspection(self, clock: Any, service_event_qos_profile: Any, introspection_state: Any) -> None:
+        """Publish what the service does on a topic beside it."""
+        from rclpy.service_introspection import configure
+
+        configure(self, clock, service_event_qos_profile, introspection_state)
+
+    def destroy(self) -> None:
+        """Answer no more."""
+        self.destroyed = True
+        self._node._bus.remove(self.endpoint)
+        self.detach()
+
+    def __enter__(self) -> Service:
+        return self
+
+    def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
+        self.destroy()

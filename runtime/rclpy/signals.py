@@ -1,0 +1,74 @@
+"""What SIGINT and SIGTERM do: they shut down the contexts of the process they are sent to."""
+
+from __future__ import annotations
+
+import signal
+import weakref
+from collections.abc import Callable
+from enum import IntEnum
+from typing import Any
+
+from bot_console.runtime.process import ProcessLocal, current
+
+
+class SignalHandlerOptions(IntEnum):
+    """Which signals rclpy handles."""
+
+    NO = 0
+    SIGINT = 1
+    SIGTERM = 2
+    ALL = 3
+
+
+SIGNALS = {
+    SignalHandlerOptions.NO: (),
+    SignalHandlerOptions.SIGINT: (signal.SIGINT,),
+    SignalHandlerOptions.SIGTERM: (signal.SIGTERM,),
+    SignalHandlerOptions.ALL: (signal.SIGINT, signal.SIGTERM),
+}
+
+
+class _State:
+    """What one process has installed, and its contexts."""
+
+    def __init__(self) -> None:
+        self.option = SignalHandlerOptions.NO
+        self.remove: Callable[[], None] | None = None
+        self.contexts: weakref.WeakSet[Any] = weakref.WeakSet()
+
+
+_state: ProcessLocal[_State] = ProcessLocal(_State)
+
+
+def install_signal_handlers(options: SignalHandlerOptions = SignalHandlerOptions.ALL) -> None:
+    """Shut the contexts of this process down on the given signals."""
+    state = _state.get()
+    uninstall_signal_handlers()
+    if SIGNALS[options]:
+        state.remove = current().on_interrupt(lambda signum: shutdown_contexts(), SIGNALS[options])
+    state.option = options
+
+
+def uninstall_signal_handlers() -> None:
+    """Leave signals alone again."""
+    state = _state.get()
+    if state.remove is not None:
+        state.remove()
+        state.remove = None
+    state.option = SignalHandlerOptions.NO
+
+
+def get_current_signal_handlers_options() -> SignalHandlerOptions:
+    """Which signals are handled now."""
+    return _state.get().option
+
+
+def remember_context(context: Any) -> None:
+    """A context of this process was initialised."""
+    _state.get().contexts.add(context)
+
+
+def shutdown_contexts() -> None:
+    """Shut all contexts of this process down, as a signal does."""
+    for context in list(_state.get().contexts):
+        context.shut_down_by_signal()

@@ -1,0 +1,138 @@
+"""Subscriptions."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable
+from enum import Enum
+from typing import Any
+
+from bot_console.runtime.process import current
+from rclpy.impl.entity import SUBSCRIPTION, Entity
+
+DOUBLE_ARGUMENT, SINGLE_ARGUMENT = 2, 1
+
+
+class Subscription(Entity):
+    """Calls back with each message of a topic; made by `Node.create_subscription`."""
+
+    KIND = SUBSCRIPTION
+
+    class CallbackType(Enum):
+        """Whether the callback takes the message alone or its info as well."""
+
+        MessageOnly = 0
+        WithMessageInfo = 1
+
+    def __init__(
+        self,
+        node: Any,
+        msg_type: Any,
+        topic: str,
+        callback: Callable[..., Any],
+        callback_group: Any,
+        qos_profile: Any,
+        raw: bool,
+        event_handlers: list[Any],
+    ) -> None:
+        super().__init__(callback_group)
+        self._node = node
+        self.msg_type = msg_type
+        self.topic = topic
+        self.raw = raw
+        self.qos_profile = qos_profile
+        self.event_handlers = event_handlers
+        self.endpoint: Any = None
+        self.callback = callback
+        self._lifespan = qos_profile.lifespan.nanoseconds
+        self._received = 0
+
+    @property
+    def handle(self) -> Subscription:
+        """What upstream's subscription wraps: here the subscription itself."""
+        return self
+
+    @property
+    def callback(self) -> Callable[..., Any]:
+        """What is called with `(message)` or `(message, info)`."""
+        return self._callback
+
+    @callback.setter
+    def callback(self, value: Callable[..., Any]) -> None:
+        self._callback = value
+        self._callback_type = Subscription.CallbackType.MessageOnly
+        self._is_async = inspect.iscoroutinefunction(value)
+        try:
+            inspect.signature(value).bind(object())
+            return
+        except TypeError:
+            pass
+        except ValueError:
+            return
+        try:
+            inspect.signature(value).bind(object(), object())
+            self._callback_type = Subscription.CallbackType.WithMessageInfo
+            return
+        except TypeError:
+            pass
+        raise RuntimeError(
+            "Subscription.__init__(): callback should be either be callable with one argument"
+            "(to get only the message) or two (to get message and message info)"
+        )
+
+    @property
+    def topic_name(self) -> str:
+        """The fully qualified name, remapped."""
+        self.use()
+        return self.endpoint.endpoint.topic
+
+    @property
+    def logger_name(self) -> str:
+        """The name of the node's logger."""
+        return self._node.get_logger().name
+
+    def get_publisher_count(self) -> int:
+        """How many publishers send."""
+        self.use()
+        return self.endpoint.matched
+
+    def pending(self) -> bool:
+        """Whether a message is there."""
+        return bool(self.endpoint.queue) and not self.destroyed
+
+    def run(self) -> Any:
+        """Take one message and call back."""
+        try:
+            message, stamp, number = self.endpoint.queue.popleft()
+        except IndexError:
+            return None
+        if self._lifespan and current().clock.system_ns() - stamp > self._lifespan:
+            return None
+        self._received += 1
+        if self._callback_type is Subscription.CallbackType.MessageOnly:
+            result = self._callback(message)
+        else:
+            result = self._callback(message, self._info(stamp, number))
+        return result if self._is_async else None
+
+    def _info(self, stamp: int, number: int) -> dict[str, int | None]:
+        return {
+            "source_timestamp": stamp,
+            "received_timestamp": current().clock.system_ns(),
+            "publication_sequence_number": number,
+            "reception_sequence_number": None,
+        }
+
+    def destroy(self) -> None:
+        """Receive no more."""
+        for handler in self.event_handlers:
+            handler.destroy()
+        self.destroyed = True
+        self._node._bus.remove(self.endpoint)
+        self.detach()
+
+    def __enter__(self) -> Subscription:
+        return self
+
+    def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
+        self.destroy()

@@ -1,0 +1,195 @@
+"""Futures, and tasks that run a function or a coroutine in an executor."""
+
+from __future__ import annotations
+
+import inspect
+import sys
+import threading
+import warnings
+import weakref
+from collections.abc import Callable, Coroutine, Generator
+from typing import Any, Generic, TypeVar
+
+T = TypeVar("T")
+
+
+class Future(Generic[T]):
+    """A result that comes later. Done callbacks run as tasks of the executor where there is one, else at once."""
+
+    def __init__(self, *, executor: Any = None) -> None:
+        self._done = False
+        self._cancelled = False
+        self._result: T | None = None
+        self._exception: BaseException | None = None
+        self._exception_fetched = False
+        self._callbacks: list[Callable[[Future[T]], Any]] = []
+        self._waiters: list[Callable[[], None]] = []
+        self._lock = threading.Lock()
+        self._executor: Any = None
+        self._set_executor(executor)
+
+    def __del__(self) -> None:
+        if getattr(self, "_exception", None) is not None and not self._exception_fetched:
+            print(f"The following exception was never retrieved: {self._exception}", file=sys.stderr)
+
+    def __await__(self) -> Generator[Any, None, T | None]:
+        while not self._done:
+            yield self
+        return self.result()
+
+    def cancel(self) -> None:
+        """Ask for the work to be given up; a future that is done stays as it is."""
+        with self._lock:
+            if not self._done:
+                self._cancelled = True
+        self._settle()
+
+    def cancelled(self) -> bool:
+        """Whether it was cancelled."""
+        return self._cancelled
+
+    def done(self) -> bool:
+        """Whether there is a result or an exception."""
+        return self._done
+
+    def result(self) -> T | None:
+        """The result, None while there is none; raises the exception if there is one."""
+        if self._exception:
+            raise self.exception()  # type: ignore[misc]
+        return self._result
+
+    def exception(self) -> BaseException | None:
+        """The exception, if there is one."""
+        self._exception_fetched = True
+        return self._exception
+
+    def set_result(self, result: T) -> None:
+        """Give the result."""
+        with self._lock:
+            self._result = result
+            self._done = True
+            self._cancelled = False
+        self._settle()
+
+    def set_exception(self, exception: BaseException) -> None:
+        """Give an exception instead of a result."""
+        with self._lock:
+            self._exception = exception
+            self._exception_fetched = False
+            self._done = True
+            self._cancelled = False
+        self._settle()
+
+    def add_done_callback(self, callback: Callable[[Future[T]], Any]) -> None:
+        """Call back with this future when it is done or cancelled; at once where it is."""
+        with self._lock:
+            if not self._done:
+                self._callbacks.append(callback)
+                return
+        executor = self._executor() if self._executor else None
+        if executor is not None:
+            executor.create_task(callback, self)
+        else:
+            callback(self)
+
+    def remove_done_callback(self, callback: Callable[[Future[T]], Any]) -> bool:
+        """Take a callback away; whether it was there."""
+        with self._lock:
+            before = len(self._callbacks)
+            self._callbacks = [each for each in self._callbacks if each != callback]
+            return len(self._callbacks) < before
+
+    def _set_executor(self, executor: Any) -> None:
+        self._executor = None if executor is None else weakref.ref(executor)
+
+    def _when_settled(self, wake: Callable[[], None]) -> None:
+        """Call `wake` once, from whichever thread, when the future is settled; at once where it is."""
+        with self._lock:
+            if not self._done:
+                self._waiters.append(wake)
+                return
+        wake()
+
+    def _settle(self) -> None:
+        with self._lock:
+            callbacks, self._callbacks = self._callbacks, []
+            waiters, self._waiters = self._waiters, []
+        executor = self._executor() if self._executor else None
+        for callback in callbacks:
+            if executor is not None:
+                executor.create_task(callback, self)
+            else:
+                self._call(callback)
+        for wake in waiters:
+            wake()
+
+    def _call(self, callback: Callable[[Future[T]], Any]) -> None:
+        try:
+            callback(self)
+        except Exception as error:  # a done callback's fault must not reach whoever settled the future
+            warnings.warn(f"Unhandled exception in done callback: {error}", RuntimeWarning, stacklevel=2)
+
+
+class Task(Future[T]):
+    """A function or coroutine that an executor runs; calling the task runs it on to its next wait."""
+
+    def __init__(
+        self,
+        handler: Callable[..., Any] | Coroutine[Any, Any, T],
+        args: Any = None,
+        kwargs: dict[str, Any] | None = None,
+        executor: Any = None,
+    ) -> None:
+        super().__init__(executor=executor)
+        self._args = args or ()
+        self._kwargs = kwargs or {}
+        self._handler: Any = handler
+        if inspect.iscoroutinefunction(handler):
+            self._handler = handler(*self._args, **self._kwargs)
+            self._args, self._kwargs = (), {}
+        self._executing = False
+        self._task_lock = threading.Lock()
+        self.waits_for: Future[Any] | None = None
+
+    def __call__(self) -> None:
+        if self._done or self._executing or not self._task_lock.acquire(blocking=False):
+            return
+        try:
+            if self._done:
+                return
+            self._executing = True
+            if inspect.iscoroutine(self._handler):
+                self._step()
+            else:
+                self._run()
+        finally:
+            self._executing = False
+            self._task_lock.release()
+
+    def _step(self) -> None:
+        try:
+            yielded = self._handler.send(None)
+            self.waits_for = yielded if isinstance(yielded, Future) else None
+        except StopIteration as stop:
+            self._handler = None
+            self.set_result(stop.value)
+        except Exception as error:  # the border to a callback: the executor raises it out of spin
+            self.set_exception(error)
+
+    def _run(self) -> None:
+        try:
+            self.set_result(self._handler(*self._args, **self._kwargs))
+        except Exception as error:  # the border to a callback, as above
+            self.set_exception(error)
+        self._handler, self._args, self._kwargs = None, (), {}
+
+    def executing(self) -> bool:
+        """Whether it runs right now."""
+        return self._executing
+
+    def cancel(self) -> None:
+        """Give the work up; a coroutine is closed."""
+        if inspect.iscoroutine(self._handler) and not self._executing:
+            self._handler.close()
+            self._handler = None
+        super().cancel()

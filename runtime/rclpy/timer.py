@@ -1,0 +1,193 @@
+"""Timers and rates."""
+
+from __future__ import annotations
+
+import inspect
+import threading
+from collections.abc import Callable
+from typing import Any
+
+from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
+from rclpy.callback_groups import CallbackGroup
+from rclpy.exceptions import ROSInterruptException
+from rclpy.impl.entity import DESTROYED, TIMER, Entity
+
+NANO = 1_000_000_000
+
+
+class Timer(Entity):
+    """Calls back every period of its clock (ns); missed periods are skipped and the phase is kept."""
+
+    KIND = TIMER
+
+    def __init__(
+        self,
+        callback: Callable[..., Any] | None,
+        callback_group: CallbackGroup,
+        timer_period_ns: int,
+        clock: Any,
+        *,
+        context: Any = None,
+        autostart: bool = True,
+    ) -> None:
+        super().__init__(callback_group)
+        if timer_period_ns < 0:
+            raise RCLError("failed to create timer: timer period must be non-negative")
+        self.callback = callback
+        self.clock_of_timer = clock
+        self._context = context
+        self._period = timer_period_ns
+        self._last = clock._now_ns()
+        self._next = self._last + timer_period_ns
+        self._canceled = not autostart
+        self.heap_deadline: int | None = None
+        self._is_async = inspect.iscoroutinefunction(callback)
+        clock._add_timer(self)
+
+    @property
+    def handle(self) -> Timer:
+        """What upstream's timer wraps: here the timer itself."""
+        return self
+
+    @property
+    def clock(self) -> Any:
+        """The clock that drives the timer."""
+        return self.clock_of_timer
+
+    @property
+    def timer_period_ns(self) -> int:
+        """The period; a new one takes effect with the next call."""
+        self.use()
+        return self._period
+
+    @timer_period_ns.setter
+    def timer_period_ns(self, value: int) -> None:
+        self.use()
+        self._period = int(value)
+
+    def pending(self) -> bool:
+        """Whether the timer is due."""
+        return not self._canceled and not self.destroyed and self.clock_of_timer._now_ns() >= self._next
+
+    def is_ready(self) -> bool:
+        """Whether the timer is due."""
+        self.use()
+        return self.pending()
+
+    def is_canceled(self) -> bool:
+        """Whether the timer was cancelled and not reset since."""
+        self.use()
+        return self._canceled
+
+    def cancel(self) -> None:
+        """Call back no more until `reset`."""
+        self.use()
+        self._canceled = True
+
+    def reset(self) -> None:
+        """Call back one period from now, and go on."""
+        self.use()
+        self._next = self.clock_of_timer._now_ns() + self._period
+        self._canceled = False
+        self.arm()
+
+    def time_since_last_call(self) -> int:
+        """Nanoseconds since the last call, or since the timer was made."""
+        self.use()
+        return self.clock_of_timer._now_ns() - self._last
+
+    def time_until_next_call(self) -> int | None:
+        """Nanoseconds until the next call, negative when it is overdue, None while cancelled."""
+        self.use()
+        return None if self._canceled else self._next - self.clock_of_timer._now_ns()
+
+    def attach(self, sink: Any, node_order: int) -> None:
+        """Let an executor serve this timer."""
+        super().attach(sink, node_order)
+        self.arm()
+
+    def arm(self) -> None:
+        """Tell the executor when the timer is due; under simulated time the clock tells it."""
+        sink = self.sink
+        if sink is None or self._canceled or self.destroyed:
+            return
+        deadline = self.clock_of_timer._steady_deadline(self._next)
+        if deadline is not None:
+            sink.arm(self, deadline)
+        elif self.pending():
+            self.notify()
+
+    def time_jumped(self, backward: bool) -> None:
+        """The clock was set: after a jump back the timer starts again one period later."""
+        if backward:
+            now = self.clock_of_timer._now_ns()
+            self._last = now
+            self._next = now + self._period
+        self.arm()
+
+    def run(self) -> Any:
+        """Call back, and set the next time."""
+        now = self.clock_of_timer._now_ns()
+        self._last = now
+        period = self._period
+        due = self._next + period
+        if due < now:
+            due = now if period == 0 else due + -((due - now) // period) * period
+        self._next = due
+        self.arm()
+        result = self.callback() if self.callback is not None else None
+        return result if self._is_async else None
+
+    def destroy(self) -> None:
+        """Call back no more; every use from now on raises `InvalidHandle`."""
+        self.destroyed = True
+        self.clock_of_timer._remove_timer(self)
+        self.detach()
+
+
+class Rate:
+    """Sleeps at a frequency; made by `Node.create_rate`."""
+
+    def __init__(self, timer: Timer, *, context: Any) -> None:
+        self._timer = timer
+        self._context = context
+        self._clock = timer.clock
+        from bot_console.runtime.process import current
+
+        self._wakeup = current().clock.wakeup()
+        self._lock = threading.Lock()
+        self._is_shutdown = False
+        self._is_destroyed = False
+        self._sleepers = 0
+        timer.callback = self._tick
+        context.on_shutdown(self._shutdown)
+
+    def _tick(self) -> None:
+        self._wakeup.set()
+
+    def _shutdown(self) -> None:
+        self._is_shutdown = True
+        self.destroy()
+
+    def destroy(self) -> None:
+        """End the rate; who sleeps wakes up."""
+        self._is_destroyed = True
+        self._wakeup.set()
+
+    def _presleep(self) -> None:
+        if self._is_shutdown:
+            raise ROSInterruptException
+        if self._is_destroyed:
+            raise RuntimeError("rate has been destroyed")
+        if self._timer.is_canceled():
+            raise RuntimeError("rate cannot sleep because it has been canceled")
+
+    def sleep(self) -> None:
+        """Block until the next tick; raises `ROSInterruptException` when ROS is shut down meanwhile."""
+        self._presleep()
+        self._wakeup.clear()
+        self._wakeup.wait()
+        if self._is_shutdown:
+            raise ROSInterruptException
+        if self._is_destroyed:
+            raise InvalidHandle(DESTROYED)

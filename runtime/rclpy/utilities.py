@@ -1,0 +1,70 @@
+"""Things that the modules of rclpy and programs share: the default context, and what command lines hold."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from bot_console.runtime.process import ProcessLocal
+
+NANO = 1_000_000_000
+
+
+def _new_context() -> Any:
+    from rclpy.context import Context
+
+    return Context()
+
+
+_default_context: ProcessLocal[Any] = ProcessLocal(_new_context)
+
+
+def get_default_context(*, shutting_down: bool = False) -> Any:
+    """The context that is used where none is named; a new one after a shutdown, so that `init` works again."""
+    return _default_context.get()
+
+
+def renew_default_context() -> None:
+    """Let the next `get_default_context` give a fresh context."""
+    _default_context.set(_new_context())
+
+
+def remove_ros_args(args: Sequence[str] | None = None) -> list[str]:
+    """The words that are not for ROS, the program's name included; raises `RCLError` for words that cannot be parsed."""
+    import sys
+
+    from rclpy.impl.command_line import parse_words
+
+    return parse_words(sys.argv if args is None else args).unparsed
+
+
+def ok(*, context: Any = None) -> bool:
+    """Whether ROS is initialised and not shut down."""
+    return (get_default_context() if context is None else context).ok()
+
+
+def shutdown(*, context: Any = None) -> None:
+    """Shut a context down; raises `RuntimeError` when it was never initialised."""
+    (get_default_context() if context is None else context).shutdown()
+
+
+def try_shutdown(*, context: Any = None) -> None:
+    """Shut a context down unless it is already."""
+    (get_default_context() if context is None else context).try_shutdown()
+
+
+def get_rmw_implementation_identifier() -> str:
+    """The name of the middleware."""
+    return "rmw_bot_console"
+
+
+def get_available_rmw_implementations() -> set[str]:
+    """The names of the middlewares that are there."""
+    return {get_rmw_implementation_identifier()}
+
+
+def timeout_sec_to_nsec(timeout_sec: float | None) -> int | None:
+    """A time-out in ns; None (for ever) for None and for negative ones."""
+    if timeout_sec is None or timeout_sec < 0:
+        return None
+    return int(float(timeout_sec) * NANO)

@@ -1,0 +1,34 @@
+"""Waits for one message of a topic."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import QoSProfile
+from rclpy.task import Future
+
+
+def wait_for_message(
+    msg_type: Any, node: Any, topic: str, *, qos_profile: QoSProfile | int = 1, time_to_wait: float = -1
+) -> tuple[bool, Any]:
+    """The next message of a topic: (True, message), or (False, None) when time (s, negative: for ever) is over.
+
+    Works beside an executor that serves the node, and without one.
+    """
+    future: Future[Any] = Future()
+
+    def take(message: Any) -> None:
+        if not future.done():
+            future.set_result(message)
+
+    subscription = node.create_subscription(msg_type, topic, take, qos_profile)
+    try:
+        timeout = None if time_to_wait < 0 else time_to_wait
+        executor = SingleThreadedExecutor(context=node.context)
+        # Only this subscription: another executor may serve the node.
+        subscription.attach(executor, 0)
+        executor.spin_until_future_complete(future, timeout)
+        return (True, future.result()) if future.done() else (False, None)
+    finally:
+        node.destroy_subscription(subscription)

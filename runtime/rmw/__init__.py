@@ -1,0 +1,1 @@
+"""The middleware below rclpy: names, arguments, and the bus that carries messages."""

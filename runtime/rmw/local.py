@@ -1,0 +1,293 @@
+"""The bus within one process: a publish copies the message into each subscription's queue, nothing else."""
+
+from __future__ import annotations
+
+import itertools
+import threading
+from collections import deque
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from bot_console.runtime.process import current
+from bot_console.runtime.rmw.bus import (
+    ClientEndpoint,
+    Endpoint,
+    NodeId,
+    Notify,
+    ServiceEndpoint,
+    SubscriptionEndpoint,
+)
+from bot_console.runtime.rmw.qos_matching import incompatible_policy
+
+_gids = itertools.count(1)
+
+
+def new_gid() -> bytes:
+    """A number that no other endpoint of this process has, in 16 bytes."""
+    return next(_gids).to_bytes(16, "little")
+
+
+class LocalPublisher:
+    """A publisher; `targets` are the subscriptions that receive, renewed when the graph changes."""
+
+    __slots__ = ("_lifespan", "_number", "endpoint", "history", "on_event", "open", "targets")
+
+    def __init__(self, endpoint: Endpoint, on_event: Callable[[str, Any], None]) -> None:
+        self.endpoint = endpoint
+        self.on_event = on_event
+        self.targets: tuple[SubscriptionEndpoint, ...] = ()
+        self.open = True
+        self._number = 0
+        self._lifespan = endpoint.qos.lifespan.nanoseconds
+        keeps = endpoint.qos.durability.name == "TRANSIENT_LOCAL"
+        self.history: deque[Any] | None = deque(maxlen=_depth(endpoint.qos)) if keeps else None
+
+    def publish(self, message: Any) -> None:
+        """Copy the message into the queue of each matched subscription."""
+        if not self.open:
+            return
+        self._number += 1
+        targets, history = self.targets, self.history
+        if not targets and history is None:
+            message._copy_()
+            return
+        stamp = current().clock.system_ns()
+        if history is not None:
+            history.append((message._copy_(), stamp, self._number))
+        for target in targets:
+            given = _serialize(message) if target.raw else message._copy_()
+            target.queue.append((given, stamp, self._number))
+            target.notify()
+
+    def publish_raw(self, data: bytes) -> None:
+        """Give serialized data as it is, or as a message to subscriptions that want one."""
+        self.publish(_deserialize(data, self.endpoint.message_class))
+
+    def matched_count(self) -> int:
+        """How many subscriptions receive."""
+        return len(self.targets)
+
+    def late(self, target: SubscriptionEndpoint) -> None:
+        """Give a subscription that has come late what was kept for it."""
+        now = current().clock.system_ns()
+        for message, stamp, number in self.history or ():
+            if not self._lifespan or now - stamp <= self._lifespan:
+                given = _serialize(message) if target.raw else message._copy_()
+                target.queue.append((given, stamp, number))
+        if target.queue:
+            target.notify()
+
+
+def _depth(qos: Any) -> int | None:
+    """The length of a queue; None where all is kept."""
+    return None if qos.history.name == "KEEP_ALL" else max(1, qos.depth or 10)
+
+
+def queue_for(qos: Any) -> deque[Any]:
+    """An empty queue of the length that a profile asks for."""
+    return deque(maxlen=_depth(qos))
+
+
+def _serialize(message: Any) -> bytes:
+    from bot_console.runtime.rosidl.cdr import serialize
+
+    return serialize(message)
+
+
+def _deserialize(data: bytes, message_class: Any) -> Any:
+    from bot_console.runtime.rosidl.cdr import deserialize
+
+    return deserialize(data, message_class)
+
+
+class LocalBus:
+    """The middleware of one ROS domain of this process."""
+
+    def __init__(self) -> None:
+        self._lock = threading.RLock()
+        self._numbers = itertools.count(1)
+        self._nodes: dict[NodeId, list[Any]] = {}
+        self._publishers: dict[str, list[LocalPublisher]] = {}
+        self._subscriptions: dict[str, list[SubscriptionEndpoint]] = {}
+        self._services: dict[str, list[ServiceEndpoint]] = {}
+        self._clients: dict[str, list[ClientEndpoint]] = {}
+        self._watchers: list[Notify] = []
+
+    def add_node(self, name: str, namespace: str, enclave: str) -> NodeId:
+        """Let a node appear in the graph."""
+        node = NodeId(name, namespace, enclave, next(self._numbers))
+        with self._lock:
+            self._nodes[node] = []
+        self._changed()
+        return node
+
+    def remove_node(self, node: NodeId) -> None:
+        """Let a node and all that it has left leave the graph."""
+        with self._lock:
+            for thing in list(self._nodes.get(node, ())):
+                self._take_away(thing)
+            self._nodes.pop(node, None)
+        self._changed()
+
+    def create_publisher(self, endpoint: Endpoint, on_event: Callable[[str, Any], None]) -> LocalPublisher:
+        """Make a publisher and match it."""
+        publisher = LocalPublisher(endpoint, on_event)
+        with self._lock:
+            self._own(endpoint.node, publisher)
+            self._publishers.setdefault(endpoint.topic, []).append(publisher)
+            matched: list[SubscriptionEndpoint] = []
+            for each in self._subscriptions.get(endpoint.topic, ()):
+                if self._match(publisher, each):
+                    matched.append(each)
+            publisher.targets = tuple(matched)
+        self._changed()
+        return publisher
+
+    def create_subscription(self, subscription: SubscriptionEndpoint) -> None:
+        """Let a subscription receive, late messages included."""
+        endpoint = subscription.endpoint
+        with self._lock:
+            self._own(endpoint.node, subscription)
+            self._subscriptions.setdefault(endpoint.topic, []).append(subscription)
+            for publisher in self._publishers.get(endpoint.topic, ()):
+                if self._match(publisher, subscription):
+                    publisher.targets = (*publisher.targets, subscription)
+                    if publisher.history and endpoint.qos.durability.name == "TRANSIENT_LOCAL":
+                        publisher.late(subscription)
+        self._changed()
+
+    def _match(self, publisher: LocalPublisher, subscription: SubscriptionEndpoint) -> bool:
+        """Whether the two go together, telling both sides."""
+        if publisher.endpoint.type_name != subscription.endpoint.type_name:
+            return False
+        policy = incompatible_policy(publisher.endpoint.qos, subscription.endpoint.qos)
+        if policy:
+            publisher.on_event("incompatible", policy)
+            subscription.on_event("incompatible", policy)
+            return False
+        subscription.matched += 1
+        publisher.on_event("matched", 1)
+        subscription.on_event("matched", 1)
+        return True
+
+    def create_service(self, service: ServiceEndpoint) -> None:
+        """Let a service server receive requests."""
+        with self._lock:
+            self._own(service.node, service)
+            self._services.setdefault(service.name, []).append(service)
+        self._changed()
+
+    def create_client(self, client: ClientEndpoint) -> None:
+        """Let a client appear in the graph."""
+        with self._lock:
+            self._own(client.node, client)
+            self._clients.setdefault(client.name, []).append(client)
+        self._changed()
+
+    def _own(self, node: NodeId, thing: Any) -> None:
+        things = self._nodes.get(node)
+        if things is not None:
+            things.append(thing)
+
+    def remove(self, thing: Any) -> None:
+        """Take an endpoint away; a second time does nothing."""
+        with self._lock:
+            self._take_away(thing)
+        self._changed()
+
+    def _take_away(self, thing: Any) -> None:
+        if isinstance(thing, LocalPublisher):
+            thing.open = False
+            _drop(self._publishers, thing.endpoint.topic, thing)
+            for target in thing.targets:
+                target.matched -= 1
+                target.on_event("matched", -1)
+            thing.targets = ()
+            node = thing.endpoint.node
+        elif isinstance(thing, SubscriptionEndpoint):
+            _drop(self._subscriptions, thing.endpoint.topic, thing)
+            for publisher in self._publishers.get(thing.endpoint.topic, ()):
+                if thing in publisher.targets:
+                    publisher.targets = tuple(each for each in publisher.targets if each is not thing)
+                    publisher.on_event("matched", -1)
+            node = thing.endpoint.node
+        else:
+            _drop(self._services if isinstance(thing, ServiceEndpoint) else self._clients, thing.name, thing)
+            node = thing.node
+        things = self._nodes.get(node)
+        if things and thing in things:
+            things.remove(thing)
+
+    def request(self, client: ClientEndpoint, number: int, request: Any) -> None:
+        """Put a copy of the request into the queue of each server of the service."""
+        for server in tuple(self._services.get(client.name, ())):
+            if server.type_name == client.type_name:
+                server.queue.append((client, number, request._copy_()))
+                server.notify()
+
+    def respond(self, client: ClientEndpoint, number: int, response: Any) -> None:
+        """Put a copy of the response into the client's queue."""
+        client.queue.append((number, response._copy_()))
+        client.notify()
+
+    def has_server(self, client: ClientEndpoint) -> bool:
+        """Whether a server of the client's service is there."""
+        return any(each.type_name == client.type_name for each in tuple(self._services.get(client.name, ())))
+
+    def nodes(self) -> Sequence[NodeId]:
+        """All nodes, in the order in which they came."""
+        return list(self._nodes)
+
+    def publishers(self) -> Sequence[Endpoint]:
+        """All publishers."""
+        with self._lock:
+            return [each.endpoint for rows in self._publishers.values() for each in rows]
+
+    def subscriptions(self) -> Sequence[Endpoint]:
+        """All subscriptions."""
+        with self._lock:
+            return [each.endpoint for rows in self._subscriptions.values() for each in rows]
+
+    def servers(self) -> Sequence[ServiceEndpoint]:
+        """All service servers."""
+        with self._lock:
+            return [each for rows in self._services.values() for each in rows]
+
+    def clients(self) -> Sequence[ClientEndpoint]:
+        """All service clients."""
+        with self._lock:
+            return [each for rows in self._clients.values() for each in rows]
+
+    def on_graph_change(self, callback: Notify) -> Callable[[], None]:
+        """Call back at each change of the graph; returns what ends that."""
+        with self._lock:
+            self._watchers.append(callback)
+
+        def end() -> None:
+            with self._lock:
+                if callback in self._watchers:
+                    self._watchers.remove(callback)
+
+        return end
+
+    def _changed(self) -> None:
+        for watcher in tuple(self._watchers):
+            watcher()
+
+
+def _drop(table: dict[str, list[Any]], key: str, thing: Any) -> None:
+    rows = table.get(key, [])
+    if thing in rows:
+        rows.remove(thing)
+    if not rows:
+        table.pop(key, None)
+
+
+_buses: dict[int, LocalBus] = {}
+_buses_lock = threading.Lock()
+
+
+def local_bus(domain: int) -> LocalBus:
+    """The bus of a ROS domain in this process, made at first use."""
+    with _buses_lock:
+        return _buses.setdefault(domain, LocalBus())
