@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""The whole robot system: simulator, navigator, sensors, motion controller, safety monitor and telemetry.
+
+Velocity commands go navigator -> motion controller -> safety monitor -> robot; a person's go to `cmd_vel_teleop`.
+"""
+
+from ament_index_python.packages import get_package_share_directory
+from launch.actions import DeclareLaunchArgument, OpaqueFunction
+from launch.conditions import IfCondition
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import Node
+from launch_ros.parameter_descriptions import ParameterValue
+
+from launch import LaunchDescription
+
+PACKAGE = "intelligent_robot"
+PROFILES = ["indoor", "outdoor", "warehouse", "competition"]
+
+
+def generate_launch_description():
+    """Describe the system."""
+    profile = LaunchConfiguration("profile")
+    config_file = LaunchConfiguration("config_file")
+    use_sim_time = {"use_sim_time": ParameterValue(LaunchConfiguration("use_sim_time"), value_type=bool)}
+    follow_route = {"follow_route": ParameterValue(LaunchConfiguration("follow_route"), value_type=bool)}
+
+    def robot_node(executable, name, remappings=(), extra=None, condition=None):
+        return Node(
+            package=PACKAGE,
+            executable=executable,
+            name=name,
+            output="screen",
+            parameters=[config_file, use_sim_time, *([extra] if extra else [])],
+            remappings=list(remappings),
+            condition=condition,
+        )
+
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument(
+                "profile", default_value="indoor", choices=PROFILES, description="Environment: settings and world"
+            ),
+            DeclareLaunchArgument(
+                "config_file",
+                default_value=PathJoinSubstitution(
+                    [get_package_share_directory(PACKAGE), "config", [profile, "_config.yaml"]]
+                ),
+                description="Path to robot configuration file; overrules profile",
+            ),
+            DeclareLaunchArgument("seed", default_value="", description="Seed of the simulator; empty: the file's"),
+            DeclareLaunchArgument("world", default_value="", description="World of the simulator; empty: the file's"),
+            DeclareLaunchArgument("navigator", default_value="true", description="Start our own robot_navigator"),
+            DeclareLaunchArgument(
+                "follow_route", default_value="false", description="Drive along the world's waypoints"
+            ),
+            DeclareLaunchArgument(
+                "use_sim_time", default_value="false", description="Nodes follow /clock of the simulator"
+            ),
+            OpaqueFunction(function=make_simulator),
+            robot_node("sensor_node", "sensor_handler"),
+            robot_node("safety_node", "safety_monitor"),
+            robot_node("controller_node", "motion_controller", [("cmd_vel", "cmd_vel_nav")], follow_route),
+            robot_node("telemetry_node", "telemetry_publisher"),
+            robot_node(
+                "robot_node",
+                "robot_navigator",
+                [("cmd_vel", "cmd_vel_desired")],
+                condition=IfCondition(LaunchConfiguration("navigator")),
+            ),
+        ]
+    )
+
+
+def make_simulator(context):
+    """The simulator, with the arguments that were given; the others stay as the file has them."""
+    given = {}
+    if seed := LaunchConfiguration("seed").perform(context):
+        given["seed"] = int(seed)
+    if world := LaunchConfiguration("world").perform(context):
+        given["world"] = world
+    return [
+        Node(
+            package=PACKAGE,
+            executable="simulator_node",
+            name="simulator",
+            output="screen",
+            parameters=[LaunchConfiguration("config_file"), *([given] if given else [])],
+        )
+    ]

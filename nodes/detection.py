@@ -1,0 +1,61 @@
+"""What a scan shows once noise is filtered out: things in the way, as groups of neighbouring beams."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from intelligent_robot.scans import Floats
+
+SAME_THING = 0.35
+"""Neighbouring returns nearer to each other than this (m) belong to one thing."""
+FEWEST = 3
+"""Beams that a thing must fill to be reported."""
+
+
+@dataclass(frozen=True, slots=True)
+class Detection:
+    """A thing at x, y (m, from the sensor, x ahead), `width` m across, and the nearest distance to it in m."""
+
+    x: float
+    y: float
+    width: float
+    distance: float
+
+
+def median_of_three(ranges: Floats) -> Floats:
+    """Each range replaced by the median of itself and its neighbours: single stray beams vanish."""
+    if len(ranges) < 3:
+        return ranges
+    result = ranges.copy()
+    left, middle, right = ranges[:-2], ranges[1:-1], ranges[2:]
+    result[1:-1] = np.maximum(np.minimum(left, middle), np.minimum(np.maximum(left, middle), right))
+    return result
+
+
+def strong(ranges: Floats, intensities: Floats, threshold: int) -> Floats:
+    """The ranges with returns weaker than the threshold taken out (`+inf`: nothing there)."""
+    if len(intensities) != len(ranges):
+        return ranges
+    return np.where(intensities >= threshold, ranges, np.float32(math.inf))
+
+
+def find(ranges: Floats, first: float, increment: float) -> list[Detection]:
+    """Groups of returns, from right to left."""
+    index = np.flatnonzero(np.isfinite(ranges) & (ranges > 0.0))
+    if not len(index):
+        return []
+    angle = first + increment * index
+    depth = ranges[index].astype(np.float64)
+    x, y = depth * np.cos(angle), depth * np.sin(angle)
+    apart = (np.hypot(np.diff(x), np.diff(y)) > SAME_THING) | (np.diff(index) > 2)
+    starts = np.concatenate(([0], np.flatnonzero(apart) + 1))
+    ends = np.concatenate((starts[1:], [len(index)]))
+    found: list[Detection] = []
+    for start, end in zip(starts.tolist(), ends.tolist(), strict=True):
+        if end - start >= FEWEST:
+            width = math.hypot(float(x[end - 1] - x[start]), float(y[end - 1] - y[start]))
+            group = slice(start, end)
+            found.append(Detection(float(x[group].mean()), float(y[group].mean()), width, float(depth[group].min())))
+    return found

@@ -1,0 +1,44 @@
+"""Parameter descriptors with ranges, as every node of this package declares them.
+
+A step of 0 makes a range continuous; a step would refuse values instead of rounding them. Descriptions end in the unit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor, SetParametersResult
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+
+def number(description: str, low: float, high: float) -> ParameterDescriptor:
+    """The descriptor of a double from `low` to `high`."""
+    span = FloatingPointRange(from_value=low, to_value=high, step=0.0)
+    return ParameterDescriptor(description=description, floating_point_range=[span])
+
+
+def whole(description: str, low: int, high: int) -> ParameterDescriptor:
+    """The descriptor of an integer from `low` to `high`."""
+    return ParameterDescriptor(description=description, integer_range=[IntegerRange(from_value=low, to_value=high)])
+
+
+def plain(description: str) -> ParameterDescriptor:
+    """The descriptor of a value that has no range."""
+    return ParameterDescriptor(description=description)
+
+
+def proposed(node: Node, changes: Iterable[Parameter], *names: str) -> list[float]:
+    """The numbers that some parameters would have after the changes, for rules between parameters."""
+    after = {each.name: each.value for each in changes}
+    return [float(after[name] if name in after else node.get_parameter(name).value) for name in names]
+
+
+def accepted() -> SetParametersResult:
+    """The answer of a callback that has nothing against a change."""
+    return SetParametersResult(successful=True)
+
+
+def refused(reason: str) -> SetParametersResult:
+    """The answer of a callback that refuses a change."""
+    return SetParametersResult(successful=False, reason=reason)

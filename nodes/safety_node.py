@@ -1,0 +1,166 @@
+#!/usr/bin/env python3
+"""Node `safety_monitor`: the only one that commands the robot. It chooses whose command counts, slows and stops it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import Twist
+from intelligent_robot.arbitration import Arbiter, Command, Verdict, limit, nearest_ahead
+from intelligent_robot.diagnostics import ERROR, OK, WARN, status
+from intelligent_robot.parameters import accepted, number, proposed, refused
+from intelligent_robot.running import CannotStart, run
+from intelligent_robot.scans import ranges_of
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from sensor_msgs.msg import LaserScan
+
+TELEOP, NAVIGATION = "cmd_vel_teleop", "cmd_vel_nav"
+LIFETIME_NS = 500_000_000
+"""A command or scan older than this is dead."""
+WATCH_PERIOD = 0.1
+"""Seconds between two looks at what has died."""
+ZEROS = 10
+"""Zero commands that are sent when the last source has died, before silence."""
+NO_COMMAND = "no fresh command"
+NO_SCAN = "no fresh scan"
+
+
+class SafetyMonitor(Node):
+    """Publishes `cmd_vel`, and `diagnostics` about what was asked, what limited it and what is final."""
+
+    def __init__(self) -> None:
+        super().__init__("safety_monitor")
+        self.declare_parameter(
+            "emergency_stop_distance", 0.3, number("No driving on towards a thing nearer than this (m)", 0.05, 2.0)
+        )
+        self.declare_parameter("warning_distance", 0.7, number("Slower from this distance on (m)", 0.1, 5.0))
+        self.add_on_set_parameters_callback(self._check)
+        self.add_post_set_parameters_callback(self._apply)
+        self._steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._arbiter = Arbiter((TELEOP, NAVIGATION), LIFETIME_NS)
+        self._nearest = math.inf
+        self._scan_stamp = -LIFETIME_NS - 1
+        self._verdict = Verdict("", (0.0, 0.0), (0.0, 0.0), NO_COMMAND, math.inf)
+        self._zeros = 0
+        self._read()
+        problem = _problem(self._emergency, self._warning)
+        if problem:
+            raise CannotStart(problem)
+        self._commands = self.create_publisher(Twist, "cmd_vel", 10)
+        self._diagnostics = self.create_publisher(DiagnosticArray, "diagnostics", 10)
+        for topic in (TELEOP, NAVIGATION):
+            self.create_subscription(Twist, topic, self._listener(topic), 10)
+        self.create_subscription(LaserScan, "scan", self._on_scan, 10)
+        self.create_timer(WATCH_PERIOD, self._watch, clock=self._steady)
+        self.get_logger().info(f"Watching: slower from {self._warning} m, stop at {self._emergency} m")
+
+    def _read(self) -> None:
+        self._emergency = float(self.get_parameter("emergency_stop_distance").value)
+        self._warning = float(self.get_parameter("warning_distance").value)
+
+    def _check(self, changes: list[Parameter]) -> SetParametersResult:
+        emergency, warning = proposed(self, changes, "emergency_stop_distance", "warning_distance")
+        problem = _problem(emergency, warning)
+        return refused(problem) if problem else accepted()
+
+    def _apply(self, changes: list[Parameter]) -> None:
+        self._read()
+        for change in changes:
+            self.get_logger().info(f"✓ {change.name}: {change.value} m")
+
+    def _listener(self, source: str) -> Callable[[Twist], None]:
+        def on_command(message: Twist) -> None:
+            self._arbiter.offer(source, message.linear.x, message.angular.z, self._now())
+            self._decide()
+
+        return on_command
+
+    def _on_scan(self, scan: LaserScan) -> None:
+        self._nearest = nearest_ahead(ranges_of(scan), scan.angle_min, scan.angle_increment)
+        self._scan_stamp = self._now()
+        if self._verdict.final[0] > 0.0:
+            self._decide()
+
+    def _now(self) -> int:
+        return self._steady.now().nanoseconds
+
+    def _watch(self) -> None:
+        if self._arbiter.choose(self._now()) is None or self._verdict.limited_by == NO_SCAN:
+            self._decide()
+        self._publish_diagnostics()
+
+    def _decide(self) -> None:
+        now = self._now()
+        command = self._arbiter.choose(now)
+        if command is None:
+            verdict = Verdict("", (0.0, 0.0), (0.0, 0.0), NO_COMMAND, self._nearest)
+            self._zeros += 1
+        else:
+            verdict = self._limited(command, now)
+            self._zeros = 0
+        changed = (verdict.source, verdict.limited_by) != (self._verdict.source, self._verdict.limited_by)
+        self._verdict = verdict
+        if self._zeros <= ZEROS:
+            self._command(verdict)
+        if changed:
+            self._tell(verdict)
+            self._publish_diagnostics()
+
+    def _limited(self, command: Command, now: int) -> Verdict:
+        if now - self._scan_stamp > LIFETIME_NS:
+            asked = (command.linear, command.angular)
+            return Verdict(command.source, asked, (0.0, 0.0), NO_SCAN, math.inf)
+        return limit(command, self._nearest, self._emergency, self._warning)
+
+    def _command(self, verdict: Verdict) -> None:
+        command = Twist()
+        command.linear.x, command.angular.z = verdict.final
+        self._commands.publish(command)
+
+    def _tell(self, verdict: Verdict) -> None:
+        log = self.get_logger()
+        if verdict.limited_by == "emergency_stop_distance":
+            log.warning(f"⚠ Stopped: obstacle at {verdict.nearest:.2f} m, nearer than {self._emergency} m")
+        elif verdict.limited_by == "warning_distance":
+            log.warning(f"⚠ Slower: obstacle at {verdict.nearest:.2f} m", throttle_duration_sec=2.0)
+        elif verdict.limited_by == NO_SCAN:
+            log.error("Stopped: no scan for 0.5 s, so nobody sees what is ahead. Is the LIDAR running?")
+        elif verdict.limited_by == NO_COMMAND:
+            log.warning("Stopped: no velocity command for 0.5 s")
+
+    def _publish_diagnostics(self) -> None:
+        verdict = self._verdict
+        level = {"": OK, "warning_distance": WARN, NO_COMMAND: WARN}.get(verdict.limited_by, ERROR)
+        message = f"limited by {verdict.limited_by}" if verdict.limited_by else "free"
+        values = {
+            "source": verdict.source,
+            "asked.linear": verdict.asked[0],
+            "asked.angular": verdict.asked[1],
+            "limited_by": verdict.limited_by,
+            "final.linear": verdict.final[0],
+            "final.angular": verdict.final[1],
+            "nearest": verdict.nearest,
+        }
+        stamp = self.get_clock().now().to_msg()
+        self._diagnostics.publish(status("safety_monitor: velocity", level, message, values, stamp))
+
+
+def _problem(emergency: float, warning: float) -> str:
+    """What is wrong with two distances in m; empty when they fit."""
+    if warning > emergency:
+        return ""
+    return f"warning_distance ({warning} m) must be greater than emergency_stop_distance ({emergency} m)"
+
+
+def main(args: list[str] | None = None) -> None:
+    """Run the node."""
+    run(SafetyMonitor, args)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,36 @@
+"""LaserScan messages as numpy arrays and back, without a loop over the beams."""
+
+from __future__ import annotations
+
+from array import array
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+from sensor_msgs.msg import LaserScan
+
+Floats: TypeAlias = "npt.NDArray[np.float32]"
+
+
+def ranges_of(scan: LaserScan) -> Floats:
+    """The ranges in m; a view, not to be written to."""
+    return np.frombuffer(memoryview(scan.ranges), np.float32)
+
+
+def intensities_of(scan: LaserScan) -> Floats:
+    """The intensities, empty when the sensor gives none; a view, not to be written to."""
+    return np.frombuffer(memoryview(scan.intensities), np.float32)
+
+
+def nearest_return(scan: LaserScan) -> float:
+    """The distance in m to the nearest return; the sensor's range when there is none."""
+    ranges = ranges_of(scan)
+    valid = ranges[(ranges > scan.range_min) & (ranges <= scan.range_max)]
+    return float(valid.min()) if len(valid) else float(scan.range_max)
+
+
+def packed(values: npt.NDArray[np.float64] | Floats) -> array[float]:
+    """Numbers as the float32 array that a message field takes."""
+    result = array("f")
+    result.frombytes(values.astype(np.float32).tobytes())
+    return result

@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+"""Node `sensor_handler`: the newest scan, filtered, at a rate of its own, and the things that it shows."""
+
+from __future__ import annotations
+
+from geometry_msgs.msg import Pose, PoseArray
+from intelligent_robot.detection import Detection, find, median_of_three, strong
+from intelligent_robot.parameters import number, plain, whole
+from intelligent_robot.running import run
+from intelligent_robot.scans import intensities_of, packed, ranges_of
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from sensor_msgs.msg import LaserScan
+
+
+class SensorHandler(Node):
+    """Publishes `scan_filtered` and `detections`."""
+
+    def __init__(self) -> None:
+        super().__init__("sensor_handler")
+        self.declare_parameter("update_rate", 10.0, number("Rate of the filtered scan (Hz)", 0.5, 50.0))
+        self.declare_parameter("filter_enabled", True, plain("Take out single stray beams"))
+        self.declare_parameter(
+            "detection_threshold", 100, whole("Intensity from which a return counts as a thing (0-255)", 0, 255)
+        )
+        self.add_post_set_parameters_callback(self._apply)
+        self._newest: LaserScan | None = None
+        self._scans = self.create_publisher(LaserScan, "scan_filtered", 10)
+        self._detections = self.create_publisher(PoseArray, "detections", 10)
+        self.create_subscription(LaserScan, "scan", self._on_scan, 10)
+        self._read()
+        self._timer = self.create_timer(1.0 / self._rate, self._process)
+        self.get_logger().info(f"Filtering scans at {self._rate} Hz")
+
+    def _read(self) -> None:
+        self._rate = float(self.get_parameter("update_rate").value)
+        self._filter = bool(self.get_parameter("filter_enabled").value)
+        self._threshold = int(self.get_parameter("detection_threshold").value)
+
+    def _apply(self, changes: list[Parameter]) -> None:
+        self._read()
+        if any(change.name == "update_rate" for change in changes):
+            self.destroy_timer(self._timer)
+            self._timer = self.create_timer(1.0 / self._rate, self._process)
+        for change in changes:
+            self.get_logger().info(f"✓ {change.name}: {change.value}")
+
+    def _on_scan(self, scan: LaserScan) -> None:
+        self._newest = scan
+
+    def _process(self) -> None:
+        scan, self._newest = self._newest, None
+        if scan is None:
+            return
+        ranges = strong(ranges_of(scan), intensities_of(scan), self._threshold)
+        if self._filter:
+            ranges = median_of_three(ranges)
+        found = find(ranges, scan.angle_min, scan.angle_increment)
+        scan.ranges = packed(ranges)
+        self._scans.publish(scan)
+        self._detections.publish(PoseArray(header=scan.header, poses=[_pose(each) for each in found]))
+
+
+def _pose(detection: Detection) -> Pose:
+    pose = Pose()
+    pose.position.x = detection.x
+    pose.position.y = detection.y
+    return pose
+
+
+def main(args: list[str] | None = None) -> None:
+    """Run the node."""
+    run(SensorHandler, args)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,112 @@
+"""What the simulator knows, as ROS messages. Frames: `map` is the truth, `odom` drifts, `base_link` is the robot."""
+
+from __future__ import annotations
+
+import math
+from array import array
+from collections.abc import Iterable
+
+from builtin_interfaces.msg import Time
+from geometry_msgs.msg import PoseStamped, Quaternion
+from intelligent_robot.scans import packed
+from intelligent_robot.simulation.arrays import Floats
+from intelligent_robot.simulation.geometry import Point, Pose
+from intelligent_robot.simulation.lidar import LidarSettings, Scan
+from intelligent_robot.simulation.occupancy import occupancy_grid
+from intelligent_robot.simulation.world import World
+from nav_msgs.msg import OccupancyGrid, Odometry, Path
+from sensor_msgs.msg import LaserScan
+from visualization_msgs.msg import Marker, MarkerArray
+
+MAP, ODOM, BASE, SENSOR = "map", "odom", "base_link", "base_scan"
+PERSON_HEIGHT = 1.7
+
+
+def time_of(nanoseconds: int) -> Time:
+    """A time stamp."""
+    seconds, rest = divmod(nanoseconds, 1_000_000_000)
+    return Time(sec=seconds, nanosec=rest)
+
+
+def quaternion(heading: float) -> Quaternion:
+    """The orientation of a heading in rad."""
+    return Quaternion(x=0.0, y=0.0, z=math.sin(0.5 * heading), w=math.cos(0.5 * heading))
+
+
+def heading_of(q: Quaternion) -> float:
+    """The heading in rad of an orientation."""
+    return math.atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z))
+
+
+def scan_message(scan: Scan, settings: LidarSettings, period: float, stamp: Time) -> LaserScan:
+    """A scan, `period` s after the one before."""
+    message = LaserScan()
+    message.header.stamp = stamp
+    message.header.frame_id = SENSOR
+    message.angle_min = settings.first_angle
+    message.angle_max = -settings.first_angle
+    message.angle_increment = settings.increment
+    message.scan_time = period
+    message.range_min = settings.range_min
+    message.range_max = settings.range_max
+    message.ranges = packed(scan.ranges)
+    message.intensities = packed(scan.intensities)
+    return message
+
+
+def odometry_message(pose: Pose, velocity: tuple[float, float], frame: str, stamp: Time) -> Odometry:
+    """A pose in a frame and a velocity (m/s, rad/s) in the robot's own."""
+    message = Odometry()
+    message.header.stamp = stamp
+    message.header.frame_id = frame
+    message.child_frame_id = BASE
+    message.pose.pose.position.x = pose.x
+    message.pose.pose.position.y = pose.y
+    message.pose.pose.orientation = quaternion(pose.heading)
+    message.twist.twist.linear.x, message.twist.twist.angular.z = velocity
+    return message
+
+
+def map_message(world: World, resolution: float, stamp: Time) -> OccupancyGrid:
+    """What stands still, as a grid with cells of `resolution` m."""
+    grid = occupancy_grid(world, resolution)
+    message = OccupancyGrid()
+    message.header.stamp = stamp
+    message.header.frame_id = MAP
+    message.info.map_load_time = stamp
+    message.info.resolution = resolution
+    message.info.height, message.info.width = grid.shape
+    cells = array("b")
+    cells.frombytes(grid.tobytes())
+    message.data = cells
+    return message
+
+
+def route_message(points: Iterable[Point], stamp: Time) -> Path:
+    """Waypoints (m) in the map."""
+    message = Path()
+    message.header.stamp = stamp
+    message.header.frame_id = MAP
+    poses: list[PoseStamped] = []
+    for x, y in points:
+        pose = PoseStamped(header=message.header)
+        pose.pose.position.x, pose.pose.position.y = x, y
+        poses.append(pose)
+    message.poses = poses
+    return message
+
+
+def obstacles_message(moving: Floats, stamp: Time) -> MarkerArray:
+    """Moving obstacles, rows of x, y, radius in m, as upright cylinders."""
+    return MarkerArray(markers=[_cylinder(i, *row, stamp) for i, row in enumerate(moving.tolist())])
+
+
+def _cylinder(number: int, x: float, y: float, radius: float, stamp: Time) -> Marker:
+    marker = Marker(ns="moving", id=number, type=Marker.CYLINDER, action=Marker.ADD)
+    marker.header.stamp = stamp
+    marker.header.frame_id = MAP
+    marker.pose.position.x, marker.pose.position.y, marker.pose.position.z = x, y, 0.5 * PERSON_HEIGHT
+    marker.scale.x = marker.scale.y = 2.0 * radius
+    marker.scale.z = PERSON_HEIGHT
+    marker.color.r, marker.color.g, marker.color.b, marker.color.a = 0.9, 0.6, 0.1, 1.0
+    return marker

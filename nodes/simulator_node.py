@@ -1,0 +1,229 @@
+#!/usr/bin/env python3
+"""Node `simulator`: a robot in a world, in constant 10 ms steps on steady time, with services to hold and reset it."""
+
+from __future__ import annotations
+
+import json
+
+from geometry_msgs.msg import PoseWithCovarianceStamped, Twist
+from intelligent_robot import simulator_messages as messages
+from intelligent_robot.parameters import accepted, refused
+from intelligent_robot.running import CannotStart, run
+from intelligent_robot.simulation.geometry import Pose
+from intelligent_robot.simulation.simulation import STEP, STEP_NS, Simulation
+from intelligent_robot.simulation.world import WorldError
+from intelligent_robot.simulator_parameters import declare, problem, settings
+from intelligent_robot.worlds import find_world
+from nav_msgs.msg import OccupancyGrid, Odometry, Path
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from rosgraph_msgs.msg import Clock as ClockMessage
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import Bool, UInt32
+from std_srvs.srv import SetBool, Trigger
+from visualization_msgs.msg import MarkerArray
+
+CATCH_UP = 25
+"""Steps made at once at most; what is missing beyond them is dropped, so that a stall does not become a storm."""
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+class Simulator(Node):
+    """Takes `cmd_vel` and `initialpose`; publishes what a robot would, the truth beside it, and `/clock`."""
+
+    def __init__(self) -> None:
+        super().__init__("simulator")
+        declare(self)
+        trouble = problem(self, ())
+        if trouble:
+            raise CannotStart(trouble)
+        self.add_on_set_parameters_callback(self._check)
+        self.add_post_set_parameters_callback(self._apply)
+        self._steady = Clock(clock_type=ClockType.STEADY_TIME)
+        try:
+            self._simulation = self._make()
+        except WorldError as error:
+            raise CannotStart(str(error)) from error
+        self._paused = False
+        self._read_rates()
+        self._create_publishers()
+        self.create_subscription(Twist, "cmd_vel", self._on_command, 10)
+        self.create_subscription(PoseWithCovarianceStamped, "initialpose", self._on_pose, 10)
+        self.create_service(Trigger, "reset", self._on_reset)
+        self.create_service(SetBool, "pause", self._on_pause)
+        self.create_service(Trigger, "step", self._on_step)
+        self.create_service(Trigger, "report", self._on_report)
+        self._begin()
+        self.create_timer(STEP, self._tick, clock=self._steady)
+
+    def _create_publishers(self) -> None:
+        self._clock_messages = self.create_publisher(ClockMessage, "/clock", 10)
+        self._scans = self.create_publisher(LaserScan, "scan", 10)
+        self._odometry = self.create_publisher(Odometry, "odom", 10)
+        self._truth = self.create_publisher(Odometry, "ground_truth", 10)
+        self._bumper = self.create_publisher(Bool, "bumper", LATCHED)
+        self._collisions = self.create_publisher(UInt32, "collisions", LATCHED)
+        self._obstacles = self.create_publisher(MarkerArray, "obstacles", 10)
+        self._maps = self.create_publisher(OccupancyGrid, "map", LATCHED)
+        self._routes = self.create_publisher(Path, "route", LATCHED)
+
+    def _make(self) -> Simulation:
+        """A run from the start with the present parameters; raises `WorldError`."""
+        world = find_world(str(self.get_parameter("world").value))
+        return Simulation(world, int(self.get_parameter("seed").value), settings(self))
+
+    def _begin(self) -> None:
+        """Tell the graph about a run that begins."""
+        world, stamp = self._simulation.world, messages.time_of(0)
+        self._bumped = False
+        self._restart_time()
+        self._maps.publish(messages.map_message(world, float(self.get_parameter("map_resolution").value), stamp))
+        self._routes.publish(messages.route_message(world.route, stamp))
+        self._collisions.publish(UInt32(data=0))
+        self._bumper.publish(Bool(data=False))
+        self.get_logger().info(
+            f"{world.title}: {world.size[0]:g} m x {world.size[1]:g} m, seed {self._simulation.seed}"
+        )
+
+    def _restart_time(self) -> None:
+        self._origin = self._steady.now().nanoseconds
+        self._done = 0
+
+    def _read_rates(self) -> None:
+        self._scan_every = max(1, round(1.0 / (float(self.get_parameter("scan_rate").value) * STEP)))
+        self._odom_every = max(1, round(1.0 / (float(self.get_parameter("odom_rate").value) * STEP)))
+
+    def _check(self, changes: list[Parameter]) -> SetParametersResult:
+        trouble = problem(self, changes)
+        if trouble:
+            return refused(trouble)
+        for change in changes:
+            if change.name == "world":
+                try:
+                    find_world(str(change.value))
+                except WorldError as error:
+                    return refused(str(error))
+        return accepted()
+
+    def _apply(self, changes: list[Parameter]) -> None:
+        self._simulation.configure(settings(self))
+        self._read_rates()
+        for change in changes:
+            self.get_logger().info(f"✓ {change.name}: {change.value}")
+
+    def _on_command(self, message: Twist) -> None:
+        try:
+            self._simulation.command(message.linear.x, message.angular.z)
+        except ValueError as error:
+            self.get_logger().error(f"Command on cmd_vel ignored: {error}", throttle_duration_sec=1.0)
+
+    def _on_pose(self, message: PoseWithCovarianceStamped) -> None:
+        place = message.pose.pose
+        pose = Pose(place.position.x, place.position.y, messages.heading_of(place.orientation))
+        try:
+            self._simulation.place(pose)
+        except ValueError as error:
+            self.get_logger().warning(f"Pose on initialpose ignored: {error}")
+        else:
+            self.get_logger().info(f"Robot put to x = {pose.x:.2f} m, y = {pose.y:.2f} m")
+
+    def _on_reset(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        try:
+            self._simulation = self._make()
+        except WorldError as error:
+            response.success, response.message = False, str(error)
+            self.get_logger().error(f"Not reset: {error}")
+            return response
+        self._begin()
+        response.success = True
+        response.message = f"world {self._simulation.world.name}, seed {self._simulation.seed}"
+        return response
+
+    def _on_pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        self._paused = bool(request.data)
+        self._restart_time()
+        response.success = True
+        response.message = "paused" if self._paused else "running"
+        self.get_logger().info(f"Simulation {response.message}")
+        return response
+
+    def _on_step(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        response.success = self._paused
+        if not self._paused:
+            response.message = "the simulation runs; pause it first"
+            return response
+        duration = float(self.get_parameter("step_duration").value)
+        for _unused in range(max(1, round(duration / STEP))):
+            self._advance()
+        response.message = f"at {self._simulation.time_ns * 1e-9:.2f} s"
+        return response
+
+    def _on_report(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        response.success = True
+        response.message = json.dumps(self._simulation.report())
+        return response
+
+    def _tick(self) -> None:
+        if self._paused:
+            return
+        due = (self._steady.now().nanoseconds - self._origin) // STEP_NS - self._done
+        if due > CATCH_UP:
+            missing = (due - CATCH_UP) * STEP
+            self.get_logger().warning(f"Simulation lags: {missing:.2f} s left out", throttle_duration_sec=5.0)
+            self._done += due - CATCH_UP
+            due = CATCH_UP
+        for _ in range(due):
+            self._advance()
+        self._done += due
+
+    def _advance(self) -> None:
+        simulation = self._simulation
+        began = simulation.step()
+        stamp = messages.time_of(simulation.time_ns)
+        self._clock_messages.publish(ClockMessage(clock=stamp))
+        if simulation.collisions.touching != self._bumped:
+            self._bumped = simulation.collisions.touching
+            self._bumper.publish(Bool(data=self._bumped))
+        if began:
+            self._tell_collision()
+        if simulation.steps % self._odom_every == 0:
+            self._publish_poses()
+        if simulation.steps % self._scan_every == 0:
+            self._publish_scan()
+
+    def _tell_collision(self) -> None:
+        log = self._simulation.collisions
+        self._collisions.publish(UInt32(data=log.count))
+        if log.last:
+            self.get_logger().warning(
+                f"💥 Collision {log.count}: {log.last.what} at x = {log.last.x:.2f} m, y = {log.last.y:.2f} m, "
+                f"{abs(log.last.speed):.2f} m/s"
+            )
+
+    def _publish_poses(self) -> None:
+        simulation, drive = self._simulation, self._simulation.drive
+        stamp = messages.time_of(simulation.time_ns)
+        wheels = (drive.linear, drive.angular)
+        truth = (simulation.speed, simulation.turn_rate)
+        self._odometry.publish(messages.odometry_message(simulation.odometry.pose, wheels, messages.ODOM, stamp))
+        self._truth.publish(messages.odometry_message(simulation.pose, truth, messages.MAP, stamp))
+
+    def _publish_scan(self) -> None:
+        simulation = self._simulation
+        stamp = messages.time_of(simulation.time_ns)
+        period = self._scan_every * STEP
+        self._scans.publish(messages.scan_message(simulation.scan(), simulation.lidar.settings, period, stamp))
+        if self._obstacles.get_subscription_count():
+            self._obstacles.publish(messages.obstacles_message(simulation.moving(), stamp))
+
+
+def main(args: list[str] | None = None) -> None:
+    """Run the node."""
+    run(Simulator, args)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,71 @@
+"""The simulator's parameters, and the settings that they stand for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import Any
+
+from intelligent_robot.parameters import number, plain, proposed, whole
+from intelligent_robot.simulation.lidar import LidarSettings
+from intelligent_robot.simulation.odometry import OdometryNoise
+from intelligent_robot.simulation.robot import DriveLimits
+from intelligent_robot.simulation.simulation import Settings
+from rcl_interfaces.msg import ParameterDescriptor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+LIMITS, LIDAR, NOISE = DriveLimits(), LidarSettings(), OdometryNoise()
+DECLARED: tuple[tuple[str, Any, ParameterDescriptor], ...] = (
+    ("world", "indoor", plain("Name of a world or path of its file, used at reset")),
+    ("seed", 1, whole("Seed of all random numbers, used at reset", 0, 2**31 - 1)),
+    ("scan_rate", 10.0, number("Rate of the LIDAR (Hz)", 1.0, 50.0)),
+    ("odom_rate", 20.0, number("Rate of odometry and ground truth (Hz)", 1.0, 100.0)),
+    ("step_duration", 0.1, number("What one call of the service step simulates (s)", 0.01, 60.0)),
+    ("map_resolution", 0.05, number("Size of a cell of the map, used at reset (m)", 0.02, 0.5)),
+    ("drive.max_speed", LIMITS.max_speed, number("What the wheels can do at most (m/s)", 0.1, 10.0)),
+    ("drive.max_turn_rate", LIMITS.max_turn_rate, number("What the wheels can do at most (rad/s)", 0.1, 10.0)),
+    ("drive.acceleration", LIMITS.acceleration, number("Speeding up at most (m/s²)", 0.1, 20.0)),
+    ("drive.deceleration", LIMITS.deceleration, number("Slowing down at most (m/s²)", 0.1, 20.0)),
+    ("drive.turn_acceleration", LIMITS.turn_acceleration, number("Change of the turn rate (rad/s²)", 0.1, 50.0)),
+    ("drive.wheel_separation", LIMITS.wheel_separation, number("Distance between the wheels (m)", 0.05, 1.0)),
+    ("drive.radius", LIMITS.radius, number("Radius of the round hull, used at reset (m)", 0.05, 0.5)),
+    ("drive.command_timeout", LIMITS.command_timeout, number("Age at which a command is dead (s)", 0.05, 5.0)),
+    ("lidar.beams", LIDAR.beams, whole("Beams per scan", 3, 3600)),
+    ("lidar.field_of_view", LIDAR.field_of_view, number("Angle of all beams, centred ahead (rad)", 0.1, 2 * math.pi)),
+    ("lidar.range_min", LIDAR.range_min, number("Nearer things cannot be measured (m)", 0.01, 1.0)),
+    ("lidar.range_max", LIDAR.range_max, number("Farther things cannot be seen (m)", 1.0, 50.0)),
+    ("lidar.noise", LIDAR.noise, number("Standard deviation of a range (m)", 0.0, 0.5)),
+    ("lidar.dropout", LIDAR.dropout, number("Share of beams that get lost", 0.0, 1.0)),
+    ("lidar.false_returns", LIDAR.false_returns, number("Share of beams that meet dust or rain", 0.0, 1.0)),
+    ("odometry.distance_noise", NOISE.distance, number("Standard deviation after 1 m of way (m)", 0.0, 0.5)),
+    ("odometry.heading_noise", NOISE.heading, number("Standard deviation after 1 rad of turn (rad)", 0.0, 0.5)),
+)
+
+
+def declare(node: Node) -> None:
+    """Declare all of them."""
+    for name, default, descriptor in DECLARED:
+        node.declare_parameter(name, default, descriptor)
+
+
+def settings(node: Node) -> Settings:
+    """What the parameters say now."""
+
+    def group(prefix: str) -> dict[str, Any]:
+        return {name: value.value for name, value in node.get_parameters_by_prefix(prefix).items()}
+
+    noise = group("odometry")
+    return Settings(
+        DriveLimits(**group("drive")),
+        LidarSettings(**group("lidar")),
+        OdometryNoise(noise["distance_noise"], noise["heading_noise"]),
+    )
+
+
+def problem(node: Node, changes: Iterable[Parameter]) -> str:
+    """What is wrong between parameters after some changes, in words; empty when nothing is."""
+    low, high = proposed(node, changes, "lidar.range_min", "lidar.range_max")
+    if low >= high:
+        return f"lidar.range_min ({low} m) must be less than lidar.range_max ({high} m)"
+    return ""

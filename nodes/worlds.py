@@ -1,0 +1,33 @@
+"""Finds world files: by name in the package's share folder, or by path."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
+from intelligent_robot.simulation.world import World, WorldError
+from intelligent_robot.simulation.world_file import load_world
+
+PACKAGE = "intelligent_robot"
+
+
+def find_world(name: str) -> World:
+    """The world of that name or path; raises `WorldError` with the names that there are."""
+    path = Path(name)
+    if path.suffix in {".yaml", ".yml"} or len(path.parts) > 1:
+        return load_world(path.expanduser())
+    folder = _folder()
+    if folder is None:
+        raise WorldError(f"no world '{name}': the share folder of {PACKAGE} is not found; give the path of a file")
+    found = folder / f"{name}.yaml"
+    if not found.is_file():
+        known = ", ".join(sorted(each.stem for each in folder.glob("*.yaml"))) or "none"
+        raise WorldError(f"no world '{name}' in {folder}; there are: {known}")
+    return load_world(found)
+
+
+def _folder() -> Path | None:
+    try:
+        return Path(get_package_share_directory(PACKAGE)) / "worlds"
+    except PackageNotFoundError:
+        return None
