@@ -1,0 +1,216 @@
+"""The app: panes around one snapshot, pulled on a timer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import Future
+from pathlib import Path
+from typing import Any
+
+from bot_console.tui import keymap
+from bot_console.tui.commands import KeyCommands
+from bot_console.tui.console.model import ConsoleSnapshot
+from bot_console.tui.console.protocol import Console, Launcher
+from bot_console.tui.pane_table import PANES
+from bot_console.tui.panes.pane import Pane
+from bot_console.tui.screens.help import HelpScreen
+from bot_console.tui.screens.output import OutputScreen
+from bot_console.tui.terminal import SUPPORTED, AnswerGate, GatedScreen
+from bot_console.tui.theme import DARK
+from bot_console.tui.widgets.status_bar import StatusBar
+from textual import events
+from textual.app import App, ComposeResult
+from textual.binding import BindingType
+from textual.containers import Container
+from textual.screen import Screen
+from textual.widgets import Footer, Input, Static
+
+OVERVIEW = (100, 30)
+"""Columns and lines from which several panes are shown at once."""
+
+SMALLEST = (60, 20)
+HERE = Path(__file__).parent
+
+
+class BotConsoleApp(App[None]):
+    """rqt for the terminal."""
+
+    TITLE = "bot-console"
+    CSS_PATH = [HERE / "app.tcss", *(HERE / "panes" / f"{each.id}.tcss" for each in PANES)]
+    COMMANDS = {KeyCommands}
+    BINDINGS: list[BindingType] = [*keymap.bindings("app")]
+    ENABLE_COMMAND_PALETTE = True
+
+    def __init__(
+        self,
+        console: Console,
+        launcher: Launcher | None = None,
+        *,
+        refresh_hz: float = 10.0,
+        start_pane: str = "overview",
+        on_first_frame: Callable[[], None] | None = None,
+    ) -> None:
+        super().__init__()
+        self.console_of_robot = console
+        self.launcher = launcher
+        self._refresh_hz = refresh_hz
+        self._wanted = start_pane
+        self._focused_pane = "parameters"
+        self._on_first_frame = on_first_frame
+        self._snapshot = ConsoleSnapshot()
+        self.gate = AnswerGate()
+
+    def get_default_screen(self) -> Screen[Any]:
+        """A screen that waits for the terminal, where this version of Textual allows it."""
+        return GatedScreen(self.gate) if SUPPORTED else super().get_default_screen()
+
+    def compose(self) -> ComposeResult:
+        """Tabs, panes, status, footer, and a word for terminals that are too small."""
+        yield Static("", id="tabs", markup=False)
+        with Container(id="panes"):
+            for each in PANES:
+                yield each.load()(self.console_of_robot, self.launcher, id=each.id)
+        yield StatusBar()
+        yield Footer(show_command_palette=False)
+        yield Static("", id="too-small", markup=False)
+
+    def on_mount(self) -> None:
+        """Choose the theme, lay out, and begin to pull."""
+        self.register_theme(DARK)
+        self.theme = DARK.name
+        self._lay_out()
+        self.pull()
+        if self._refresh_hz > 0:
+            self.set_interval(1.0 / self._refresh_hz, self.pull)
+        if self._on_first_frame is not None:
+            self.call_after_refresh(self._on_first_frame)
+
+    def pull(self) -> None:
+        """Take the newest snapshot and let the visible panes draw what is new."""
+        snapshot = self.console_of_robot.snapshot()
+        if snapshot is self._snapshot and not self._snapshot.problem:
+            return
+        self._snapshot = snapshot
+        with self.batch_update():
+            for pane in self.visible_panes():
+                pane.show(snapshot)
+            self.query_one(StatusBar).show(snapshot, self.gate.held_back)
+
+    # Layout -------------------------------------------------------------------------------------------------------
+
+    def panes(self) -> list[Pane]:
+        """All panes, in the order of their digits."""
+        return list(self.query(Pane))
+
+    def visible_panes(self) -> list[Pane]:
+        """The panes that are drawn now."""
+        return [each for each in self.panes() if each.display]
+
+    @property
+    def current_pane(self) -> Pane | None:
+        """The pane that has the keyboard, else the one chosen last."""
+        for widget in self.focused.ancestors_with_self if self.focused else ():
+            if isinstance(widget, Pane):
+                return widget
+        return next((each for each in self.panes() if each.id == self._focused_pane), None)
+
+    def on_resize(self) -> None:
+        """Lay out for the new size."""
+        self._lay_out()
+
+    def _lay_out(self) -> None:
+        width, height = self.size
+        small = width < SMALLEST[0] or height < SMALLEST[1]
+        self.screen.set_class(small, "small")
+        if small:
+            need = f"{SMALLEST[0]}x{SMALLEST[1]}"
+            self.query_one("#too-small", Static).update(
+                f"{width}x{height} is too small\nthe console needs {need}\n\nthe robot goes on; ! stops it, q quits"
+            )
+        overview = self._wanted == "overview" and width >= OVERVIEW[0] and height >= OVERVIEW[1]
+        self.screen.set_class(overview, "overview")
+        single = self._focused_pane if self._wanted == "overview" else self._wanted
+        for each, pane in zip(PANES, self.panes(), strict=True):
+            before = pane.display
+            pane.display = each.overview if overview else pane.id == single
+            if pane.display and not before:
+                pane.show(self._snapshot)
+        self._tabs(overview, single)
+        pane = self.current_pane
+        if pane is not None and not pane.display:
+            pane = next(iter(self.visible_panes()), None)
+        if pane is not None and not self._typing():
+            pane.focus_target()
+
+    def _tabs(self, overview: bool, single: str) -> None:
+        marks = [("0", "Overview", overview)] + [
+            (each.digit, each.title, not overview and each.id == single) for each in PANES
+        ]
+        text = " ".join(f"[{digit} {title}]" if on else f" {digit} {title} " for digit, title, on in marks)
+        self.query_one("#tabs", Static).update(text)
+
+    def _typing(self) -> bool:
+        return isinstance(self.focused, Input)
+
+    # Actions ------------------------------------------------------------------------------------------------------
+
+    def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
+        """Letters and digits belong to a text field while one has the keyboard."""
+        if self._typing() and action in ("pane", "all_stop", "zoom", "next_pane"):
+            return False
+        return super().check_action(action, parameters)
+
+    def action_pane(self, name: str) -> None:
+        """Show a pane, or the overview."""
+        self._wanted = name
+        if name != "overview":
+            self._focused_pane = name
+        elif self._focused_pane not in {each.id for each in PANES if each.overview}:
+            self._focused_pane = "parameters"
+        self.set_focus(None)
+        self._lay_out()
+
+    def action_next_pane(self, step: int) -> None:
+        """The next pane: of those seen in the overview, else of all."""
+        panes = self.visible_panes() if len(self.visible_panes()) > 1 else self.panes()
+        now = self.current_pane
+        target = panes[(panes.index(now) + step) % len(panes)] if now in panes else panes[0]
+        self._focused_pane = target.id or ""
+        if target.display:
+            target.focus_target()
+        else:
+            self.action_pane(self._focused_pane)
+
+    def action_zoom(self) -> None:
+        """This pane alone, or the overview again."""
+        pane = self.current_pane
+        self.action_pane("overview" if self._wanted != "overview" or pane is None else pane.id or "overview")
+
+    def action_all_stop(self) -> None:
+        """Hold the robot still, or let it go."""
+        hold = not self._snapshot.drive.stopped
+        self.console_of_robot.all_stop(hold)
+        self.notify("All stop: the robot is held. ! lets it go." if hold else "The robot may move again.")
+
+    def action_help(self) -> None:
+        """Help for the pane that has the keyboard."""
+        pane = self.current_pane
+        if pane is not None:
+            self.push_screen(HelpScreen(pane.id or "", pane.TITLE, pane.HELP))
+
+    def action_redraw(self) -> None:
+        """Draw everything anew."""
+        self.refresh(repaint=True, layout=True)
+
+    def run_ros2(self, line: str) -> None:
+        """Run a `ros2` line and show what it prints."""
+        answer = self.console_of_robot.run_line(line)
+        answer.add_done_callback(lambda done: self.call_later(self._show_output, line, done))
+
+    def _show_output(self, line: str, done: Future[str]) -> None:
+        error = done.exception()
+        self.push_screen(OutputScreen(line, str(error) if error else done.result()))
+
+    def on_cursor_position(self, event: events.CursorPosition) -> None:
+        """The terminal has drawn a frame."""
+        self.gate.answered()

@@ -1,0 +1,30 @@
+"""Which panes there are: their digits, titles and classes, imported when the app is composed."""
+
+from __future__ import annotations
+
+import importlib
+from dataclasses import dataclass
+
+from bot_console.tui.panes.pane import Pane
+
+
+@dataclass(frozen=True)
+class PaneEntry:
+    """A pane: its id (also the module's name), its class, the digit that jumps to it, and whether the overview has it."""
+
+    id: str
+    digit: str
+    title: str
+    class_name: str
+    overview: bool = False
+
+    def load(self) -> type[Pane]:
+        """The class of the pane."""
+        return getattr(importlib.import_module(f"bot_console.tui.panes.{self.id}"), self.class_name)
+
+
+PANES = (
+    PaneEntry("parameters", "1", "Parameters", "ParametersPane", overview=True),
+    PaneEntry("world", "5", "World", "WorldPane", overview=True),
+    PaneEntry("logs", "2", "Logs", "LogsPane", overview=True),
+)

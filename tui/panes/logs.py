@@ -1,0 +1,280 @@
+"""The log pane: every node's lines, filtered by severity and words, as many as there may be."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from bot_console.tui import keymap
+from bot_console.tui.console.model import ConsoleSnapshot, LogFilter, LogRecord, LogState, Severity
+from bot_console.tui.console.protocol import Console
+from bot_console.tui.console.query import parse
+from bot_console.tui.format import LETTERS, clock_text, harmless
+from bot_console.tui.panes.pane import Pane
+from bot_console.tui.screens.detail import DetailScreen
+from bot_console.tui.widgets.prompt import Prompt
+from bot_console.tui.widgets.row_list import RowList
+from rich.segment import Segment
+from textual.app import ComposeResult
+from textual.widgets import Static
+
+LEVELS = (Severity.UNSET, Severity.INFO, Severity.WARN, Severity.ERROR)
+STYLES = {Severity.DEBUG: "dim", Severity.WARN: "warn", Severity.ERROR: "error", Severity.FATAL: "error"}
+NODE = 18
+
+
+class LogRows(RowList):
+    """The lines that pass the filter; holds their numbers only."""
+
+    COMPONENT_CLASSES = RowList.COMPONENT_CLASSES
+
+    def __init__(self, console: Console) -> None:
+        super().__init__()
+        self.console = console
+        self.seqs: list[int] = []
+
+    def row_count(self) -> int:
+        """How many lines there are."""
+        return len(self.seqs)
+
+    def row(self, index: int, width: int) -> list[Segment]:
+        """One line: time, severity, node, text; one style for all of it."""
+        record = self.console.log(self.seqs[index])
+        if record is None:
+            return [Segment("")]
+        name = STYLES.get(record.severity)
+        style = self.get_component_rich_style(f"row-list--{name}", partial=True) if name else None
+        return [Segment(line_text(record, width), style)]
+
+
+def line_text(record: LogRecord, width: int) -> str:
+    """A record on one line; the time is left out where there is little room."""
+    time = f"{clock_text(record.stamp)} " if width >= 70 else ""
+    node = record.node.rpartition("/")[2] if len(record.node) > NODE else record.node
+    text = harmless(record.text[: 4 * width])
+    return f"{time}{LETTERS[record.severity]} {harmless(node)[:NODE].ljust(NODE)} {text}"
+
+
+class LogsPane(Pane):
+    """Log lines of all nodes."""
+
+    TITLE = "Logs"
+    HELP = (
+        "What the nodes log and print. The filter takes words (all must stand), !word (must not), node:name,\n"
+        "sev:>=warn and re:pattern. Scrolling up stops following; nothing is lost meanwhile, f follows again."
+    )
+    BINDINGS = keymap.bindings("logs")
+
+    def __init__(self, *args: object, **kwargs: object) -> None:
+        super().__init__(*args, **kwargs)  # type: ignore[arg-type]
+        self._state = LogState()
+        self._which = LogFilter()
+        self._next = 0
+        self._following = True
+        self._problem = ""
+
+    def compose(self) -> ComposeResult:
+        """The lines, what is filtered, a prompt."""
+        yield LogRows(self.console)
+        yield Static("", id="log-status", markup=False)
+        yield Prompt(id="log-prompt")
+
+    @property
+    def _list(self) -> LogRows:
+        return self.query_one(LogRows)
+
+    def focus_target(self) -> None:
+        """The lines take the keys."""
+        self._list.focus()
+
+    def show(self, snapshot: ConsoleSnapshot) -> None:
+        """Take in what is new in the log."""
+        state = snapshot.logs
+        if state is self._state:
+            return
+        before, self._state = self._state, state
+        if state.first > before.first:
+            self._drop(state.first)
+        self._take_in()
+
+    def _drop(self, first: int) -> None:
+        """Lines fell out of the ring: forget their numbers and keep what is seen where it is."""
+        rows = self._list
+        gone = next((index for index, seq in enumerate(rows.seqs) if seq >= first), len(rows.seqs))
+        del rows.seqs[:gone]
+        rows.set_reactive(RowList.cursor, max(0, rows.cursor - gone))
+
+    def _take_in(self) -> None:
+        try:
+            new = self.console.matching_logs(self._which, self._next)
+        except ValueError as error:
+            self._problem = str(error)
+            self._tell()
+            return
+        self._problem = ""
+        self._next = self._state.end
+        if new:
+            self._list.seqs.extend(new)
+        if new or not self._list.seqs:
+            self._list.rows_changed()
+            if self._following:
+                self._to_end()
+        self._tell()
+
+    def _to_end(self) -> None:
+        rows = self._list
+        rows.cursor = max(0, len(rows.seqs) - 1)
+        rows.scroll_to(y=max(0, len(rows.seqs) - rows.size.height), animate=False, force=True)
+
+    def _search(self, which: LogFilter) -> None:
+        """Filter anew, over everything that is kept."""
+        self._which = which
+        self._list.seqs.clear()
+        self._next = 0
+        self._take_in()
+        self._list.refresh()
+
+    def _tell(self) -> None:
+        """Say what is shown of how much, by severity."""
+        self.query_one("#log-status", Static).update(self._problem or self.status_text())
+
+    def status_text(self) -> str:
+        """The line below the log."""
+        state, counts = self._state, self._state.counts
+        parts = [f"{len(self._list.seqs)} of {state.end - state.first}"]
+        parts += [f"{LETTERS[each]} {counts[each]}" for each in reversed(Severity) if counts.get(each)]
+        if self._which.minimum:
+            parts.append(f">= {self._which.minimum.name}")
+        if self._which.words:
+            parts.append(f"/{self._which.words}")
+        if self._which.hidden_nodes:
+            parts.append("hidden: " + " ".join(sorted(self._which.hidden_nodes)))
+        if state.dropped:
+            parts.append(f"{state.dropped} dropped")
+        if not self._following:
+            parts.append("paused, f follows")
+        return " · ".join(parts)
+
+    def on_row_list_moved(self, event: RowList.Moved) -> None:
+        """Follow while the cursor is on the newest line."""
+        event.stop()
+        following = event.index >= len(self._list.seqs) - 1
+        if following is not self._following:
+            self._following = following
+            self._tell()
+
+    def _record(self) -> LogRecord | None:
+        rows = self._list
+        return self.console.log(rows.seqs[rows.cursor]) if rows.cursor < len(rows.seqs) else None
+
+    def action_follow(self) -> None:
+        """Follow the newest line, or stop that."""
+        self._following = not self._following
+        if self._following:
+            self._to_end()
+        self._tell()
+
+    def action_jump_end(self) -> None:
+        """To the newest line."""
+        self._following = True
+        self._to_end()
+        self._tell()
+
+    def action_jump_home(self) -> None:
+        """To the oldest line."""
+        self._list.cursor = 0
+
+    def action_warnings(self) -> None:
+        """Warnings and worse, or everything."""
+        wanted = Severity.UNSET if self._which.minimum is Severity.WARN else Severity.WARN
+        self._search(replace(self._which, minimum=wanted))
+
+    def action_level(self) -> None:
+        """The next minimum severity."""
+        at = LEVELS.index(self._which.minimum) if self._which.minimum in LEVELS else 0
+        self._search(replace(self._which, minimum=LEVELS[(at + 1) % len(LEVELS)]))
+
+    def action_filter(self) -> None:
+        """Ask for a filter."""
+        self.query_one(Prompt).open("filter", "filter", self._which.words, _wrong)
+
+    def on_prompt_typed(self, event: Prompt.Typed) -> None:
+        """Filter while typing."""
+        event.stop()
+        if event.purpose == "filter" and not _wrong(event.text):
+            self._search(replace(self._which, words=event.text))
+
+    def on_prompt_closed(self, event: Prompt.Closed) -> None:
+        """The prompt was answered or given up."""
+        event.stop()
+        self._list.focus()
+        if event.purpose == "filter":
+            self._search(replace(self._which, words=event.text or ""))
+        elif event.text:
+            self._save(Path(event.text).expanduser())
+
+    def action_exclude(self) -> None:
+        """Hide the lines of this line's node."""
+        record = self._record()
+        if record is not None:
+            self._search(replace(self._which, hidden_nodes=self._which.hidden_nodes | {record.node}))
+
+    def action_clear_filter(self) -> None:
+        """Show everything again."""
+        self._search(LogFilter())
+
+    def action_next_error(self) -> None:
+        """To the next error, from the top again after the last."""
+        rows = self._list
+        errors: Sequence[int] = self.console.matching_logs(replace(self._which, minimum=Severity.ERROR), 0)
+        if not errors:
+            self.notify("No errors.")
+            return
+        now = rows.seqs[rows.cursor] if rows.seqs else -1
+        target = next((each for each in errors if each > now), errors[0])
+        if target in rows.seqs:
+            rows.cursor = rows.seqs.index(target)
+
+    def action_detail(self) -> None:
+        """Show the whole message."""
+        record = self._record()
+        if record is not None:
+            self.app.push_screen(DetailScreen(record))
+
+    def action_clear(self) -> None:
+        """Clear the log."""
+        self.console.clear_logs()
+        self._list.seqs.clear()
+        self._list.rows_changed()
+
+    def action_copy(self) -> None:
+        """Copy the message through the terminal (OSC 52)."""
+        record = self._record()
+        if record is not None:
+            self.app.copy_to_clipboard(record.text)
+            self.notify("Copied.")
+
+    def action_save(self) -> None:
+        """Ask where to save."""
+        self.query_one(Prompt).open("save", "save these lines to", "log.txt")
+
+    def _save(self, path: Path) -> None:
+        records = (self.console.log(seq) for seq in self._list.seqs)
+        lines = [
+            f"[{each.severity.name}] [{each.stamp / 1e9:.9f}] [{each.node}]: {each.text}" for each in records if each
+        ]
+        try:
+            path.write_text("\n".join([*lines, ""]), encoding="utf-8")
+        except OSError as error:
+            self.notify(f"not saved: {error}", severity="error", markup=False)
+            return
+        self.notify(f"{len(lines)} lines saved to {path}", markup=False)
+
+
+def _wrong(text: str) -> str:
+    try:
+        parse(text)
+    except ValueError as error:
+        return str(error)
+    return ""

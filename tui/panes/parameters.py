@@ -1,0 +1,357 @@
+"""The parameter pane: a tree of all nodes' parameters, edited in place; a refusal stays in its row with its reason."""
+
+from __future__ import annotations
+
+from concurrent.futures import Future
+from dataclasses import replace
+from functools import partial
+
+from bot_console.tui import keymap
+from bot_console.tui.console.model import ChangeSource, ConsoleSnapshot, Kind, ParameterInfo, SetOutcome, Value
+from bot_console.tui.console.protocol import Answer
+from bot_console.tui.console.query import parse
+from bot_console.tui.format import command_of, harmless, parse_value, range_text, value_text
+from bot_console.tui.panes.pane import Pane
+from bot_console.tui.panes.parameter_rows import Row, View, rows
+from bot_console.tui.widgets.prompt import Prompt
+from bot_console.tui.widgets.row_list import RowList
+from rich.segment import Segment
+from rich.style import Style
+from rich.text import Text
+from textual.app import ComposeResult
+from textual.widgets import Static
+
+BAR = 12
+NAMES = 24
+SHORT = 18
+
+
+class ParameterRows(RowList):
+    """The rows of the tree."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.rows: list[Row] = []
+        self.refused: dict[tuple[str, str], SetOutcome] = {}
+
+    def row_count(self) -> int:
+        """How many rows there are."""
+        return len(self.rows)
+
+    @property
+    def current(self) -> Row | None:
+        """The row at the cursor."""
+        return self.rows[self.cursor] if self.rows and self.cursor < len(self.rows) else None
+
+    def row(self, index: int, width: int) -> list[Segment]:
+        """A node, a group or a parameter."""
+        row = self.rows[index]
+        if row.parameter is None:
+            return self._head(row)
+        return self._parameter(row, row.parameter, width)
+
+    def _style(self, name: str) -> Style:
+        return self.get_component_rich_style(f"row-list--{name}", partial=True)
+
+    def _head(self, row: Row) -> list[Segment]:
+        if row.name:
+            return [Segment(f"{'  ' * row.depth}{harmless(row.name)}.", self._style("dim"))]
+        arrow = "▸" if row.folded else "▾"
+        head = Segment(f"{arrow} {harmless(row.node)}", self._style("head"))
+        if row.problem:
+            return [head, Segment(f"  {harmless(row.problem)}", self._style("warn"))]
+        return [head, Segment(f"  {row.count}", self._style("dim"))]
+
+    def _parameter(self, row: Row, parameter: ParameterInfo, width: int) -> list[Segment]:
+        names = min(NAMES, max(12, width // 3))
+        indent = "  " * row.depth
+        mark = "•" if parameter.changed else " "
+        name = f"{indent}{harmless(row.name)}"[: names - 1].ljust(names)
+        refused = self.refused.get((parameter.node, parameter.name))
+        value = harmless(value_text(parameter.value)) + (f" {parameter.unit}" if parameter.unit else "")
+        segments = [Segment(f"{mark}{name}", self._style("strong" if parameter.changed else "plain"))]
+        if refused:
+            tried = harmless(value_text(refused.value))
+            segments.append(Segment(value + "  ", None))
+            segments.append(Segment(f"✗ {tried}: {harmless(refused.reason)}", self._style("error")))
+            return segments
+        room = max(8, width - names - BAR - 3)
+        segments.append(Segment(value[:room].ljust(room), self._style("dim") if parameter.read_only else None))
+        segments.append(Segment(bar(parameter) or ("read only" if parameter.read_only else ""), self._style("dim")))
+        return segments
+
+
+ParameterRows.COMPONENT_CLASSES = RowList.COMPONENT_CLASSES | {"row-list--plain"}
+
+
+def bar(parameter: ParameterInfo) -> str:
+    """Where a number stands in its range."""
+    limits, value = parameter.range, parameter.value
+    if limits is None or isinstance(value, (bool, str, tuple)) or value is None or limits.high <= limits.low:
+        return ""
+    share = min(1.0, max(0.0, (value - limits.low) / (limits.high - limits.low)))
+    place = round(share * (BAR - 1))
+    return "─" * place + "●" + "─" * (BAR - 1 - place)
+
+
+class ParametersPane(Pane):
+    """Parameters of all nodes."""
+
+    TITLE = "Parameters"
+    HELP = (
+        "Every node's parameters, live. Enter edits; + and - move a number by its step or a hundredth of its range.\n"
+        "A refused value snaps back; the row says who refused it and why. A dot marks what differs from its default."
+    )
+    BINDINGS = keymap.bindings("parameters")
+
+    def __init__(self, *args: object, **kwargs: object) -> None:
+        super().__init__(*args, **kwargs)  # type: ignore[arg-type]
+        self._snapshot = ConsoleSnapshot()
+        self._view = View()
+        self._filter = ""
+
+    def compose(self) -> ComposeResult:
+        """The tree, what is known of the parameter at the cursor, and a prompt."""
+        yield ParameterRows()
+        yield Static("", id="parameter-detail", markup=False)
+        yield Prompt(id="parameter-prompt")
+
+    @property
+    def _list(self) -> ParameterRows:
+        return self.query_one(ParameterRows)
+
+    def focus_target(self) -> None:
+        """The tree takes the keys."""
+        self._list.focus()
+
+    def show(self, snapshot: ConsoleSnapshot) -> None:
+        """Draw the parameters anew when they are another object."""
+        if snapshot.parameters is not self._snapshot.parameters or snapshot.problem != self._snapshot.problem:
+            self._snapshot = snapshot
+            self._arrange()
+        self._snapshot = snapshot
+
+    def _arrange(self) -> None:
+        """Make the rows, keep the cursor on its parameter, draw what differs."""
+        shown, old = self._list, self._list.rows
+        at = shown.current
+        new = rows(self._snapshot.parameters, self._view)
+        shown.rows = new
+        if len(old) == len(new):
+            for index, (before, after) in enumerate(zip(old, new, strict=True)):
+                if before != after:
+                    self._forget_refusal(before, after)
+                    shown.row_changed(index)
+        else:
+            if at is not None:
+                where = (each for each, row in enumerate(new) if (row.node, row.name) == (at.node, at.name))
+                shown.set_reactive(ParameterRows.cursor, next(where, min(shown.cursor, max(0, len(new) - 1))))
+            shown.rows_changed()
+        self._describe()
+
+    def _forget_refusal(self, before: Row, after: Row) -> None:
+        if before.parameter and after.parameter and before.parameter.value != after.parameter.value:
+            self._list.refused.pop((after.node, after.parameter.name), None)
+
+    def on_row_list_moved(self, event: RowList.Moved) -> None:
+        """Tell of the parameter at the cursor."""
+        event.stop()
+        self._describe()
+
+    def _describe(self) -> None:
+        self.query_one("#parameter-detail", Static).update(self._details(self._list.current))
+
+    def _details(self, row: Row | None) -> Text:
+        if row is None:
+            if self._filter or self._view.only_changed:
+                return Text("Nothing matches. Press / to change the filter.", "dim")
+            return Text(self._snapshot.problem or "Waiting for nodes with parameters ...", "dim")
+        parameter = row.parameter
+        if parameter is None:
+            return Text(row.problem or f"{row.node}  {row.count} parameters", "dim")
+        text = Text(no_wrap=False, overflow="fold")
+        text.append(harmless(parameter.description) or "(no description)")
+        facts = [parameter.kind.word, range_text(parameter.range, parameter.kind), harmless(parameter.constraints)]
+        facts.append("read only" if parameter.read_only else "")
+        facts.append(f"default {value_text(parameter.default)}" if parameter.changed else "")
+        facts.append(harmless(parameter.origin))
+        text.append("\n" + " · ".join(each for each in facts if each), "dim")
+        refused = self._list.refused.get((parameter.node, parameter.name))
+        if refused:
+            who = {"descriptor": "by its descriptor", "callback": "by the node", "node": "", "console": "here"}
+            by = who.get(refused.refused_by, "")
+            text.append(f"\n✗ {value_text(refused.value)} refused {by}: {harmless(refused.reason)}", "bold")
+        text.append("\n" + command_of(parameter, parameter.value), "dim italic")
+        return text
+
+    # Changing -----------------------------------------------------------------------------------------------------
+
+    def _at(self) -> ParameterInfo | None:
+        row = self._list.current
+        return row.parameter if row else None
+
+    def action_edit(self) -> None:
+        """Edit a value, toggle a bool, open or close a node."""
+        row = self._list.current
+        if row is None:
+            return
+        parameter = row.parameter
+        if parameter is None:
+            self.action_fold(not row.folded)
+        elif parameter.kind is Kind.BOOL and isinstance(parameter.value, bool):
+            self._set(parameter, not parameter.value)
+        else:
+            limits = range_text(parameter.range, parameter.kind)
+            label = f"{parameter.name} ({', '.join(each for each in (parameter.kind.word, limits) if each)})"
+            text = "" if parameter.value is None else value_text(parameter.value)
+            self.query_one(Prompt).open("edit", label, text, partial(_wrong, parameter))
+
+    def _set(self, parameter: ParameterInfo, value: Value, source: ChangeSource = ChangeSource.EDIT) -> None:
+        answer = self.console.set_parameters(parameter.node, {parameter.name: value}, source)
+        answer.add_done_callback(lambda done: self.app.call_later(self._outcome, done))
+
+    def _outcome(self, done: Future[tuple[SetOutcome, ...]]) -> None:
+        error = done.exception()
+        if error is not None:
+            self.notify(str(error), severity="error", markup=False)
+            return
+        for each in done.result():
+            key = (each.node, each.name)
+            if each.accepted:
+                self._list.refused.pop(key, None)
+            else:
+                self._list.refused[key] = each
+        self._list.refresh()
+        self._describe()
+
+    def action_nudge(self, steps: int) -> None:
+        """Move a number by its step, or by a hundredth of its range."""
+        parameter = self._at()
+        if parameter is None or isinstance(parameter.value, (bool, str, tuple)) or parameter.value is None:
+            return
+        limits = parameter.range
+        integer = parameter.kind is Kind.INTEGER
+        step = limits.step if limits and limits.step else ((limits.high - limits.low) / 100 if limits else 0.0)
+        step = step or max(abs(parameter.value) / 10, 0.1)
+        step = max(1, round(step)) if integer else _round_step(step)
+        value = parameter.value + steps * step
+        if limits:
+            value = min(max(value, limits.low), limits.high)
+        self._set(parameter, int(value) if integer else round(value, 10))
+
+    def action_reset(self) -> None:
+        """Put the default back."""
+        parameter = self._at()
+        if parameter is not None and parameter.changed:
+            self._set(parameter, parameter.default)
+
+    def action_undo(self) -> None:
+        """Undo the last change made here."""
+        self.console.undo().add_done_callback(lambda done: self.app.call_later(self._tell, done))
+
+    def action_redo(self) -> None:
+        """Redo."""
+        self.console.redo().add_done_callback(lambda done: self.app.call_later(self._tell, done))
+
+    def _tell(self, done: Future[Answer]) -> None:
+        answer = done.result()
+        self.notify(answer.text, severity="information" if answer.ok else "warning", markup=False)
+
+    # Viewing ------------------------------------------------------------------------------------------------------
+
+    def action_filter(self) -> None:
+        """Ask for a filter."""
+        self.query_one(Prompt).open("filter", "filter", self._filter, _bad_filter)
+
+    def on_prompt_typed(self, event: Prompt.Typed) -> None:
+        """Filter while typing."""
+        event.stop()
+        if event.purpose == "filter" and not _bad_filter(event.text):
+            self._apply_filter(event.text)
+
+    def on_prompt_closed(self, event: Prompt.Closed) -> None:
+        """The prompt was answered or given up."""
+        event.stop()
+        self._list.focus()
+        parameter = self._at()
+        if event.purpose == "filter":
+            self._apply_filter(event.text or "")
+        elif event.text is not None and event.purpose == "save":
+            answer = self.console.save_parameters(event.text)
+            self.notify(answer.text, severity="information" if answer.ok else "error", markup=False)
+        elif event.text is not None and event.purpose == "edit" and parameter is not None:
+            self._set(parameter, parse_value(event.text, parameter))
+
+    def _apply_filter(self, text: str) -> None:
+        self._filter = text
+        self._view = replace(self._view, query=parse(text))
+        self.border_subtitle = f"/{text}" if text else ""
+        self._arrange()
+
+    def action_toggle_changed(self) -> None:
+        """Only what differs from its default, or all."""
+        self._view = replace(self._view, only_changed=not self._view.only_changed)
+        self._arrange()
+
+    def action_toggle_built_in(self) -> None:
+        """Built-in parameters too, or not."""
+        self._view = replace(self._view, built_in=not self._view.built_in)
+        self._arrange()
+
+    def action_fold(self, closed: bool) -> None:
+        """Close or open the node at the cursor."""
+        row = self._list.current
+        if row is None:
+            return
+        folded = set(self._view.folded) - {row.node} | ({row.node} if closed else set[str]())
+        self._view = replace(self._view, folded=frozenset(folded))
+        if closed:
+            heads = (index for index, each in enumerate(self._list.rows) if each.node == row.node)
+            self._list.cursor = next(heads, 0)
+        self._arrange()
+
+    def action_fold_all(self) -> None:
+        """Close all nodes, or open all."""
+        nodes = frozenset(self._snapshot.parameters)
+        self._view = replace(self._view, folded=frozenset() if self._view.folded else nodes)
+        self._arrange()
+
+    def action_copy(self) -> None:
+        """Copy the command that sets this parameter, through the terminal (OSC 52)."""
+        parameter = self._at()
+        if parameter is not None:
+            text = command_of(parameter, parameter.value)
+            self.app.copy_to_clipboard(text)
+            self.notify(text, title="Copied", markup=False)
+
+    def action_save(self) -> None:
+        """Ask where to save."""
+        self.query_one(Prompt).open("save", "save all parameters to", "parameters.yaml")
+
+    def on_resize(self) -> None:
+        """Fewer lines of detail where there is little room."""
+        self.set_class(self.size.height < SHORT, "short")
+
+
+def _wrong(parameter: ParameterInfo, text: str) -> str:
+    try:
+        parse_value(text, parameter)
+    except ValueError as error:
+        return str(error)
+    return ""
+
+
+def _bad_filter(text: str) -> str:
+    try:
+        parse(text)
+    except ValueError as error:
+        return str(error)
+    return ""
+
+
+def _round_step(step: float) -> float:
+    """The nearest of 1, 2, 5 times a power of ten."""
+    from math import floor, log10
+
+    power = 10.0 ** floor(log10(step))
+    return min((1, 2, 5, 10), key=lambda each: abs(each * power - step)) * power

@@ -1,0 +1,122 @@
+"""The world pane: map, robot, trail, LIDAR hits."""
+
+from __future__ import annotations
+
+from bot_console.tui import keymap
+from bot_console.tui.console.model import ConsoleSnapshot, WorldInfo
+from bot_console.tui.panes.pane import Pane
+from rich.segment import Segment
+from textual.app import ComposeResult
+from textual.strip import Strip
+from textual.widget import Widget
+from textual.widgets import Static
+
+ZOOMS = (1.0, 2.0, 4.0, 8.0)
+
+
+class WorldMap(Widget):
+    """The drawing itself; only lines that have changed are drawn anew."""
+
+    DEFAULT_CSS = "WorldMap { height: 1fr; background: $surface; color: $text; }"
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._world = WorldInfo()
+        self._lines: list[str] = []
+        self._drawing: object = None
+        self.zoom = 1.0
+        self.scale = ""
+
+    def show(self, world: WorldInfo) -> None:
+        """Draw a world."""
+        self._world = world
+        self.draw()
+
+    def draw(self) -> None:
+        """Make the lines and refresh those that differ."""
+        width, height = self.size
+        if width < 4 or height < 2:
+            return
+        # NumPy is imported after the first frame: it is a third of the start-up time.
+        from bot_console.tui.panes.world_view import WorldDrawing, following, scale_text
+
+        drawing = self._drawing if isinstance(self._drawing, WorldDrawing) else WorldDrawing()
+        self._drawing = drawing
+        window = following(self._world, width, height, self.zoom)
+        lines = drawing.rows(self._world, window, width, height)
+        self.scale = scale_text(window, width)
+        old, self._lines = self._lines, lines
+        if len(old) != len(lines):
+            self.refresh()
+            return
+        from textual.geometry import Region
+
+        changed = [Region(0, y, width, 1) for y, (a, b) in enumerate(zip(old, lines, strict=True)) if a != b]
+        if changed:
+            self.refresh(*changed)
+
+    def render_line(self, y: int) -> Strip:
+        """One line, in one style."""
+        text = self._lines[y] if y < len(self._lines) else ""
+        return Strip([Segment(text.ljust(self.size.width), self.rich_style)], self.size.width)
+
+    def on_resize(self) -> None:
+        """Draw for the new size."""
+        self._lines = []
+        self.draw()
+
+
+class WorldPane(Pane):
+    """The robot in its world."""
+
+    TITLE = "World"
+    HELP = "The map, the robot as an arrow, where it has been, and where its LIDAR beams end. + zooms in, f shows all."
+    BINDINGS = keymap.bindings("world")
+    DEFAULT_CSS = """
+    WorldPane #world-facts { height: 1; padding: 0 1; color: $text-muted; background: $surface; }
+    """
+
+    def __init__(self, *args: object, **kwargs: object) -> None:
+        super().__init__(*args, **kwargs)  # type: ignore[arg-type]
+        self._world: WorldInfo | None = None
+        self.can_focus = True
+
+    def compose(self) -> ComposeResult:
+        """The map and a line of facts."""
+        yield WorldMap()
+        yield Static("", id="world-facts", markup=False)
+
+    def focus_target(self) -> None:
+        """The pane itself takes the keys."""
+        self.focus()
+
+    def show(self, snapshot: ConsoleSnapshot) -> None:
+        """Draw the world anew when it is another object."""
+        if snapshot.world is not self._world:
+            self._world = snapshot.world
+            self.query_one(WorldMap).show(snapshot.world)
+            self._facts(snapshot)
+
+    def _facts(self, snapshot: ConsoleSnapshot) -> None:
+        world = snapshot.world
+        if world.pose is None and world.map is None:
+            text = snapshot.capabilities.world or "No map and no pose yet: no node publishes OccupancyGrid or Odometry."
+        else:
+            pose = world.pose
+            near = "free" if world.nearest is None else f"{world.nearest:.1f} m"
+            where = f"x {pose.x:6.1f}  y {pose.y:6.1f}" if pose else "pose unknown"
+            text = f"{where}  {world.speed:+.1f} m/s  nearest {near}  {self.query_one(WorldMap).scale}"
+        self.query_one("#world-facts", Static).update(text)
+
+    def action_zoom_map(self, step: int) -> None:
+        """Nearer, or farther."""
+        drawn = self.query_one(WorldMap)
+        at = ZOOMS.index(drawn.zoom)
+        drawn.zoom = ZOOMS[min(max(0, at + step), len(ZOOMS) - 1)]
+        drawn.draw()
+
+    def action_fit(self) -> None:
+        """The whole map, or near the robot."""
+        drawn = self.query_one(WorldMap)
+        drawn.zoom = 1.0 if drawn.zoom > 1 else 4.0
+        drawn.draw()

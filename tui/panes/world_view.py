@@ -1,0 +1,124 @@
+"""The map of the world as lines of braille. Pure."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from bot_console.tui.console.model import GridMap, Pose, WorldInfo
+from bot_console.tui.widgets.braille import BrailleCanvas
+
+OCCUPIED = 50
+"""Percent from which a cell of an occupancy grid counts as a wall."""
+
+UNKNOWN = 255
+ARROWS = "→↗↑↖←↙↓↘"
+
+
+@dataclass(frozen=True)
+class Window:
+    """What part of the world is drawn: the centre (m) and dots per metre."""
+
+    x: float
+    y: float
+    scale: float
+
+
+def fitting(world: WorldInfo, width: int, height: int) -> Window:
+    """The window that shows the whole map, or 10 m around the robot where there is none."""
+    grid = world.map
+    if grid is None:
+        pose = world.pose or Pose()
+        return Window(pose.x, pose.y, min(width * 2, height * 4) / 10.0)
+    across, down = grid.width * grid.resolution, grid.height * grid.resolution
+    scale = min((width * 2 - 2) / across, (height * 4 - 2) / down)
+    return Window(grid.origin.x + across / 2, grid.origin.y + down / 2, scale)
+
+
+def following(world: WorldInfo, width: int, height: int, zoom: float) -> Window:
+    """A window around the robot, `zoom` times nearer than the one that shows all."""
+    whole = fitting(world, width, height)
+    pose = world.pose
+    return whole if pose is None or zoom <= 1 else Window(pose.x, pose.y, whole.scale * zoom)
+
+
+class WorldDrawing:
+    """Draws a world; the walls are kept while map and window stay the same."""
+
+    def __init__(self) -> None:
+        self._key: object = None
+        self._walls: npt.NDArray[np.bool_] | None = None
+
+    def rows(self, world: WorldInfo, window: Window, width: int, height: int) -> list[str]:
+        """Walls, trail, LIDAR hits, goal, and the robot as an arrow."""
+        canvas = BrailleCanvas(width, height)
+        if world.map is not None:
+            canvas.mask(self._wall_dots(world.map, window, width, height))
+        for points in (world.trail, world.hits):
+            if points:
+                x, y = _dots(np.asarray(points, float), window, width, height)
+                canvas.points(x, y)
+        lines = canvas.rows()
+        for place, letter in _letters(world):
+            x, y = _dots(np.array([place]), window, width, height)
+            column, row = int(x[0]) // 2, int(y[0]) // 4
+            if 0 <= row < height and 0 <= column < width:
+                lines[row] = lines[row][:column] + letter + lines[row][column + 1 :]
+        return lines
+
+    def _wall_dots(self, grid: GridMap, window: Window, width: int, height: int) -> npt.NDArray[np.bool_]:
+        key = (id(grid), window, width, height)
+        if key != self._key or self._walls is None:
+            self._key = key
+            self._walls = _sample(grid, window, width, height)
+        return self._walls
+
+
+def _sample(grid: GridMap, window: Window, width: int, height: int) -> npt.NDArray[np.bool_]:
+    """Which dots show a wall: a dot does when any of the cells below it is occupied."""
+    cells = np.frombuffer(grid.cells, np.uint8).reshape(grid.height, grid.width)
+    rows, columns = np.nonzero((cells >= OCCUPIED) & (cells != UNKNOWN))
+    picture = np.zeros((height * 4, width * 2), np.bool_)
+    reach = max(1, math.ceil(grid.resolution * window.scale))
+    steps = (np.arange(reach) + 0.5) / reach
+    for down in steps:
+        for across in steps:
+            x = grid.origin.x + (columns + across) * grid.resolution
+            y = grid.origin.y + (rows + down) * grid.resolution
+            column, row = _dots(np.stack([x, y], axis=1), window, width, height)
+            inside = (column >= 0) & (column < width * 2) & (row >= 0) & (row < height * 4)
+            picture[row[inside].astype(int), column[inside].astype(int)] = True
+    return picture
+
+
+def _dots(
+    points: npt.NDArray[np.float64], window: Window, width: int, height: int
+) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    x = width + (points[:, 0] - window.x) * window.scale
+    y = height * 2 - (points[:, 1] - window.y) * window.scale
+    return np.floor(x), np.floor(y)
+
+
+def _letters(world: WorldInfo) -> list[tuple[tuple[float, float], str]]:
+    letters: list[tuple[tuple[float, float], str]] = []
+    if world.goal is not None:
+        letters.append((world.goal, "✚"))
+    if world.pose is not None:
+        letters.append(((world.pose.x, world.pose.y), arrow(world.pose.heading)))
+    return letters
+
+
+def arrow(heading: float) -> str:
+    """The arrow nearest to a heading (rad)."""
+    return ARROWS[round(heading / (math.pi / 4)) % 8] if math.isfinite(heading) else "?"
+
+
+def scale_text(window: Window, width: int) -> str:
+    """A bar and its length in metres, about a fifth of the width."""
+    metres = width * 2 / 5 / window.scale
+    power = 10.0 ** math.floor(math.log10(metres)) if metres > 0 else 1.0
+    length = max((each * power for each in (1, 2, 5) if each * power <= metres), default=power)
+    cells = max(1, round(length * window.scale / 2))
+    return f"├{'─' * max(0, cells - 2)}┤ {length:g} m"

@@ -1,0 +1,124 @@
+"""A virtual list: rows are drawn when they are seen, so that a million cost what forty do."""
+
+from __future__ import annotations
+
+from bot_console.tui import keymap
+from rich.segment import Segment
+from textual.geometry import Region, Size
+from textual.message import Message
+from textual.reactive import reactive
+from textual.scroll_view import ScrollView
+from textual.strip import Strip
+
+
+class RowList(ScrollView, can_focus=True):
+    """Rows with a cursor. A subclass gives `row_count` and `row(index, width)`."""
+
+    BINDINGS = keymap.bindings("list")
+    DEFAULT_CSS = """
+    RowList { height: 1fr; background: $surface; scrollbar-size-vertical: 1; overflow-x: hidden; }
+    RowList:focus { background: $surface; }
+    """
+    COMPONENT_CLASSES = {"row-list--cursor", "row-list--dim", "row-list--head", "row-list--warn", "row-list--error",
+                         "row-list--good", "row-list--strong"}  # fmt: skip
+
+    cursor: reactive[int] = reactive(0)
+    """The row that keys act on."""
+
+    class Moved(Message):
+        """The cursor stands on another row."""
+
+        def __init__(self, rows: RowList, index: int) -> None:
+            super().__init__()
+            self.rows = rows
+            self.index = index
+
+        @property
+        def control(self) -> RowList:
+            """The list."""
+            return self.rows
+
+    def row_count(self) -> int:
+        """How many rows there are."""
+        raise NotImplementedError
+
+    def row(self, index: int, width: int) -> list[Segment]:
+        """The segments of a row; they are cut and padded to the width (cells)."""
+        raise NotImplementedError
+
+    def rows_changed(self) -> None:
+        """Rows came, went or moved: draw anew."""
+        count = self.row_count()
+        size = Size(self.size.width, count)
+        if size != self.virtual_size:
+            self.virtual_size = size
+        if self.cursor >= count:
+            self.cursor = max(0, count - 1)
+        self.refresh()
+
+    def row_changed(self, index: int) -> None:
+        """One row has other content: draw it alone."""
+        y = index - self.scroll_offset.y
+        if 0 <= y < self.size.height:
+            self.refresh(Region(0, y, self.size.width, 1))
+
+    def render_line(self, y: int) -> Strip:
+        """One line of what is seen."""
+        index = y + self.scroll_offset.y
+        width = self.size.width
+        base = self.rich_style
+        if index >= self.row_count():
+            return Strip.blank(width, base)
+        if index == self.cursor and self.has_focus:
+            cursor = self.get_component_rich_style("row-list--cursor")
+            strip = Strip(Segment(segment.text, cursor) for segment in self.row(index, width))
+            return strip.adjust_cell_length(width, cursor)
+        strip = Strip(self.row(index, width)).adjust_cell_length(width, base)
+        return strip.apply_style(base) if not base.bgcolor else _on(strip, base)
+
+    def watch_cursor(self, before: int, after: int) -> None:
+        """Redraw the two rows, keep the cursor in view, and tell."""
+        self.row_changed(before)
+        self.row_changed(after)
+        self._show_cursor()
+        self.post_message(self.Moved(self, after))
+
+    def _show_cursor(self) -> None:
+        top, height = self.scroll_offset.y, max(1, self.size.height)
+        if self.cursor < top:
+            self.scroll_to(y=self.cursor, animate=False, force=True)
+        elif self.cursor >= top + height:
+            self.scroll_to(y=self.cursor - height + 1, animate=False, force=True)
+
+    def action_cursor(self, step: int) -> None:
+        """Move the cursor by some rows."""
+        self.cursor = min(max(0, self.cursor + step), max(0, self.row_count() - 1))
+
+    def action_page(self, step: int) -> None:
+        """Move the cursor by some pages."""
+        self.action_cursor(step * max(1, self.size.height - 1))
+
+    def on_click(self, event: object) -> None:
+        """A click moves the cursor."""
+        y = getattr(event, "y", 0) + self.scroll_offset.y
+        if y < self.row_count():
+            self.cursor = y
+
+    def on_focus(self) -> None:
+        """Show the cursor."""
+        self.row_changed(self.cursor)
+
+    def on_blur(self) -> None:
+        """Hide the cursor."""
+        self.row_changed(self.cursor)
+
+    def on_resize(self) -> None:
+        """Fit the rows to the new width."""
+        self.rows_changed()
+        self._show_cursor()
+
+
+def _on(strip: Strip, base: object) -> Strip:
+    """Segments on the list's background where they have none of their own."""
+    return Strip([Segment(text, base + style if style else base, control) for text, style, control in strip],  # type: ignore[operator]
+                 strip.cell_length)  # fmt: skip

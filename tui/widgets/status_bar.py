@@ -1,0 +1,65 @@
+"""One line that says how robot and console are; it is drawn anew only when its text changes."""
+
+from __future__ import annotations
+
+from bot_console.tui.console.model import ConsoleSnapshot, DriveInfo, ProcessState, Severity
+from rich.text import Text
+from textual.widgets import Static
+
+
+class StatusBar(Static):
+    """The command chain, the all-stop, the profile, processes that have ended, errors."""
+
+    DEFAULT_CSS = """
+    StatusBar { height: 1; padding: 0 1; background: $panel; color: $text; }
+    StatusBar.stopped { background: $error; color: $background; text-style: bold; }
+    """
+
+    def __init__(self) -> None:
+        super().__init__("", markup=False)
+        self._text = ""
+
+    def show(self, snapshot: ConsoleSnapshot, held_back: int = 0) -> None:
+        """Say how things are."""
+        text = status_text(snapshot, held_back)
+        if text != self._text:
+            self._text = text
+            self.update(Text(text, no_wrap=True, overflow="ellipsis"))
+        self.set_class(snapshot.drive.stopped, "stopped")
+
+
+def status_text(snapshot: ConsoleSnapshot, held_back: int = 0) -> str:
+    """The line."""
+    if snapshot.problem:
+        return snapshot.problem
+    parts = ["ALL STOP (! releases)"] if snapshot.drive.stopped else []
+    parts.append(drive_text(snapshot.drive))
+    if snapshot.active_profile:
+        parts.append(snapshot.active_profile)
+    dead = [each.label for each in snapshot.launch.processes if each.state is ProcessState.CRASHED]
+    if dead:
+        parts.append(f"✗ ended: {', '.join(dead)}")
+    errors = sum(snapshot.logs.counts.get(each, 0) for each in (Severity.ERROR, Severity.FATAL))
+    if errors:
+        parts.append(f"{errors} error{'s' if errors > 1 else ''}")
+    if snapshot.launch.problem:
+        parts.append(snapshot.launch.problem)
+    if held_back:
+        parts.append(f"slow link: {held_back} frames merged")
+    return "  ".join(each for each in parts if each)
+
+
+def drive_text(drive: DriveInfo) -> str:
+    """The command chain: asked, what limited it, final, actual speed."""
+    if drive.final is None and drive.actual is None:
+        return "no robot yet"
+    parts: list[str] = []
+    if drive.asked is not None:
+        parts.append(f"asked {drive.asked[0]:+.1f}")
+    if drive.limited_by:
+        parts.append(f"limited by {drive.limited_by}")
+    if drive.final is not None:
+        parts.append(f"command {drive.final[0]:+.1f} m/s {drive.final[1]:+.1f} rad/s")
+    if drive.actual is not None:
+        parts.append(f"actual {drive.actual[0]:+.1f} m/s")
+    return " → ".join(parts)
