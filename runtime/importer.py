@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 import importlib
+import os
 import sys
 from collections.abc import Sequence
 from importlib.abc import Loader, MetaPathFinder
@@ -14,6 +15,10 @@ from importlib.machinery import ModuleSpec, PathFinder
 from importlib.util import spec_from_file_location
 from pathlib import Path
 from types import ModuleType
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from bot_console.runtime.process.fresh_import import FreshModules
 
 RUNTIME = Path(__file__).resolve().parent
 GENERATED = RUNTIME / "rosidl" / "generated"
@@ -68,6 +73,21 @@ class _AliasLoader(Loader):
 
     def exec_module(self, module: ModuleType) -> None:
         module.__spec__ = self._spec
+
+
+def is_embedded(name: str) -> bool:
+    """Whether a top-level import name means a part of the embedded runtime."""
+    return name in PACKAGES or (GENERATED / name).is_dir()
+
+
+def node_modules(folders: Sequence[str | os.PathLike[str]] = ()) -> FreshModules:
+    """Modules for one start of a node: what lies in `folders`, and our own nodes, anew; the embedded runtime is shared.
+
+    A folder is what would be on `sys.path`: that of a node file, or the one in which a Python package lies.
+    """
+    from bot_console.runtime.process.fresh_import import FreshModules
+
+    return FreshModules([os.fspath(folder) for folder in folders], packages=[OWN_PACKAGE], shared=is_embedded)
 
 
 _finder = RosFinder()

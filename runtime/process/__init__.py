@@ -17,9 +17,9 @@ A node process
     `process.wait(timeout_s) -> exit_code | None`, `is_alive`, `line()` (where its main thread is).
     `interrupt()` SIGINT, `terminate()` SIGTERM, `kill()` SIGKILL, `send_signal(n)`, `stop(grace_s)` all three in turn.
     `on_interrupt(callback(signum), signals)`: hook that runs before the handler, as that of `rclpy.init`; a hook for
-    SIGTERM replaces its default. On `MAIN` it is a real signal handler. `on_abandon(callback())`: it was killed, leave
-    the graph, its code may still run. `on_exit(callback(process))`: it has ended, newest callback first. All three
-    return a callable that takes the callback away.
+    SIGTERM replaces its default. On `MAIN` it is a real signal handler. `on_abandon(callback())`: it is over, however
+    it ended; leave the graph, because code of it may still run. `on_exit(callback(process))`: after that, newest
+    callback first. All three return a callable that takes the callback away.
     Exit codes: 0; n of `sys.exit(n)`; 1 for a text (on its stderr) or an uncaught exception (traceback on its stderr);
     -2 for `KeyboardInterrupt`; -15, -9, -n for a signal.
     `on_notice(hook(process, text))`: what a node does that cannot be virtual, and lines that hang; to be shown as WARN.
@@ -43,19 +43,26 @@ from .clock_source import ClockSource, RealTime, Wakeup
 from .current import MAIN, NodeProcess, ProcessLocal, current, running_as
 from .node_process import ProcessState
 from .notices import on_notice
-from .program import entry_point_program, file_program
 from .thread_state import ProcessKilled
 
 if TYPE_CHECKING:
+    from .program import entry_point_program, file_program
     from .stepping import SteppedTime, stepped
+
+_LATE = {
+    "SteppedTime": "stepping",
+    "stepped": "stepping",
+    "entry_point_program": "program",
+    "file_program": "program",
+}
 
 
 def __getattr__(name: str) -> Any:
-    """`stepped` and `SteppedTime`, imported when asked for: a real-time start needs none of it."""
-    if name in ("SteppedTime", "stepped"):
-        from . import stepping
+    """What a plain start does not need is imported when it is asked for."""
+    if name in _LATE:
+        from importlib import import_module
 
-        return getattr(stepping, name)
+        return getattr(import_module(f"{__name__}.{_LATE[name]}"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

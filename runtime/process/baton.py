@@ -23,6 +23,8 @@ POLL_NS = 20_000
 INSTANT_WAITS = 50_000
 """How many waits may happen at one instant before each costs `POLL_NS`: nodes may keep each other awake for ever."""
 STALE_TIMERS = 64
+SIGNAL_CHECK_S = 0.2
+"""How often (s of wall time) a waiting driver looks for real signals: another thread may have received them."""
 
 
 class Seat:
@@ -274,7 +276,11 @@ class Baton:
 
     def _await_turn(self, seat: Seat) -> None:
         try:
-            seat.lock.acquire()
+            if seat.rank != LAST:
+                seat.lock.acquire()
+            else:
+                while not seat.lock.acquire(True, SIGNAL_CHECK_S):
+                    pass
         except BaseException:  # a handler of a real signal raised in the real main thread
             self._reclaim(seat)
             raise

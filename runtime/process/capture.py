@@ -6,9 +6,10 @@ import codecs
 import io
 from _thread import RLock
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from .output_pipe import OutputPipe
+if TYPE_CHECKING:
+    from .output_pipe import OutputPipe
 
 Sink = Callable[[str], None]
 """Takes one line with its newline (the last one may lack it), in the thread that wrote it. Must never block."""
@@ -64,6 +65,8 @@ class LineCapture(io.TextIOBase):
             if self._pipe is None:
                 if self.closed:
                     raise ValueError("I/O operation on closed file")
+                from .output_pipe import OutputPipe
+
                 self._pipe = OutputPipe(self._take)
             return self._pipe.write_end
 

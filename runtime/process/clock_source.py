@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from _thread import LockType, allocate_lock
+from _thread import LockType, allocate_lock, get_ident
 from contextlib import suppress
 from functools import partial
 from typing import TYPE_CHECKING, Protocol
@@ -14,6 +14,9 @@ from .thread_state import ThreadState, local
 if TYPE_CHECKING:
     from .baton import Seat
 
+SIGNAL_CHECK_NS = 500_000_000
+"""How often the real main thread looks up from a wait: another thread may have received a signal for it."""
+_MAIN_THREAD = threading.main_thread().ident
 _monotonic_ns = time.monotonic_ns  # the real one: `time.monotonic_ns` is virtual while a stepped run is on
 
 
@@ -140,6 +143,10 @@ def _release(lock: LockType) -> None:
 
 
 def _acquire_until(lock: LockType, deadline_ns: int | None) -> bool:
+    if get_ident() == _MAIN_THREAD:
+        while deadline_ns is None or deadline_ns - _monotonic_ns() > SIGNAL_CHECK_NS:
+            if lock.acquire(True, SIGNAL_CHECK_NS * 1e-9):
+                return True
     if deadline_ns is None:
         return lock.acquire()
     remaining = (deadline_ns - _monotonic_ns()) * 1e-9

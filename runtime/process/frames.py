@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import os
 import sys
-import sysconfig
-import traceback
 from types import FrameType, TracebackType
 
 _PROCESS = os.path.dirname(os.path.abspath(__file__)) + os.sep
 _RUNTIME = os.path.dirname(_PROCESS.rstrip(os.sep)) + os.sep
-_STDLIB = tuple({os.path.realpath(sysconfig.get_path(name)) + os.sep for name in ("stdlib", "platstdlib")})
+_STDLIB = os.path.dirname(os.path.realpath(os.__file__)) + os.sep
 _SITE = ("site-packages", "dist-packages")
 
 
@@ -83,6 +81,8 @@ def print_exception(exception: BaseException) -> None:
     trim(exception)
     hook = sys.excepthook
     if hook is sys.__excepthook__:
+        import traceback
+
         traceback.print_exception(type(exception), exception, exception.__traceback__)
     else:
         hook(type(exception), exception, exception.__traceback__)

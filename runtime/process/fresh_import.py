@@ -31,8 +31,8 @@ def _nothing(_name: str) -> bool:
 class FreshModules:
     """The modules that one node process has for itself.
 
-    `packages` are top-level names that are its own wherever they are found; further own ones are those found in
-    `folders` or in what the process adds to `sys.path`. A name for which `shared` is true is never its own.
+    Its own are those found in `folders` or in what the process adds to `sys.path`; further top-level names in
+    `packages`, wherever they are found. A name for which `shared` is true is never its own.
     """
 
     def __init__(
@@ -77,13 +77,11 @@ class FreshModules:
         return self._tops[top]
 
     def _find_top(self, top: str) -> ModuleSpec | None:
-        if top in self._packages:
-            return _find_spec(top, None)
         spec = PathFinder.find_spec(top, [*self.folders, *self._searched])
         if spec is not None and spec.loader is None:  # a folder without __init__.py: any proper module goes before it
             other = _find_spec(top, None)
-            return spec if other is None or other.loader is None else None
-        return spec
+            spec = spec if other is None or other.loader is None else None
+        return _find_spec(top, None) if spec is None and top in self._packages else spec
 
     def _execute(self, name: str) -> ModuleType:
         parent_name, _, child = name.rpartition(".")

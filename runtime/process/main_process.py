@@ -60,7 +60,10 @@ class MainProcess(NodeProcess):
 
     def send_signal(self, signum: int) -> None:
         """Send the real process a real signal."""
-        os.kill(os.getpid(), signum)
+        if hasattr(signal, "pthread_kill"):
+            signal.pthread_kill(threading.main_thread().ident or 0, signum)  # where Python handles signals
+        else:
+            os.kill(os.getpid(), signum)
 
     def die(self, code: int) -> None:
         """Nothing: the real process is not ended from within a run."""

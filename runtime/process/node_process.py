@@ -66,6 +66,7 @@ class NodeProcess:
         self.notices: list[str] = []
         self.modules: FreshModules | None = None
         self.overrides: dict[Any, Any] = {}
+        self.cpu_of_ended_threads = 0.0
         self._ended = self.clock.wakeup()
         self._exit_lock = allocate_lock()
         self._exit_callbacks: list[Callable[[NodeProcess], Any]] = []
@@ -86,6 +87,7 @@ class NodeProcess:
         `argv` is `sys.argv` whole, `env` the whole environment (default: the starter's), `stdout` and `stderr` get each
         line of output (default: the real streams). `cwd` is where child processes start.
         """
+        from .busy_watch import busy_watch
         from .main_thread import start_main_thread
         from .virtual import install_virtual_process
 
@@ -101,6 +103,8 @@ class NodeProcess:
         self.state = ProcessState.RUNNING
         _running[self.pid] = self
         start_main_thread(self, target)
+        if not self.clock.stepped:
+            busy_watch.watch(self)
 
     @property
     def is_alive(self) -> bool:
@@ -161,9 +165,9 @@ class NodeProcess:
         return lambda: None
 
     def on_abandon(self, callback: Callable[[], Any]) -> Callable[[], None]:
-        """Call `callback()` when it is killed, before anything else, because code of it may still be running.
+        """Call `callback()` once it is over, however: leave the graph, because code of it may still be running.
 
-        Returns what takes the callback away.
+        All these come before the first `on_exit`. Returns what takes the callback away.
         """
         self._abandon_callbacks.append(callback)
         return partial(_discard, self._abandon_callbacks, callback)
@@ -176,6 +180,13 @@ class NodeProcess:
         """Its main thread and the threads that it started, those that have ended excepted."""
         main = [] if self.main_state is None else [self.main_state]
         return [state for state in (*main, *self.children.values()) if state.thread.is_alive()]
+
+    def cpu_seconds(self) -> float | None:
+        """Processor time (s) that its threads have used; None where the system does not tell."""
+        from .processor_time import total_seconds
+
+        running = total_seconds(self.thread_states())
+        return None if running is None else self.cpu_of_ended_threads + running
 
     def guarded(self, callback: Callable[[], Any]) -> None:
         """Call back; an exception becomes a notice, because whoever ends or signals a process must get on."""
@@ -192,8 +203,6 @@ class NodeProcess:
         for capture in (self.stdout, self.stderr):
             if capture is not None:
                 capture.mute()
-        for callback in tuple(self._abandon_callbacks):
-            self.guarded(callback)
         self.finish(code)
         for state in states:
             state.kill()
@@ -229,6 +238,8 @@ class NodeProcess:
         _running.pop(self.pid, None)
         before, local.process = local.process, self
         try:
+            for abandon in tuple(self._abandon_callbacks):
+                self.guarded(abandon)
             for callback in reversed(self._exit_callbacks):
                 self.guarded(partial(callback, self))
             for capture in (self.stdout, self.stderr):

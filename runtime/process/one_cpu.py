@@ -5,6 +5,9 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 
+_real: Callable[[int], set[int]] = getattr(os, "sched_getaffinity", lambda _pid: {0})
+_processors: list[set[int]] = []
+
 
 def pin_thread() -> Callable[[], None]:
     """Pin the calling thread, and the threads that it will start, to one processor; returns what undoes it.
@@ -13,9 +16,20 @@ def pin_thread() -> Callable[[], None]:
     """
     if not hasattr(os, "sched_setaffinity"):
         return lambda: None
-    before = os.sched_getaffinity(0)
+    before = sched_getaffinity(0)
     try:
         os.sched_setaffinity(0, {sorted(before)[os.getpid() % len(before)]})
     except OSError:  # not allowed in this container
         return lambda: None
-    return lambda: os.sched_setaffinity(0, before)
+    _processors.append(before)
+
+    def unpin() -> None:
+        _processors.remove(before)
+        os.sched_setaffinity(0, before)
+
+    return unpin
+
+
+def sched_getaffinity(pid: int, /) -> set[int]:
+    """`os.sched_getaffinity`: what a node would have without the pin, because it sizes its thread pools by that."""
+    return set(_processors[-1]) if _processors and pid == 0 else _real(pid)

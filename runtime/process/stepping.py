@@ -15,10 +15,10 @@ from .notices import notify
 from .one_cpu import pin_thread
 from .signals import SIGKILL
 from .stall_watch import StallWatch
+from .stepped_calls import install_stepped_calls, uninstall_stepped_calls
 from .stepped_wakeup import SteppedWakeup
 from .thread_state import ThreadState, local
 from .virtual import install_virtual_process
-from .virtual_time import install_virtual_time, uninstall_virtual_time
 
 DEFAULT_START_NS = 1_700_000_000_000_000_000
 """System time (ns since the epoch) at which a stepped run begins unless told otherwise."""
@@ -47,7 +47,7 @@ class SteppedTime:
         self._seat_before, local.seat = local.seat, self._driver
         self._unpin = pin_thread()
         install_virtual_process()
-        install_virtual_time()
+        install_stepped_calls()
 
     def steady_ns(self) -> int:
         """Virtual time since the start of the run in ns."""
@@ -108,7 +108,7 @@ class SteppedTime:
         self._driver.leave()
         local.seat = self._seat_before
         self._unpin()
-        uninstall_virtual_time()
+        uninstall_stepped_calls()
 
     def _report_stall(self, seat: Seat) -> None:
         self.deterministic = False

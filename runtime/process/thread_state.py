@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import time
 from _thread import allocate_lock
 from collections import deque
 from collections.abc import Callable
@@ -76,6 +77,8 @@ class ThreadState:
 
     def leave(self) -> None:
         """The thread's work is over: let others have the turn, wake those that join it."""
+        if self.ident:
+            self.process.cpu_of_ended_threads += time.thread_time()
         self.finished.set()
         if self.seat is not None:
             self.seat.leave()

@@ -68,7 +68,8 @@ def test_traceback_shows_the_file_alone(run, script):
             raise RuntimeError('no battery')
         main()
     """)
-    assert run(file_program(path)).stderr == textwrap.dedent(f"""\
+    lines = [line for line in run(file_program(path)).err if line.strip(" ~^\n")]  # 3.13 underlines calls
+    assert "".join(lines) == textwrap.dedent(f"""\
         Traceback (most recent call last):
           File "{path}", line 4, in <module>
             main()

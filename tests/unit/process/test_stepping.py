@@ -7,7 +7,7 @@ import random
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 
 import pytest
 from bot_console.runtime.process import MAIN, NodeProcess, RealTime, current, on_notice, stepped
@@ -459,3 +459,74 @@ def test_many_timers_leave_no_heap(clock):
     NodeProcess("w", clock).start(waker)
     clock.run_for(9.0)
     assert len(clock._baton._timers) < 200
+
+
+def test_locks_are_handed_over_in_order_and_in_virtual_time(clock):
+    trace = []
+    lock = threading.Lock()
+    reentrant = threading.RLock()
+
+    def target(name, guard):
+        def run():
+            with guard, guard if guard is reentrant else nullcontext():
+                time.sleep(1.0)
+                trace.append((time.monotonic(), name))
+
+        return run
+
+    for guard in (lock, reentrant):
+        for name in "abc":
+            NodeProcess(name, clock).start(target(name, guard))
+    clock.run_for(0.5)
+    assert lock.locked()
+    assert not lock.acquire(blocking=False)
+    assert not lock.acquire(timeout=0.25)
+    assert time.monotonic() == 0.75
+    clock.run_for(10)
+    assert trace == [(1.0, "a"), (1.0, "a"), (2.0, "b"), (2.0, "b"), (3.0, "c"), (3.0, "c")]
+    assert clock.deterministic
+    assert lock.acquire() and not lock.acquire(False)
+    lock.release()
+    with pytest.raises(RuntimeError):
+        lock.release()
+    with pytest.raises(RuntimeError, match="cannot release un-acquired lock"):
+        reentrant.release()
+
+
+def test_an_interrupted_wait_for_a_lock_passes_the_turn_on(clock):
+    lock = threading.Lock()
+    got = []
+
+    def target():
+        with lock:
+            got.append(current().name)
+
+    lock.acquire()
+    first, second = NodeProcess("first", clock), NodeProcess("second", clock)
+    for process in (first, second):
+        process.start(target, stderr=lambda line: None)
+    clock.run_for(1.0)
+    lock.release()
+    first.interrupt()
+    clock.run_for(1.0)
+    assert (first.exit_code, second.exit_code) == (-2, 0)
+    assert got == ["second"]
+
+
+def test_conditions_on_locks_of_the_run(clock):
+    condition = threading.Condition()
+    seen = []
+
+    def waiter():
+        with condition, condition:
+            seen.append(condition.wait(5.0))
+            seen.append(condition.wait_for(lambda: len(seen) > 5, timeout=2.0))
+
+    process = NodeProcess("n", clock)
+    process.start(waiter)
+    clock.run_for(1.0)
+    with condition:
+        condition.notify()
+    assert process.wait(10) == 0
+    assert seen == [True, False]
+    assert time.monotonic() == 3.0

@@ -1,13 +1,15 @@
-"""The functions of the `time` module in threads of a stepped run: its time instead of the machine's."""
+"""What is wrapped while there are stepped runs: the `time` module tells their time, new locks are theirs."""
 
 from __future__ import annotations
 
+import os
 import queue
 import threading
 import time
 from collections.abc import Callable
 from typing import Any
 
+from . import one_cpu, stepped_lock
 from .clock_source import ClockSource
 from .thread_state import local
 
@@ -54,6 +56,9 @@ def _wraps() -> list[tuple[Any, str, Any]]:
         (time, "monotonic_ns", steady[1]),
         (time, "perf_counter", precise[0]),
         (time, "perf_counter_ns", precise[1]),
+        (threading, "Lock", stepped_lock.Lock),
+        (threading, "RLock", stepped_lock.RLock),
+        (os, "sched_getaffinity", one_cpu.sched_getaffinity),
         (threading, "_time", steady[0]),
         (queue, "time", steady[0]),
     ]
@@ -66,8 +71,8 @@ _users = 0
 _guard = threading.Lock()
 
 
-def install_virtual_time() -> None:
-    """Wrap the readings of the clock, until as many `uninstall_virtual_time`."""
+def install_stepped_calls() -> None:
+    """Wrap these calls, until as many `uninstall_stepped_calls`."""
     global _users
     with _guard:
         _users += 1
@@ -77,8 +82,8 @@ def install_virtual_time() -> None:
                 setattr(owner, name, wrap)
 
 
-def uninstall_virtual_time() -> None:
-    """Put the readings of the clock back once nobody needs them virtual."""
+def uninstall_stepped_calls() -> None:
+    """Put the calls back once no stepped run needs them."""
     global _users
     with _guard:
         _users -= 1

@@ -1,0 +1,108 @@
+"""Lines that hang or hog are named; processor time is told."""
+
+from __future__ import annotations
+
+import sys
+import threading
+import time
+
+import pytest
+from bot_console.runtime.process import busy_watch as busy_watch_module
+from bot_console.runtime.process import frames, on_notice
+from bot_console.runtime.process.busy_watch import BusyWatch
+
+LONG = 20.0
+linux_only = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems do not tell")
+
+
+@linux_only
+def test_a_busy_loop_is_named_once(start, monkeypatch):
+    monkeypatch.setattr(busy_watch_module, "PERIOD_S", 0.02)
+    monkeypatch.setattr(busy_watch_module, "BUSY_SHARE", 0.0)
+    monkeypatch.setattr(busy_watch_module, "busy_watch", BusyWatch())
+    told = threading.Event()
+    notices = []
+    stop = []
+
+    def hook(process, text):
+        notices.append((process.name, text))
+        told.set()
+
+    def target():
+        while not stop:
+            pass
+
+    remove = on_notice(hook)
+    started = start(target, name="hog")
+    assert told.wait(LONG)
+    stop.append(True)
+    started.end()
+    remove()
+    assert notices[0][0] == "hog"
+    line = target.__code__.co_firstlineno
+    assert f"{__file__}:{line + 1}, in target" in notices[0][1] or f"{__file__}:{line + 2}" in notices[0][1]
+
+
+@linux_only
+def test_processor_time_of_running_and_ended_threads(start):
+    burnt, go_on = threading.Event(), threading.Event()
+
+    def burn():
+        while time.thread_time() < 0.03:
+            pass
+
+    def target():
+        thread = threading.Thread(target=burn)
+        thread.start()
+        thread.join()
+        burnt.set()
+        go_on.wait()
+
+    started = start(target)
+    assert burnt.wait(LONG)
+    assert started.process.cpu_seconds() >= 0.03
+    go_on.set()
+    started.end()
+    assert started.process.cpu_seconds() >= 0.03
+
+
+def test_line_of_a_thread_is_that_of_the_users_code(start):
+    release = threading.Event()
+
+    def target():
+        print("ready")
+        release.wait()
+
+    started = start(target)
+    started.until_printed("ready")
+    assert started.process.line() == f"{__file__}:{target.__code__.co_firstlineno + 2}, in target"
+    release.set()
+    started.end()
+    started.process.main_state.thread.join(LONG)
+    assert started.process.line() is None
+
+
+def test_trimming_keeps_causes_and_their_order():
+    def inner():
+        raise KeyError("inner")
+
+    try:
+        try:
+            inner()
+        except KeyError as error:
+            raise ValueError("outer") from error
+    except ValueError as caught:
+        error = frames.trim(caught)
+    names = []
+    trace = error.__cause__.__traceback__
+    while trace is not None:
+        names.append(trace.tb_frame.f_code.co_name)
+        trace = trace.tb_next
+    assert names == ["test_trimming_keeps_causes_and_their_order", "inner"]
+
+
+def test_library_frames_are_not_the_users():
+    assert frames._is_library(threading.__file__)
+    assert frames._is_library(pytest.__file__)
+    assert frames._is_library(frames.__file__)
+    assert not frames._is_library(__file__)
