@@ -4,10 +4,12 @@
 Velocity commands go navigator -> motion controller -> safety monitor -> robot; a person's go to `cmd_vel_teleop`.
 """
 
+import os
+
 from ament_index_python.packages import get_package_share_directory
 from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch.conditions import IfCondition
-from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 
@@ -19,6 +21,7 @@ PROFILES = ["indoor", "outdoor", "warehouse", "competition"]
 
 def generate_launch_description():
     """Describe the system."""
+    profiles = os.path.join(get_package_share_directory(PACKAGE), "config")
     profile = LaunchConfiguration("profile")
     config_file = LaunchConfiguration("config_file")
     use_sim_time = {"use_sim_time": ParameterValue(LaunchConfiguration("use_sim_time"), value_type=bool)}
@@ -42,9 +45,7 @@ def generate_launch_description():
             ),
             DeclareLaunchArgument(
                 "config_file",
-                default_value=PathJoinSubstitution(
-                    [get_package_share_directory(PACKAGE), "config", [profile, "_config.yaml"]]
-                ),
+                default_value=[profiles, "/", profile, "_config.yaml"],
                 description="Path to robot configuration file; overrules profile",
             ),
             DeclareLaunchArgument("seed", default_value="", description="Seed of the simulator; empty: the file's"),

@@ -72,7 +72,12 @@ class Avoidance:
         depth = ranges[seen]
         nearest = float(depth.min()) if len(depth) else math.inf
         room = self._room(depth * cos[seen], depth * sin[seen], rules.safety_distance)
-        return self._steer(room, nearest, rules)
+        if rules.enable_safety and float(room[AHEAD]) <= rules.safety_distance:
+            side = self._keep_side(np.where(seen, ranges, np.float32(HORIZON)))
+            return Decision(0.0, side * rules.turn_rate, True, nearest)
+        self._side = 0.0
+        linear, angular = self._steer(room, rules)
+        return Decision(linear, angular, False, nearest)
 
     def _beams(self, count: int, first: float, increment: float) -> tuple[Floats, Floats]:
         if len(self._angles) != count or (count and abs(float(self._angles[0]) - first) > 1e-6):
@@ -89,29 +94,29 @@ class Avoidance:
         in_lane = (along > 0.0) & (np.abs(across) < half_width)
         return np.where(in_lane, along, HORIZON).min(axis=1).clip(max=HORIZON)
 
-    def _steer(self, room: Floats, nearest: float, rules: Rules) -> Decision:
+    def _steer(self, room: Floats, rules: Rules) -> tuple[float, float]:
+        """The velocity towards the best direction."""
         self._scans += 1
         score = room - BEND * np.abs(DIRECTIONS - self._whim()) - HABIT * np.abs(DIRECTIONS - self._heading)
-        best = int(score.argmax())
-        self._heading = float(DIRECTIONS[best])
-        ahead = float(room[AHEAD])
-        if rules.enable_safety and ahead <= rules.safety_distance:
-            return Decision(0.0, self._turn_in_place(room) * rules.turn_rate, True, nearest)
-        self._side = 0.0
+        self._heading = float(DIRECTIONS[int(score.argmax())])
         angular = max(-rules.turn_rate, min(rules.turn_rate, STEERING * self._heading))
-        linear = rules.max_speed
-        if rules.enable_safety:
-            spare = ahead - rules.safety_distance
-            linear = min(linear, math.sqrt(2.0 * BRAKING * spare)) * max(0.2, math.cos(self._heading))
-        return Decision(linear, angular, False, nearest)
+        if not rules.enable_safety:
+            return rules.max_speed, angular
+        spare = float(room[AHEAD]) - rules.safety_distance
+        fastest = min(rules.max_speed, math.sqrt(2.0 * BRAKING * spare))
+        return fastest * max(0.2, math.cos(self._heading)), angular
 
     def _whim(self) -> float:
         """The heading in rad that is favoured now."""
         return 0.5 * WANDER * sum(math.sin(math.tau * self._scans / period) for period in WANDER_PERIODS)
 
-    def _turn_in_place(self, room: Floats) -> float:
-        """+1 (left) or -1, kept until the way is free: changing sides in a corner would never end."""
+    def _keep_side(self, ranges: Floats) -> float:
+        """Where to turn on the spot: +1 (left) or -1, the opener side at first, then the same until the way is free.
+
+        Changing sides in a corner would never end.
+        """
         if self._side == 0.0:
-            left, right = float(room[AHEAD:].sum()), float(room[: AHEAD + 1].sum())
-            self._side = 1.0 if left >= right else -1.0
+            capped = np.minimum(ranges, HORIZON)
+            left, right = capped[self._angles > 0.0], capped[self._angles < 0.0]
+            self._side = 1.0 if left.sum() >= right.sum() else -1.0
         return self._side

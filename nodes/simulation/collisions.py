@@ -12,7 +12,7 @@ PAUSE = 0.5
 
 @dataclass(frozen=True, slots=True)
 class Collision:
-    """A touch that began at `time` (s), at `speed` (m/s), against a kind of thing (`wall`, `obstacle` ...)."""
+    """A touch that began at `time` (s), at `speed` (m/s), against a kind of thing (`a wall` ...)."""
 
     time: float
     x: float

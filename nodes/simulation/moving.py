@@ -34,20 +34,26 @@ class MovingObstacle:
 
     def advance(self, dt: float, robot: Point, radius: float) -> None:
         """Go on for `dt` s, unless that comes too near to the robot's hull of `radius` m."""
-        dx, dy = self._target[0] - self.x, self._target[1] - self.y
-        left = math.hypot(dx, dy)
-        if left < 1e-9:
-            self._choose_next()
-            return
-        step = min(left, self.mover.speed * dt)
-        x, y = self.x + dx / left * step, self.y + dy / left * step
+        x, y = self._next_place(dt)
         if self._would_crowd(x, y, robot, radius):
             self._wait(dt)
-            return
-        self._waited = 0.0
+            x, y = self.x, self.y
+        else:
+            self._waited = 0.0
+        # The engine moves the body by its velocity; the place it moves from is set, so that rounding never adds up.
+        self.body.position = (self.x, self.y)
         self.body.velocity = ((x - self.x) / dt, (y - self.y) / dt)
         self.x, self.y = x, y
-        self.body.position = (x, y)
+
+    def _next_place(self, dt: float) -> Point:
+        way = self.mover.speed * dt
+        left = math.dist((self.x, self.y), self._target)
+        if left <= way:
+            place = self._target
+            self._choose_next()
+            return place
+        share = way / left
+        return self.x + (self._target[0] - self.x) * share, self.y + (self._target[1] - self.y) * share
 
     def _would_crowd(self, x: float, y: float, robot: Point, radius: float) -> bool:
         distance = math.dist((x, y), robot)
@@ -56,7 +62,6 @@ class MovingObstacle:
         )
 
     def _wait(self, dt: float) -> None:
-        self.body.velocity = (0.0, 0.0)
         self._waited += dt
         if self._waited >= PATIENCE:
             self._waited = 0.0

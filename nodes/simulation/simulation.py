@@ -49,7 +49,7 @@ class Simulation:
         self._space = Space(self.world, self._movers, self.pose, settings.limits.radius)
         gap, what = self._space.nearest(self.pose.x, self.pose.y)
         if gap <= 0.0:
-            raise WorldError(f"{world.name}: the robot does not fit at the start, a {what} is in its way")
+            raise WorldError(f"{world.name}: the robot does not fit at the start, {what} is in its way")
         self.drive = DifferentialDrive(settings.limits)
         self.odometry = Odometry(self.pose, settings.noise, self._rng)
         self.lidar = Lidar(settings.lidar, self._surfaces)

@@ -29,7 +29,7 @@ class Space:
         self._radius = radius
         self._add_still(world)
         for mover in movers:
-            self._add(pymunk.Circle(mover.body, mover.mover.radius), "moving obstacle", mover.body)
+            self._add(pymunk.Circle(mover.body, mover.mover.radius), "a moving obstacle", mover.body)
         self.body = pymunk.Body(MASS, pymunk.moment_for_circle(MASS, 0, radius))
         hull = pymunk.Circle(self.body, radius)
         hull.filter = ROBOT
@@ -38,14 +38,14 @@ class Space:
 
     def _add_still(self, world: World) -> None:
         still = self._space.static_body
-        lines = [("boundary", closed(world.boundary))] + [("wall", wall.points) for wall in world.walls]
+        lines = [("the boundary", closed(world.boundary))] + [("a wall", wall.points) for wall in world.walls]
         for kind, points in lines:
             for a, b in itertools.pairwise(points):
                 self._add(pymunk.Segment(still, a, b, 0.0), kind)
         for block in world.blocks:
-            self._add(pymunk.Poly(still, list(block.points)), "obstacle")
+            self._add(pymunk.Poly(still, list(block.points)), "an obstacle")
         for disc in world.discs:
-            self._add(_circle(still, disc), "obstacle")
+            self._add(_circle(still, disc), "an obstacle")
 
     def _add(self, shape: pymunk.Shape, kind: str, body: pymunk.Body | None = None) -> None:
         shape.filter = OBSTACLE

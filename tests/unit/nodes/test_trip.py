@@ -1,0 +1,27 @@
+import pytest
+from intelligent_robot.trip import Trip
+
+
+def test_way_and_stops() -> None:
+    trip = Trip()
+    for i, speed in enumerate([0.0, 1.0, 1.0, 0.0, 0.0, -1.0, 0.0]):
+        trip.update(i * 0.1, speed)
+    assert trip.distance == pytest.approx(0.3)
+    assert trip.stops == 2
+    assert trip.speed == 0.0
+
+
+def test_a_long_silence_is_no_way() -> None:
+    trip = Trip()
+    trip.update(0.0, 1.0)
+    trip.update(10.0, 1.0)
+    assert trip.distance == 0.0
+
+
+def test_time_running_backwards_starts_anew() -> None:
+    trip = Trip()
+    for time, speed in ((5.0, 1.0), (5.5, 1.0), (6.0, 0.0), (0.1, 0.5)):
+        trip.update(time, speed)
+    assert trip.distance == 0.0
+    assert trip.stops == 0
+    assert trip.speed == 0.5

@@ -1,0 +1,40 @@
+import math
+
+import pytest
+from intelligent_robot.simulation.metrics import Metrics
+
+
+def run(speeds: list[float], clearance: float = 1.0) -> Metrics:
+    metrics = Metrics(0.1)
+    for i, speed in enumerate(speeds):
+        metrics.update(float(i), 0.0, 0.0, speed, clearance)
+    return metrics
+
+
+def test_distance_counts_both_directions_and_mean_speed_is_over_all_time() -> None:
+    metrics = run([1.0] * 10 + [-1.0] * 10 + [0.0] * 20)
+    assert metrics.distance == pytest.approx(2.0)
+    assert metrics.mean_speed == pytest.approx(0.5)
+    assert metrics.duration == pytest.approx(4.0)
+
+
+def test_a_stop_is_driving_then_standing() -> None:
+    assert run([0.0] * 5).stops == 0
+    assert run([1.0, 0.0, 0.0, 1.0, 0.0]).stops == 2
+    assert run([1.0, 0.03, 1.0, 0.03]).stops == 0
+    assert run([0.0, 0.03, 0.0]).stops == 0
+
+
+def test_the_longest_standstill() -> None:
+    assert run([0.0] * 3 + [1.0] + [0.0] * 7 + [1.0]).longest_standstill == pytest.approx(0.7)
+    assert run([1.0] * 3).longest_standstill == 0.0
+
+
+def test_nothing_near_is_none_in_the_report() -> None:
+    assert run([1.0], math.inf).report()["min_clearance"] is None
+    assert run([1.0], 0.25).report()["min_clearance"] == 0.25
+
+
+def test_the_digest_is_of_the_poses() -> None:
+    assert run([1.0, 2.0]).digest == run([2.0, 1.0]).digest
+    assert run([1.0]).digest != run([1.0, 1.0]).digest
