@@ -31,7 +31,7 @@ Stepped runs
 
 Virtual in a node process: threads and their lists, `sys.argv`, `sys.path`, `sys.stdin/stdout/stderr/excepthook`,
 `os.environ`, `os.getpid/kill/_exit/exec*/system`, `subprocess`, `signal.signal` and relatives, `atexit` (for the node's
-own files), the node's own modules. Not virtual, but reported: `os.chdir`, `fork`, timers of signals. `cwd` is where
+own files), the node's own modules. Not virtual, but reported: `os.chdir`, `os.umask`, timers of signals. `cwd` is where
 child processes start; relative paths of the node itself are those of the real process.
 """
 

@@ -6,7 +6,6 @@ import sys
 import threading
 from types import ModuleType, TracebackType
 from typing import TYPE_CHECKING
-from weakref import WeakKeyDictionary
 
 from . import real
 from .frames import trim
@@ -17,7 +16,11 @@ if TYPE_CHECKING:
     from .clock_source import ClockSource
     from .node_process import NodeProcess
 
-_states: WeakKeyDictionary[threading.Thread, ThreadState] = WeakKeyDictionary()
+_STATE = "_node_process_state"
+
+
+def _state_of(thread: threading.Thread) -> ThreadState | None:
+    return vars(thread).get(_STATE)
 
 
 def start_outside(thread: threading.Thread) -> None:
@@ -40,7 +43,7 @@ def start_inside(
     inside = _Inside(state)
     thread.daemon = True
     vars(thread)["run"] = inside
-    _states[thread] = state
+    vars(thread)[_STATE] = state
     if child:
         process.children[thread] = state
     else:
@@ -121,7 +124,7 @@ def start(thread: threading.Thread) -> None:
 
 def join(thread: threading.Thread, timeout: float | None = None) -> None:
     """`Thread.join`, woken by a signal of the node process, with its clock's time."""
-    clock, state = local.waits_on, _states.get(thread)
+    clock, state = local.waits_on, _state_of(thread)
     if clock is not None and state is not None and state is not local.state:
         deadline = None if timeout is None else clock.steady_ns() + int(max(timeout, 0.0) * 1e9)
         if not state.finished.wait(deadline):
@@ -132,7 +135,7 @@ def join(thread: threading.Thread, timeout: float | None = None) -> None:
 
 def is_alive(thread: threading.Thread) -> bool:
     """`Thread.is_alive`: false as soon as the node's part of the thread is over."""
-    state = _states.get(thread)
+    state = _state_of(thread)
     return (state is None or not state.finished.is_set()) and real.is_thread_alive(thread)
 
 

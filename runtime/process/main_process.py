@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from typing import Any
 
+from .clock_source import RealTime
 from .node_process import NodeProcess
 
 
@@ -17,7 +18,7 @@ class MainProcess(NodeProcess):
     """What threads belong to that no node process has started; its signals are real ones."""
 
     def __init__(self, name: str) -> None:
-        super().__init__(name)
+        super().__init__(name, RealTime())
         self.pid = os.getpid()
         self.argv = sys.argv
         self.env = os.environ

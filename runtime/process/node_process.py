@@ -16,7 +16,7 @@ from weakref import WeakValueDictionary
 
 from . import frames, real
 from .capture import NO_INPUT, LineCapture, Sink
-from .clock_source import ClockSource, RealTime
+from .clock_source import ClockSource
 from .notices import notify
 from .signals import SIGKILL, Signals
 from .thread_state import ProcessKilled, ThreadState, local
@@ -42,12 +42,12 @@ class ProcessState(Enum):
 class NodeProcess:
     """A process as its code sees it: arguments, environment, output, signals, exit code, and its own clock source.
 
-    `start` runs a callable in it. All other methods may be called from any thread.
+    Its clock source is that of the process which makes it unless given. `start` runs a callable in it. All other methods may be called from any thread.
     """
 
     def __init__(self, name: str, clock: ClockSource | None = None) -> None:
         self.name = name
-        self.clock: ClockSource = clock or RealTime()
+        self.clock: ClockSource = clock or local.process.clock
         self.locals: dict[Any, Any] = {}
         self.pid = next(_pids)
         self.argv: list[str] = [name]

@@ -21,9 +21,10 @@ from . import (
     sys_module,
     waits,
 )
+from .forks import Forks
 from .module_property import replace_class
 
-_SHARED = ("fork", "forkpty", "umask", "setuid", "setgid", "nice")
+_SHARED = ("umask", "setuid", "setgid", "nice")
 _SHARED_SIGNALS = ("alarm", "setitimer")
 
 
@@ -85,6 +86,7 @@ def install_virtual_process() -> None:
             _undo.append(_replace(owner, name, replacement))
         _undo.append(replace_class(threading, child_threads.VirtualThreading))
         _undo.append(sys_module.install())
+        _forks.register()
 
 
 def uninstall_virtual_process() -> None:
@@ -92,6 +94,9 @@ def uninstall_virtual_process() -> None:
     with _guard:
         while _undo:
             _undo.pop()()
+
+
+_forks = Forks(uninstall_virtual_process)
 
 
 def _replace(owner: Any, name: str, replacement: Any) -> Callable[[], None]:

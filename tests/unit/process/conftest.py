@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import weakref
 from collections.abc import Callable, Iterator
 from typing import Any
 
@@ -53,17 +54,17 @@ class Started:
 @pytest.fixture
 def start() -> Iterator[Callable[..., Started]]:
     """Start a callable as a node process; kills what a test leaves behind and takes all wraps away."""
-    processes: list[NodeProcess] = []
+    processes: weakref.WeakSet[NodeProcess] = weakref.WeakSet()
 
     def start_one(
         target: Callable[[], object], *, name: str = "node", clock: ClockSource | None = None, **options: Any
     ) -> Started:
         process = NodeProcess(name, clock)
-        processes.append(process)
+        processes.add(process)
         return Started(process, target, **options)
 
     yield start_one
-    for process in processes:
+    for process in tuple(processes):
         process.kill()
     uninstall_virtual_process()
 

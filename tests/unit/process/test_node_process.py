@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import gc
 import queue
 import sys
 import threading
 import time
+import weakref
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 from bot_console.runtime.process import MAIN, ProcessLocal, ProcessState, current, on_notice
 from bot_console.runtime.process import node_process as node_process_module
+from bot_console.runtime.process.busy_watch import busy_watch
 
 LONG = 20.0
 
@@ -320,3 +324,22 @@ def test_many_processes_leave_no_thread(run):
         process = run(lambda: None, name=str(number)).process
         process.main_state.thread.join(LONG)
     assert threading.active_count() == before
+
+
+def test_an_ended_process_leaves_nothing_behind(run, monkeypatch):
+    monkeypatch.setattr(busy_watch, "watch", lambda process: None)  # it looks again some seconds later
+    started = run(lambda: (start_sleeper(), ThreadPoolExecutor(1).submit(print).result()))
+    reference = weakref.ref(started.process)
+    thread = weakref.ref(started.process.main_state.thread)
+    started.process.main_state.thread.join(LONG)
+    started.process = None
+    gc.collect()
+    assert thread() is None
+    assert reference() is None
+
+
+def test_the_clock_is_that_of_the_maker():
+    clock = RealTime()
+    maker = NodeProcess("maker", clock)
+    with running_as(maker):
+        assert NodeProcess("made").clock is clock

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import atexit
 import importlib
+import multiprocessing
 import os
 import queue
 import signal
@@ -164,3 +165,38 @@ def test_sleep_refuses_what_it_always_refuses(run):
     assert "must be non-negative" in run(lambda: time.sleep(-1)).err[-1]
     assert run(lambda: time.sleep("1")).err[-1].startswith("TypeError")
     assert run(lambda: time.sleep(0)).process.exit_code == 0
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
+def test_a_forked_child_is_a_real_process_that_prints_into_the_node(run):
+    def target():
+        os.environ["WHEELS"] = "3"
+        pid = os.fork()
+        if not pid:
+            print("child", sys.argv, os.environ["WHEELS"], type(sys).__name__, os.getpid() > 1 << 22, flush=True)
+            print("to stderr", file=sys.stderr)
+            os._exit(7)
+        print("exit", os.waitpid(pid, 0)[1] >> 8)
+
+    ended = run(target, argv=["node", "x"])
+    assert ended.stdout == "child ['node', 'x'] 3 module False\nexit 7\n"
+    assert ended.stderr == "to stderr\n"
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
+def test_multiprocessing(run):
+    def work(queue):
+        print("works")
+        queue.put(6 * 7)
+
+    def target():
+        context = multiprocessing.get_context("fork")
+        queue = context.Queue()
+        worker = context.Process(target=work, args=(queue,))
+        worker.start()
+        print(queue.get())
+        worker.join()
+        print(worker.exitcode)
+
+    ended = run(target)
+    assert sorted(ended.out) == ["0\n", "42\n", "works\n"], ended.stderr

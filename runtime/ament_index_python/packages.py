@@ -1,0 +1,51 @@
+"""Packages: their prefixes and share folders."""
+
+from __future__ import annotations
+
+import os
+import re
+import warnings
+from pathlib import Path
+
+from ament_index_python.resources import get_resources, get_search_paths
+from bot_console.runtime.workspace.discover import workspace
+
+NAME = re.compile(r"^[a-zA-Z0-9][a-zA-Z0-9_-]*$")
+
+
+class PackageNotFoundError(KeyError):
+    """A package that is neither installed nor in the workspace."""
+
+
+def get_packages_with_prefixes() -> dict[str, str]:
+    """Names of all packages with their prefixes; a source package's prefix is its folder."""
+    found = get_resources("packages")
+    for name, package in workspace().packages.items():
+        found.setdefault(name, str(package.folder))
+    return found
+
+
+def get_package_prefix(package_name: str) -> str:
+    """The prefix of a package; raises `ValueError` for no name, `PackageNotFoundError` for an unknown one."""
+    if not NAME.match(package_name):
+        raise ValueError(f"'{package_name}' is not a valid package name")
+    found = get_packages_with_prefixes().get(package_name)
+    if found is None:
+        raise PackageNotFoundError(f"package '{package_name}' not found, searching: {get_search_paths()}")
+    return found
+
+
+def get_package_share_directory(package_name: str, print_warning: bool = True) -> str:
+    """The share folder of a package: of an installed one `<prefix>/share/<name>`."""
+    prefix = get_package_prefix(package_name)
+    if package_name in get_resources("packages"):
+        path = os.path.join(prefix, "share", package_name)
+        if print_warning and not os.path.exists(path):
+            warnings.warn(f"Share directory for {package_name} ({path}) does not exist.", stacklevel=2)
+        return path
+    return str(workspace().share(package_name))
+
+
+def get_package_share_path(package_name: str, print_warning: bool = True) -> Path:
+    """The same as a path."""
+    return Path(get_package_share_directory(package_name, print_warning))

@@ -1,0 +1,42 @@
+"""Resources of the ament index: marker files below `share/ament_index/resource_index`."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+PREFIX_VARIABLE = "AMENT_PREFIX_PATH"
+INDEX = Path("share") / "ament_index" / "resource_index"
+
+
+def get_search_paths() -> list[str]:
+    """The prefixes that exist, in their order; none where the variable is not set."""
+    return [each for each in os.environ.get(PREFIX_VARIABLE, "").split(os.pathsep) if each and os.path.isdir(each)]
+
+
+def get_resource(resource_type: str, resource_name: str) -> tuple[str, str]:
+    """Content and prefix of a resource; raises `LookupError` when it is not there."""
+    for prefix in get_search_paths():
+        path = Path(prefix) / INDEX / resource_type / resource_name
+        if path.is_file():
+            return path.read_text(encoding="utf-8"), prefix
+    raise LookupError(
+        f"Could not find the resource '{resource_name}' of type '{resource_type}'"
+    )
+
+
+def get_resources(resource_type: str) -> dict[str, str]:
+    """Names of the resources of a type with their prefixes; the first prefix of a name wins."""
+    found: dict[str, str] = {}
+    for prefix in get_search_paths():
+        folder = Path(prefix) / INDEX / resource_type
+        if folder.is_dir():
+            for each in sorted(folder.iterdir()):
+                if each.is_file() and not each.name.startswith("."):
+                    found.setdefault(each.name, prefix)
+    return found
+
+
+def has_resource(resource_type: str, resource_name: str) -> str | bool:
+    """The prefix of a resource, or False."""
+    return get_resources(resource_type).get(resource_name, False)

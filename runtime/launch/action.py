@@ -1,0 +1,51 @@
+"""Actions."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.condition import Condition
+from launch.launch_description_entity import LaunchDescriptionEntity
+
+
+class Action(LaunchDescriptionEntity):
+    """An entity that does something, unless its condition is false."""
+
+    def __init__(self, *, condition: Condition | None = None) -> None:
+        self.__condition = condition
+
+    @property
+    def condition(self) -> Condition | None:
+        """The condition, if there is one."""
+        return self.__condition
+
+    @classmethod
+    def parse(cls, entity: Any, parser: Any) -> tuple[type[Action], dict[str, Any]]:
+        """Class and keyword arguments of an action in XML or YAML."""
+        condition = parser.parse_condition(entity) if hasattr(parser, "parse_condition") else None
+        return cls, {"condition": condition} if condition is not None else {}
+
+    def visit(self, context: Any) -> list[LaunchDescriptionEntity] | None:
+        """Execute, if the condition holds."""
+        if self.__condition is not None and not self.__condition.evaluate(context):
+            return None
+        try:
+            return self.execute(context)
+        finally:
+            from launch.events import ExecutionComplete
+
+            event = ExecutionComplete(action=self)
+            if context.would_handle_event(event):
+                future = self.get_asyncio_future()
+                if future is not None:
+                    future.add_done_callback(lambda _: context.emit_event_sync(event))
+                else:
+                    context.emit_event_sync(event)
+
+    def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """Entities below the action."""
+        return []
+
+    def execute(self, context: Any) -> list[LaunchDescriptionEntity] | None:
+        """Do it."""
+        return None

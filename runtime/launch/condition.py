@@ -1,0 +1,19 @@
+"""Conditions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+
+class Condition:
+    """A predicate over a context."""
+
+    def __init__(self, *, predicate: Callable[[Any], bool] | None = None) -> None:
+        self._predicate = predicate
+        self.__last: bool | None = None
+
+    def evaluate(self, context: Any) -> bool:
+        """Whether it holds now."""
+        self.__last = self._predicate(context) if self._predicate is not None else True
+        return self.__last

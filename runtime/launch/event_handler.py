@@ -1,0 +1,70 @@
+"""Event handlers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from launch.some_entities_type import SomeEntitiesType, check_entities
+
+
+class BaseEventHandler:
+    """Decides whether it handles an event, and what entities come of it."""
+
+    def __init__(self, *, matcher: Callable[[Any], bool], handle_once: bool = False) -> None:
+        self.__matcher = matcher
+        self.__handle_once = handle_once
+
+    @property
+    def handle_once(self) -> bool:
+        """Whether the handler goes after its first event."""
+        return self.__handle_once
+
+    @property
+    def handler_description(self) -> str:
+        """What it does."""
+        return "{}"
+
+    @property
+    def matcher_description(self) -> str:
+        """What it waits for."""
+        return "{}"
+
+    def matches(self, event: Any) -> bool:
+        """Whether it handles the event."""
+        return self.__matcher(event)
+
+    def describe(self) -> tuple[str, list[Any]]:
+        """A text and the entities below."""
+        return f"{type(self).__name__}(matcher='{self.matcher_description}', handler='{self.handler_description}')", []
+
+    def handle(self, event: Any, context: Any) -> SomeEntitiesType | None:
+        """Entities to visit for the event."""
+        context.extend_locals({"event": event})
+        if self.handle_once:
+            context.unregister_event_handler(self)
+        return None
+
+
+class EventHandler(BaseEventHandler):
+    """Visits given entities for each event that matches."""
+
+    def __init__(
+        self, *, matcher: Callable[[Any], bool], entities: SomeEntitiesType | None = None, handle_once: bool = False
+    ) -> None:
+        super().__init__(matcher=matcher, handle_once=handle_once)
+        self.__entities = entities
+
+    @property
+    def entities(self) -> SomeEntitiesType | None:
+        """The entities."""
+        return self.__entities
+
+    def describe(self) -> tuple[str, list[Any]]:
+        """A text and the entities."""
+        return super().describe()[0], check_entities(self.__entities)
+
+    def handle(self, event: Any, context: Any) -> SomeEntitiesType | None:
+        """The entities."""
+        super().handle(event, context)
+        return self.__entities

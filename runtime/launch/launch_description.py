@@ -1,0 +1,68 @@
+"""Launch descriptions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import launch.logging
+from launch.launch_description_entity import LaunchDescriptionEntity
+
+
+class LaunchDescription(LaunchDescriptionEntity):
+    """A list of entities, visited in order, each wholly before the next."""
+
+    def __init__(
+        self, initial_entities: Iterable[LaunchDescriptionEntity] | None = None, *, deprecated_reason: str | None = None
+    ) -> None:
+        self.__entities = list(initial_entities) if initial_entities is not None else []
+        self.__deprecated_reason = deprecated_reason
+
+    @property
+    def entities(self) -> list[LaunchDescriptionEntity]:
+        """The entities."""
+        return self.__entities
+
+    @property
+    def deprecated(self) -> bool:
+        """Whether the description should not be used any more."""
+        return self.__deprecated_reason is not None
+
+    @property
+    def deprecated_reason(self) -> str | None:
+        """Why not."""
+        return self.__deprecated_reason
+
+    def add_entity(self, entity: LaunchDescriptionEntity) -> None:
+        """Add an entity at the end."""
+        self.__entities.append(entity)
+
+    def add_action(self, action: Any) -> None:
+        """Add an action at the end."""
+        self.add_entity(action)
+
+    def visit(self, context: Any) -> list[LaunchDescriptionEntity] | None:
+        """The entities, after a warning for a deprecated description."""
+        if self.__deprecated_reason is not None:
+            path = context.get_locals_as_dict().get("current_launch_file_path", "")
+            where = f"launch file [{path}]" if path else "launch description"
+            reason = f": {self.__deprecated_reason}" if self.__deprecated_reason else ""
+            launch.logging.get_logger("launch").warning(f"{where} is deprecated{reason}")
+        return self.__entities
+
+    def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """The entities."""
+        return self.__entities
+
+    def get_launch_arguments(self, conditional_inclusion: bool = False) -> list[Any]:
+        """The arguments that are declared in the description and in what it includes; the first of a name counts."""
+        pairs = self.get_launch_arguments_with_include_launch_description_actions(conditional_inclusion)
+        return [argument for argument, _ in pairs]
+
+    def get_launch_arguments_with_include_launch_description_actions(
+        self, conditional_inclusion: bool = False
+    ) -> list[tuple[Any, list[Any]]]:
+        """The arguments, each with the includes through which it was found."""
+        from launch.argument_discovery import discover
+
+        return discover(self.__entities, conditional_inclusion)

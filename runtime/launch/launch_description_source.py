@@ -1,0 +1,53 @@
+"""Where a launch description comes from."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+class LaunchDescriptionSource:
+    """A launch description that is given, or read from a file when it is first needed."""
+
+    def __init__(self, launch_description: Any = None, location: Any = "", method: str = "unspecified mechanism from a script") -> None:
+        self.__launch_description = launch_description
+        self.__expanded_location: str | None = None
+        self.__location = normalize_to_list_of_substitutions(location)
+        self.__method = method
+
+    @property
+    def method(self) -> str:
+        """How the description is made."""
+        return self.__method
+
+    @property
+    def location(self) -> str:
+        """Where it is; substitutions are described until it was read."""
+        if self.__expanded_location is not None:
+            return self.__expanded_location
+        return " + ".join(each.describe() for each in self.__location)
+
+    def try_get_launch_description_without_context(self) -> Any:
+        """The description where it can be read without a context, else None."""
+        from launch.launch_context import LaunchContext
+
+        if self.__launch_description is not None:
+            return self.__launch_description
+        try:
+            location = perform_substitutions(LaunchContext(), self.__location)
+        except Exception:  # whatever a substitution needs that only a running launch has
+            return None
+        self.__launch_description = self._get_launch_description(location)
+        return self.__launch_description
+
+    def get_launch_description(self, context: Any) -> Any:
+        """The description; reads the file the first time."""
+        location = perform_substitutions(context, self.__location)
+        if self.__launch_description is None or self.__expanded_location != location:
+            self.__expanded_location = location
+            self.__launch_description = self._get_launch_description(location)
+        return self.__launch_description
+
+    def _get_launch_description(self, location: str) -> Any:
+        return self.__launch_description

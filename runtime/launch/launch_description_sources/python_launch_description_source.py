@@ -1,0 +1,18 @@
+"""A Python launch file as a source."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.launch_description_source import LaunchDescriptionSource
+from launch.launch_description_sources.python_launch_file_utilities import get_launch_description_from_python_launch_file
+
+
+class PythonLaunchDescriptionSource(LaunchDescriptionSource):
+    """Runs a Python launch file."""
+
+    def __init__(self, launch_file_path: Any) -> None:
+        super().__init__(None, launch_file_path, "interpreted python launch file")
+
+    def _get_launch_description(self, location: str) -> Any:
+        return get_launch_description_from_python_launch_file(location)

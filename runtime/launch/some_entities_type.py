@@ -1,0 +1,17 @@
+"""What may stand where entities are wanted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, Union
+
+from launch.launch_description_entity import LaunchDescriptionEntity
+
+SomeEntitiesType = Union[LaunchDescriptionEntity, Iterable[LaunchDescriptionEntity]]
+
+
+def check_entities(entities: Any) -> list[LaunchDescriptionEntity]:
+    """A list of entities from one, several or none."""
+    if entities is None:
+        return []
+    return [entities] if isinstance(entities, LaunchDescriptionEntity) else list(entities)

@@ -1,0 +1,12 @@
+"""What may stand where a text is wanted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Union
+
+from launch.substitution import Substitution
+
+SomeSubstitutionsType = Union[str, Path, Substitution, Iterable[Union[str, Path, Substitution]]]
+SomeSubstitutionsType_types_tuple = (str, Path, Substitution, Iterable)

@@ -1,0 +1,29 @@
+"""Texts and substitutions as a list of substitutions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from launch.substitution import Substitution
+
+
+def normalize_to_list_of_substitutions(subs: Any) -> list[Substitution]:
+    """A list of substitutions; raises `TypeError` for anything that is neither text nor substitution."""
+    from launch.substitutions import TextSubstitution
+
+    def one(item: Any) -> Substitution:
+        if isinstance(item, Substitution):
+            return item
+        if isinstance(item, (str, Path)):
+            return TextSubstitution(text=str(item))
+        raise TypeError(
+            f"Failed to normalize given item of type '{type(item)}', when only 'str' or 'launch.Substitution' were expected."
+        )
+
+    if isinstance(subs, (str, Path, Substitution)):
+        return [one(subs)]
+    if isinstance(subs, Iterable):
+        return [one(each) for each in subs]
+    return [one(subs)] if not hasattr(subs, "__iter__") and isinstance(subs, Substitution) else [one(each) for each in subs]

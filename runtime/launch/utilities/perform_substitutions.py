@@ -1,0 +1,11 @@
+"""A list of substitutions as one text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+
+def perform_substitutions(context: Any, subs: Iterable[Any]) -> str:
+    """The texts of all, one after the other."""
+    return "".join(context.perform_substitution(each) for each in subs)
