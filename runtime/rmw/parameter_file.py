@@ -1,0 +1,187 @@
+"""Reads ROS parameter files as rcl does: by the events of YAML, with its words for what is wrong."""
+
+from __future__ import annotations
+
+import errno
+from typing import Any
+
+from bot_console.runtime.rmw.names import validate_namespace, validate_node_name
+from bot_console.runtime.rmw.parameter_value import ValueWriter, yaml_events
+from bot_console.runtime.rmw.parameter_yaml import NodeOverrides, ParameterTable, ParameterYamlError
+
+KEYWORD = "ros__parameters"
+_WILDCARDS = ("*", "**")
+
+
+def read_parameter_file(path: str, overrides: ParameterTable) -> None:
+    """Add the values of a file to the overrides; raises `ParameterYamlError`."""
+    import yaml
+
+    try:
+        with open(path, "rb") as file:
+            content = file.read()
+    except OSError as error:
+        if error.errno == errno.EISDIR:
+            raise ParameterYamlError("Error parsing a event near line 0") from None
+        raise ParameterYamlError("Error opening YAML file") from None
+    reader = _Reader(overrides)
+    handlers = {
+        yaml.ScalarEvent: reader.scalar,
+        yaml.SequenceStartEvent: reader.sequence_start,
+        yaml.SequenceEndEvent: reader.sequence_end,
+        yaml.MappingStartEvent: reader.mapping_start,
+        yaml.MappingEndEvent: reader.mapping_end,
+        yaml.AliasEvent: reader.alias,
+    }
+    try:
+        for event in yaml_events(content):
+            reader.line = event.start_mark.line + 1
+            handler = handlers.get(type(event))
+            if handler is not None:
+                handler(event)
+    except yaml.YAMLError:
+        raise ParameterYamlError(f"Error parsing a event near line {reader.line}") from None
+
+
+class _Levels:
+    """The names of the levels that lead to where the reader is, joined by a separator."""
+
+    def __init__(self, separator: str) -> None:
+        self.separator = separator
+        self.count = 0
+        self.path: str | None = None
+
+    def add(self, name: str) -> None:
+        if self.path is None:
+            self.path = name
+        else:
+            joint = "" if self.path.endswith(self.separator) else self.separator
+            self.path += joint + name
+        self.count += 1
+
+    def replace(self, path: str) -> None:
+        self.path = path
+        self.count += 1
+
+    def remove(self) -> None:
+        if self.count == 0:
+            return
+        self.count -= 1
+        if self.count == 0 or self.path is None:
+            self.path = None
+        elif self.separator in self.path:
+            self.path = self.path[: self.path.rindex(self.separator)]
+
+
+class _Reader:
+    """Where the reading of a file is. rcl's rules are rules about events, with their corners, not about a tree."""
+
+    def __init__(self, overrides: ParameterTable) -> None:
+        self.line = 0
+        self._overrides = overrides
+        self._writer = ValueWriter()
+        self._is_key = True
+        self._in_parameters = False
+        self._new_map = False
+        self._depth = 0
+        self._node_levels = _Levels("/")
+        self._parameter_levels = _Levels(".")
+        self._node: NodeOverrides | None = None
+        self._index = 0
+
+    def scalar(self, event: Any) -> None:
+        if self._is_key:
+            self._key(event.value)
+            self._is_key = False
+            return
+        if not self._in_parameters or self._node is None or not self._node.names:
+            raise ParameterYamlError(f"Cannot have a value before {KEYWORD} at line {self.line}")
+        self._writer.scalar(event, self._node.values[self._index])
+        if not self._writer.in_list:
+            self._is_key = True
+
+    def _key(self, name: str) -> None:
+        if not name:
+            raise ParameterYamlError(f"No key at line {self.line}")
+        if self._in_parameters:
+            self._parameter_key(name)
+        elif name.startswith(KEYWORD):
+            self._enter_parameters()
+        else:
+            self._node_levels.add(name)
+
+    def _enter_parameters(self) -> None:
+        key = self._node_levels.path
+        if key is None:
+            raise ParameterYamlError(f"There are no node names before {KEYWORD} at line {self.line}")
+        _check_node_key(key)
+        self._node = self._overrides.node(key)
+        self._node_levels.remove()
+        self._in_parameters = True
+
+    def _parameter_key(self, name: str) -> None:
+        node = self._node
+        if node is None or (self._new_map and self._index >= len(node.names)):
+            raise ParameterYamlError(f"Internal error creating param namespace at line {self.line}")
+        if self._new_map:
+            # A map under a parameter's name makes that name the first part of the names in the map.
+            self._parameter_levels.replace(node.names[self._index])
+            self._new_map = False
+        above = self._parameter_levels.path
+        if above is None:
+            self._index = node.find(name)
+            return
+        self._index = node.find(above)
+        node.names[self._index] = f"{above}.{name}"
+
+    def sequence_start(self, event: Any) -> None:
+        if self._is_key:
+            raise ParameterYamlError(f"Sequences cannot be key at line {self.line}")
+        if not self._in_parameters:
+            raise ParameterYamlError(
+                f"Sequences can only be values and not keys in params. Error at line {self.line}\n"
+            )
+        self._writer.start_list()
+
+    def sequence_end(self, event: Any) -> None:
+        self._writer.end_list()
+        self._is_key = True
+
+    def mapping_start(self, event: Any) -> None:
+        self._depth += 1
+        self._is_key = True
+        # The map right below the keyword belongs to no parameter.
+        self._new_map = not (self._in_parameters and self._depth - (self._node_levels.count + 1) == 2)
+
+    def mapping_end(self, event: Any) -> None:
+        if not self._in_parameters:
+            if self._depth == self._node_levels.count + 1:
+                self._node_levels.remove()
+        elif self._parameter_levels.count:
+            self._parameter_levels.remove()
+        else:
+            self._in_parameters = False
+        self._depth -= 1
+
+    def alias(self, event: Any) -> None:
+        raise ParameterYamlError(f"Will not support aliasing at line {self.line}\n")
+
+
+def _check_node_key(key: str) -> None:
+    """Raise `ParameterYamlError` for a key that cannot be the name of a node, wildcards aside."""
+    namespace, slash, node = key.rpartition("/")
+    if slash:
+        namespace = f"{namespace}/"
+        namespace = namespace if namespace.startswith("/") else f"/{namespace}"
+        for token in namespace.split("/")[1:-1]:
+            if not token:
+                raise ParameterYamlError(f"{namespace} contains repeated forward slash")
+            if token not in _WILDCARDS:
+                _refuse(validate_namespace(f"/{token}"))
+    if node not in _WILDCARDS:
+        _refuse(validate_node_name(node))
+
+
+def _refuse(problem: tuple[str, int] | None) -> None:
+    if problem is not None:
+        raise ParameterYamlError(problem[0])

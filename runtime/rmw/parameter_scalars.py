@@ -1,0 +1,87 @@
+"""The type of a scalar in a parameter file or in `-p name:=value`, as rcl decides it.
+
+The rules are those of C's `strtol` and `strtod` with a list of words for booleans, not those of YAML: `1e3` is a
+double, `010` is eight, `null` is text.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from fractions import Fraction
+
+Scalar = bool | int | float | str
+
+INT64_MIN = -(2**63)
+INT64_MAX = 2**63 - 1
+
+_TRUE = frozenset(["Y", "y", "yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON"])
+_FALSE = frozenset(["N", "n", "no", "No", "NO", "false", "False", "FALSE", "off", "Off", "OFF"])
+_NAN = frozenset((".nan", ".NaN", ".NAN"))
+_INFINITE = re.compile(r"[+-]?\.(?:inf|Inf|INF)\Z")
+_BLANKS = r"[ \t\n\v\f\r]*"
+_INTEGER = re.compile(_BLANKS + r"([+-]?)(0[xX][0-9a-fA-F]+|0[0-7]*|[1-9][0-9]*)\Z", re.ASCII)
+_DECIMAL = re.compile(_BLANKS + r"([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)\Z", re.ASCII)
+_HEXADECIMAL = re.compile(
+    _BLANKS + r"([+-]?0[xX](?:[0-9a-fA-F]+\.?[0-9a-fA-F]*|\.[0-9a-fA-F]+)(?:[pP][+-]?[0-9]+)?)\Z", re.ASCII
+)
+_WORD = re.compile(_BLANKS + r"([+-]?)(inf|infinity|nan(?:\([0-9A-Za-z_]*\))?)\Z", re.IGNORECASE | re.ASCII)
+
+
+def scalar_value(text: str) -> Scalar:
+    """The value of an unquoted scalar: bool, int (64 bits), float or, where nothing else fits, the text itself."""
+    if text in _TRUE:
+        return True
+    if text in _FALSE:
+        return False
+    integer = _integer(text)
+    if integer is not None:
+        return integer
+    number = _double(text)
+    return text if number is None else number
+
+
+def _integer(text: str) -> int | None:
+    found = _INTEGER.match(text)
+    if found is None:
+        return None
+    digits = found[2]
+    base = 16 if digits[:2] in ("0x", "0X") else 8 if digits[0] == "0" else 10
+    value = int(digits, base)
+    if found[1] == "-":
+        value = -value
+    return value if INT64_MIN <= value <= INT64_MAX else None
+
+
+def _double(text: str) -> float | None:
+    """The number, or None where the text is none or its value is out of the range of a double."""
+    if text in _NAN:
+        return math.nan
+    if _INFINITE.match(text):
+        return -math.inf if text[0] == "-" else math.inf
+    found = _WORD.match(text)
+    if found:
+        value = math.inf if found[2][0] in "iI" else math.nan
+        return -value if found[1] == "-" else value
+    found = _DECIMAL.match(text)
+    if found:
+        value = float(found[1])
+        return None if math.isinf(value) or _lost_digits(found[1], value) else value
+    found = _HEXADECIMAL.match(text)
+    if found:
+        try:
+            return float.fromhex(found[1])
+        except OverflowError:
+            return None
+    return None
+
+
+def _lost_digits(text: str, value: float) -> bool:
+    """Whether a number is so small that a double cannot hold it exactly, which `strtod` calls a range error."""
+    return abs(value) < 2.0**-1022 and Fraction(_shortened(text)) != Fraction(value)
+
+
+def _shortened(text: str) -> str:
+    """The same number, or another one as small, with an exponent that `Fraction` computes at once."""
+    mantissa, _, exponent = text.lower().partition("e")
+    return f"{mantissa}e{max(int(exponent), -1100 - len(mantissa))}" if exponent else mantissa
