@@ -1,0 +1,82 @@
+"""Durations in nanoseconds."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rclpy.constants import S_TO_NS
+
+LIMIT = 2**63
+
+
+class Duration:
+    """A length of time, negative or not, kept in ns; raises `OverflowError` beyond 64 bits."""
+
+    __slots__ = ("_nanoseconds",)
+    __hash__ = None  # type: ignore[assignment]
+
+    def __init__(self, *, seconds: float = 0, nanoseconds: int = 0) -> None:
+        total = int(seconds * S_TO_NS) + int(nanoseconds)
+        if not -LIMIT <= total < LIMIT:
+            raise OverflowError("Total nanoseconds value is too large to store in C duration.")
+        self._nanoseconds = total
+
+    @property
+    def nanoseconds(self) -> int:
+        """The length in ns."""
+        return self._nanoseconds
+
+    def __repr__(self) -> str:
+        return f"Duration(nanoseconds={self._nanoseconds})"
+
+    def __str__(self) -> str:
+        return "Infinite" if self._nanoseconds == INFINITE_NS else f"{self._nanoseconds} nanoseconds"
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, Duration):
+            return self._nanoseconds == other._nanoseconds
+        return NotImplemented
+
+    def __lt__(self, other: Any) -> bool:
+        if isinstance(other, Duration):
+            return self._nanoseconds < other._nanoseconds
+        return NotImplemented
+
+    def __le__(self, other: Any) -> bool:
+        if isinstance(other, Duration):
+            return self._nanoseconds <= other._nanoseconds
+        return NotImplemented
+
+    def __gt__(self, other: Any) -> bool:
+        if isinstance(other, Duration):
+            return self._nanoseconds > other._nanoseconds
+        return NotImplemented
+
+    def __ge__(self, other: Any) -> bool:
+        if isinstance(other, Duration):
+            return self._nanoseconds >= other._nanoseconds
+        return NotImplemented
+
+    def to_msg(self) -> Any:
+        """A `builtin_interfaces/Duration`; its nanoseconds are never negative."""
+        from builtin_interfaces.msg import Duration as DurationMessage
+
+        seconds, nanoseconds = divmod(self._nanoseconds, S_TO_NS)
+        return DurationMessage(sec=seconds, nanosec=nanoseconds)
+
+    @classmethod
+    def from_msg(cls, msg: Any) -> Duration:
+        """The duration in a `builtin_interfaces/Duration`; raises `TypeError` for anything else."""
+        from builtin_interfaces.msg import Duration as DurationMessage
+
+        if not isinstance(msg, DurationMessage):
+            raise TypeError("Must pass a builtin_interfaces.msg.Duration object")
+        return cls(seconds=msg.sec, nanoseconds=msg.nanosec)
+
+    def get_c_duration(self) -> int:
+        """The length as upstream's C layer takes it: here the ns."""
+        return self._nanoseconds
+
+
+INFINITE_NS = 9223372036854775807
+Infinite = Duration(nanoseconds=INFINITE_NS)

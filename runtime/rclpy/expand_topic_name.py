@@ -1,0 +1,19 @@
+"""Expansion of topic names."""
+
+from __future__ import annotations
+
+from bot_console.runtime.rmw import names
+
+
+def expand_topic_name(topic_name: str, node_name: str, node_namespace: str) -> str:
+    """The full name of a topic typed in a node; raises `ValueError` for a bad name of any of the three."""
+    problem = names.validate_topic_name(topic_name)
+    if problem:
+        raise ValueError(f"topic name '{topic_name}' is invalid: {problem[0]}")
+    problem = names.validate_node_name(node_name)
+    if problem:
+        raise ValueError(f"node name '{node_name}' is invalid: {problem[0]}")
+    problem = names.validate_namespace(node_namespace)
+    if problem:
+        raise ValueError(f"node namespace '{node_namespace}' is invalid: {problem[0]}")
+    return names.expand(topic_name, node_name, node_namespace)

@@ -1,0 +1,75 @@
+"""Filters of log calls: throttle, skip the first, once."""
+
+from __future__ import annotations
+
+from typing import Any
+
+OPTIONS = ("throttle_duration_sec", "throttle_time_source_type", "skip_first", "once")
+NANO = 1_000_000_000
+
+
+def detect(options: dict[str, Any]) -> tuple[str, ...]:
+    """The filters that a call asks for, in their order; raises `TypeError` for other options."""
+    for name in options:
+        if name not in OPTIONS:
+            raise TypeError(f'parameter "{name}" is not one of the recognized logging options "{list(OPTIONS)}"')
+    found: list[str] = []
+    if "throttle_duration_sec" in options:
+        found.append("throttle")
+    elif "throttle_time_source_type" in options:
+        raise TypeError(
+            'required parameter "throttle_duration_sec" not specified but is required for the '
+            'the logging filter "throttle"'
+        )
+    if options.get("skip_first"):
+        found.append("skip_first")
+    if options.get("once"):
+        found.append("once")
+    return tuple(found)
+
+
+class Site:
+    """What is remembered of one place in a program that logs."""
+
+    __slots__ = ("_clock", "_done", "_last", "_skipped", "filters", "options", "severity")
+
+    def __init__(self, severity: int, filters: tuple[str, ...], options: dict[str, Any]) -> None:
+        self.severity = severity
+        self.filters = filters
+        self.options = options
+        self._skipped = self._done = False
+        self._last = 0
+        self._clock = _clock(options) if "throttle" in filters else None
+
+    def allows(self) -> bool:
+        """Whether the filters let this call through."""
+        for name in self.filters:
+            if not getattr(self, f"_{name}")():
+                return False
+        return True
+
+    def _throttle(self) -> bool:
+        now = self._clock.now().nanoseconds if self._clock is not None else 0
+        if now < self._last + self.options["throttle_duration_sec"] * NANO:
+            return False
+        self._last = now
+        return True
+
+    def _skip_first(self) -> bool:
+        skipped, self._skipped = self._skipped, True
+        return skipped
+
+    def _once(self) -> bool:
+        done, self._done = self._done, True
+        return not done
+
+
+def _clock(options: dict[str, Any]) -> Any:
+    from rclpy.clock import Clock
+
+    clock = options.get("throttle_time_source_type")
+    if clock is None and "throttle_time_source_type" not in options:
+        return Clock()
+    if not isinstance(clock, Clock):
+        raise ValueError(f'Received throttle_time_source_type of "{clock}" is not a clock instance')
+    return clock

@@ -1,0 +1,84 @@
+"""What the loggers of one process share: levels, and where their lines go."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from typing import Any
+
+from bot_console.runtime.process import ProcessLocal
+from rclpy.impl.log_format import Formatter
+
+UNSET = 0
+INFO = 20
+
+Say = Callable[[int, str, str, str, str, int, int], None]
+"""Gets severity, logger, text, file, function, line and time (ns)."""
+
+
+class LogState:
+    """Levels by logger name, the console's format, and the publishers of `/rosout`."""
+
+    def __init__(self) -> None:
+        self.levels: dict[str, int] = {}
+        self.effective: dict[str, int] = {}
+        """Levels found by looking at ancestors; emptied when a level changes."""
+        self.default = INFO
+        self.stdout = True
+        self.rosout: dict[str, Say] = {}
+        self.formatter = Formatter.of_environment()
+
+    def set_level(self, name: str, level: int) -> None:
+        """Set a logger's own level; an empty name means the default."""
+        if name:
+            self.levels[name] = level
+        else:
+            self.default = level
+        self.effective.clear()
+
+    def effective_level(self, name: str) -> int:
+        """The level of the nearest ancestor that has one, else the default."""
+        found = self.effective.get(name)
+        if found is None:
+            found = self.effective[name] = self._find(name)
+        return found
+
+    def _find(self, name: str) -> int:
+        while name:
+            level = self.levels.get(name, UNSET)
+            if level:
+                return level
+            name = name.rpartition(".")[0]
+        return self.default or INFO
+
+    def say(self, severity: int, name: str, text: str, file: str, function: str, line: int, stamp_ns: int) -> None:
+        """Write a line to the console and to `/rosout`."""
+        if self.stdout:
+            self.formatter.write(severity, name, text, file, function, line, stamp_ns)
+        publish = self.rosout.get(name)
+        if publish is not None:
+            publish(severity, name, text, file, function, line, stamp_ns)
+
+
+_state: ProcessLocal[LogState] = ProcessLocal(LogState)
+state = _state.get
+
+
+def logging_directory() -> str:
+    """Where log files would lie: `ROS_LOG_DIR`, else `log` below `ROS_HOME`, else `~/.ros/log`."""
+    given = os.environ.get("ROS_LOG_DIR")
+    if given:
+        return os.path.abspath(os.path.expanduser(given))
+    home = os.environ.get("ROS_HOME") or "~/.ros"
+    return os.path.join(os.path.abspath(os.path.expanduser(home)), "log")
+
+
+def reset() -> None:
+    """Forget the calling process's levels and read its environment again."""
+    _state.set(LogState())
+
+
+def forget_rosout(found: LogState, say: Any) -> None:
+    """Take a publisher of `/rosout` away from every logger that used it."""
+    for name in [name for name, each in found.rosout.items() if each == say]:
+        del found.rosout[name]

@@ -1,0 +1,248 @@
+"""Quality of service: profiles, the presets of ROS, and whether two profiles fit."""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import Any
+
+from rclpy.duration import Duration
+from rclpy.impl.qos_policies import DurabilityPolicy as DurabilityPolicy
+from rclpy.impl.qos_policies import HistoryPolicy as HistoryPolicy
+from rclpy.impl.qos_policies import LivelinessPolicy as LivelinessPolicy
+from rclpy.impl.qos_policies import QoSCompatibility as QoSCompatibility
+from rclpy.impl.qos_policies import QoSPolicyEnum as QoSPolicyEnum
+from rclpy.impl.qos_policies import QoSPolicyKind as QoSPolicyKind
+from rclpy.impl.qos_policies import ReliabilityPolicy as ReliabilityPolicy
+from rclpy.impl.qos_policies import qos_policy_name_from_kind as qos_policy_name_from_kind
+
+QoSHistoryPolicy = HistoryPolicy
+QoSReliabilityPolicy = ReliabilityPolicy
+QoSDurabilityPolicy = DurabilityPolicy
+QoSLivelinessPolicy = LivelinessPolicy
+
+DEFAULT_DEPTH = 10
+BEST_AVAILABLE_NS = 9223372036854775806
+"""The duration that rmw reserves for "best available"."""
+
+
+class InvalidQoSProfileException(Exception):
+    """A profile lacks history or depth."""
+
+    def __init__(self, *args: Any) -> None:
+        Exception.__init__(self, "Invalid QoSProfile", *args)
+
+
+class QoSProfile:
+    """A set of policies; durations are `Duration`s, zero means unlimited.
+
+    Raises `InvalidQoSProfileException` where neither history nor depth is given, `AssertionError` for wrong types.
+    """
+
+    __slots__ = (
+        "_avoid_ros_namespace_conventions",
+        "_deadline",
+        "_depth",
+        "_durability",
+        "_history",
+        "_lifespan",
+        "_liveliness",
+        "_liveliness_lease_duration",
+        "_reliability",
+    )
+    __hash__ = None  # type: ignore[assignment]
+
+    def __init__(self, **policies: Any) -> None:
+        unknown = [name for name in policies if f"_{name}" not in self.__slots__]
+        assert not unknown, f"Invalid arguments passed to constructor: {', '.join(sorted(unknown))}"
+        if "history" not in policies:
+            if "depth" not in policies:
+                raise InvalidQoSProfileException("History and/or depth settings are required.")
+            policies["history"] = HistoryPolicy.KEEP_LAST
+        self.history = policies["history"]
+        if self._history == HistoryPolicy.KEEP_LAST and "depth" not in policies:
+            raise InvalidQoSProfileException("History set to KEEP_LAST without a depth setting.")
+        self.depth = policies.get("depth", DEFAULT_DEPTH)
+        self.reliability = policies.get("reliability", ReliabilityPolicy.RELIABLE)
+        self.durability = policies.get("durability", DurabilityPolicy.VOLATILE)
+        self.lifespan = policies.get("lifespan", Duration())
+        self.deadline = policies.get("deadline", Duration())
+        self.liveliness = policies.get("liveliness", LivelinessPolicy.SYSTEM_DEFAULT)
+        self.liveliness_lease_duration = policies.get("liveliness_lease_duration", Duration())
+        self.avoid_ros_namespace_conventions = policies.get("avoid_ros_namespace_conventions", False)
+
+    @property
+    def history(self) -> HistoryPolicy:
+        """Which messages are kept."""
+        return self._history
+
+    @history.setter
+    def history(self, value: Any) -> None:
+        assert isinstance(value, (HistoryPolicy, int))
+        self._history = HistoryPolicy(value)
+
+    @property
+    def depth(self) -> int:
+        """How many messages are kept with KEEP_LAST."""
+        return self._depth
+
+    @depth.setter
+    def depth(self, value: int) -> None:
+        assert isinstance(value, int)
+        self._depth = value
+
+    @property
+    def reliability(self) -> ReliabilityPolicy:
+        """Whether lost messages are sent again."""
+        return self._reliability
+
+    @reliability.setter
+    def reliability(self, value: Any) -> None:
+        assert isinstance(value, (ReliabilityPolicy, int))
+        self._reliability = ReliabilityPolicy(value)
+
+    @property
+    def durability(self) -> DurabilityPolicy:
+        """Whether late subscriptions get what came before."""
+        return self._durability
+
+    @durability.setter
+    def durability(self, value: Any) -> None:
+        assert isinstance(value, (DurabilityPolicy, int))
+        self._durability = DurabilityPolicy(value)
+
+    @property
+    def lifespan(self) -> Duration:
+        """How long a message is worth delivering."""
+        return self._lifespan
+
+    @lifespan.setter
+    def lifespan(self, value: Duration) -> None:
+        assert isinstance(value, Duration)
+        self._lifespan = value
+
+    @property
+    def deadline(self) -> Duration:
+        """The longest time that is expected between two messages."""
+        return self._deadline
+
+    @deadline.setter
+    def deadline(self, value: Duration) -> None:
+        assert isinstance(value, Duration)
+        self._deadline = value
+
+    @property
+    def liveliness(self) -> LivelinessPolicy:
+        """How a publisher shows that it is alive."""
+        return self._liveliness
+
+    @liveliness.setter
+    def liveliness(self, value: Any) -> None:
+        assert isinstance(value, (LivelinessPolicy, int))
+        self._liveliness = LivelinessPolicy(value)
+
+    @property
+    def liveliness_lease_duration(self) -> Duration:
+        """After what silence a publisher counts as dead."""
+        return self._liveliness_lease_duration
+
+    @liveliness_lease_duration.setter
+    def liveliness_lease_duration(self, value: Duration) -> None:
+        assert isinstance(value, Duration)
+        self._liveliness_lease_duration = value
+
+    @property
+    def avoid_ros_namespace_conventions(self) -> bool:
+        """Whether topic names go to the middleware as they are."""
+        return self._avoid_ros_namespace_conventions
+
+    @avoid_ros_namespace_conventions.setter
+    def avoid_ros_namespace_conventions(self, value: bool) -> None:
+        assert isinstance(value, bool)
+        self._avoid_ros_namespace_conventions = value
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, QoSProfile):
+            return False
+        return all(getattr(self, slot) == getattr(other, slot) for slot in self.__slots__)
+
+    def __str__(self) -> str:
+        order = (
+            *("history", "depth", "reliability", "durability", "lifespan", "deadline", "liveliness"),
+            *("liveliness_lease_duration", "avoid_ros_namespace_conventions"),
+        )
+        parts = (f"{name}={_shown(getattr(self, name))}" for name in order)
+        return f"QoSProfile({', '.join(parts)})"
+
+    def get_c_qos_profile(self) -> QoSProfile:
+        """What upstream's C layer takes: here the profile itself."""
+        return self
+
+
+def _shown(value: Any) -> Any:
+    return int(value) if isinstance(value, QoSPolicyEnum) else value
+
+
+def _reliable(depth: int) -> QoSProfile:
+    return QoSProfile(depth=depth)
+
+
+def _all(kind: str, depth: int, history: HistoryPolicy, duration: Duration) -> QoSProfile:
+    return QoSProfile(
+        history=history,
+        depth=depth,
+        reliability=ReliabilityPolicy[kind],
+        durability=DurabilityPolicy[kind],
+        liveliness=LivelinessPolicy[kind],
+        deadline=duration,
+        liveliness_lease_duration=duration,
+    )
+
+
+qos_profile_unknown = _all("UNKNOWN", 0, HistoryPolicy.UNKNOWN, Duration())
+qos_profile_default = _reliable(DEFAULT_DEPTH)
+qos_profile_system_default = _all("SYSTEM_DEFAULT", 0, HistoryPolicy.SYSTEM_DEFAULT, Duration())
+qos_profile_sensor_data = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
+qos_profile_services_default = _reliable(DEFAULT_DEPTH)
+qos_profile_parameters = _reliable(1000)
+qos_profile_parameter_events = _reliable(1000)
+qos_profile_best_available = _all(
+    "BEST_AVAILABLE", DEFAULT_DEPTH, HistoryPolicy.KEEP_LAST, Duration(nanoseconds=BEST_AVAILABLE_NS)
+)
+qos_profile_action_status_default = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+class QoSPresetProfiles(Enum):
+    """The presets by name."""
+
+    UNKNOWN = qos_profile_unknown
+    DEFAULT = qos_profile_default
+    SYSTEM_DEFAULT = qos_profile_system_default
+    SENSOR_DATA = qos_profile_sensor_data
+    SERVICES_DEFAULT = qos_profile_services_default
+    PARAMETERS = qos_profile_parameters
+    PARAMETER_EVENTS = qos_profile_parameter_events
+    ACTION_STATUS_DEFAULT = qos_profile_action_status_default
+    BEST_AVAILABLE = qos_profile_best_available
+
+    @classmethod
+    def short_keys(cls) -> list[str]:
+        """The keys of all presets, in lower case."""
+        return [name.lower() for name in cls.__members__]
+
+    @classmethod
+    def get_from_short_key(cls, name: str) -> QoSProfile:
+        """The preset of a key; raises `KeyError`."""
+        return cls[name.upper()].value
+
+
+def qos_check_compatible(publisher_qos: QoSProfile, subscription_qos: QoSProfile) -> tuple[QoSCompatibility, str]:
+    """Whether messages would flow, and the reasons why not, or why that is not sure."""
+    from rclpy.impl.qos_check import errors, warnings
+
+    found = errors(publisher_qos, subscription_qos)
+    if found:
+        return QoSCompatibility.ERROR, "".join(f"ERROR: {text};" for text in found)
+    found = warnings(publisher_qos, subscription_qos)
+    if found:
+        return QoSCompatibility.WARNING, "".join(f"WARNING: {text};" for text in found)
+    return QoSCompatibility.OK, ""

@@ -1,0 +1,125 @@
+"""Points in time of one clock."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rclpy.clock_type import ClockType
+from rclpy.constants import S_TO_NS
+from rclpy.duration import Duration
+
+LIMIT = 2**63
+
+
+class Time:
+    """A point in time in ns since the clock's beginning.
+
+    Raises `ValueError` for negative parts, `OverflowError` beyond 64 bits, `TypeError` when clocks are mixed.
+    """
+
+    __slots__ = ("_clock_type", "_nanoseconds")
+    __hash__ = None  # type: ignore[assignment]
+
+    def __init__(
+        self, *, seconds: float = 0, nanoseconds: int = 0, clock_type: ClockType = ClockType.SYSTEM_TIME
+    ) -> None:
+        if not isinstance(clock_type, ClockType):
+            raise TypeError("Clock type must be a ClockType enum")
+        if seconds < 0:
+            raise ValueError("Seconds value must not be negative")
+        if nanoseconds < 0:
+            raise ValueError("Nanoseconds value must not be negative")
+        total = int(seconds * S_TO_NS) + int(nanoseconds)
+        if total >= LIMIT:
+            raise OverflowError("Total nanoseconds value is too large to store in C time point.")
+        self._nanoseconds = total
+        self._clock_type = clock_type
+
+    @classmethod
+    def _of(cls, nanoseconds: int, clock_type: ClockType) -> Time:
+        """A time whose parts are known to be good."""
+        made = cls.__new__(cls)
+        made._nanoseconds = nanoseconds
+        made._clock_type = clock_type
+        return made
+
+    @property
+    def nanoseconds(self) -> int:
+        """Time since the clock's beginning in ns."""
+        return self._nanoseconds
+
+    @property
+    def clock_type(self) -> ClockType:
+        """The kind of clock."""
+        return self._clock_type
+
+    def seconds_nanoseconds(self) -> tuple[int, int]:
+        """Whole seconds and the ns beyond them."""
+        return self._nanoseconds // S_TO_NS, self._nanoseconds % S_TO_NS
+
+    def __repr__(self) -> str:
+        return f"Time(nanoseconds={self._nanoseconds}, clock_type={self._clock_type.name})"
+
+    def __add__(self, other: Any) -> Time:
+        if isinstance(other, Duration):
+            total = self._nanoseconds + other.nanoseconds
+            if not 0 <= total < LIMIT:
+                raise OverflowError("Addition leads to overflow in C storage.")
+            return Time._of(total, self._clock_type)
+        return NotImplemented
+
+    def __radd__(self, other: Any) -> Time:
+        return self.__add__(other)
+
+    def __sub__(self, other: Any) -> Any:
+        if isinstance(other, Time):
+            if self._clock_type != other._clock_type:
+                raise TypeError("Can't subtract times with different clock types")
+            return Duration(nanoseconds=self._nanoseconds - other._nanoseconds)
+        if isinstance(other, Duration):
+            total = self._nanoseconds - other.nanoseconds
+            if total < 0:
+                raise ValueError("Subtraction leads to negative time")
+            return Time._of(total, self._clock_type)
+        return NotImplemented
+
+    def __eq__(self, other: object) -> bool:
+        return self._comparable(other) and self._nanoseconds == other._nanoseconds  # type: ignore[attr-defined]
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
+    def __lt__(self, other: Any) -> bool:
+        return self._nanoseconds < other._nanoseconds if self._comparable(other) else NotImplemented
+
+    def __le__(self, other: Any) -> bool:
+        return self._nanoseconds <= other._nanoseconds if self._comparable(other) else NotImplemented
+
+    def __gt__(self, other: Any) -> bool:
+        return self._nanoseconds > other._nanoseconds if self._comparable(other) else NotImplemented
+
+    def __ge__(self, other: Any) -> bool:
+        return self._nanoseconds >= other._nanoseconds if self._comparable(other) else NotImplemented
+
+    def _comparable(self, other: object) -> bool:
+        if not isinstance(other, Time):
+            return False
+        if self._clock_type != other._clock_type:
+            raise TypeError("Can't compare times with different clock types")
+        return True
+
+    def to_msg(self) -> Any:
+        """A `builtin_interfaces/Time`."""
+        from builtin_interfaces.msg import Time as TimeMessage
+
+        seconds, nanoseconds = self.seconds_nanoseconds()
+        return TimeMessage(sec=seconds, nanosec=nanoseconds)
+
+    @classmethod
+    def from_msg(cls, msg: Any, clock_type: ClockType = ClockType.ROS_TIME) -> Time:
+        """The time in a `builtin_interfaces/Time`; raises `TypeError` for anything else."""
+        from builtin_interfaces.msg import Time as TimeMessage
+
+        if not isinstance(msg, TimeMessage):
+            raise TypeError("Must pass a builtin_interfaces.msg.Time object")
+        return cls(seconds=msg.sec, nanoseconds=msg.nanosec, clock_type=clock_type)

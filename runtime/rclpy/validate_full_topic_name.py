@@ -1,0 +1,14 @@
+"""Check of full topic and service names."""
+
+from __future__ import annotations
+
+from bot_console.runtime.rmw import names
+from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException
+
+
+def validate_full_topic_name(name: str, *, is_service: bool = False) -> bool:
+    """True for a valid full name; raises `InvalidTopicNameException`, for services `InvalidServiceNameException`."""
+    problem = names.validate_full_topic_name(name)
+    if problem:
+        raise (InvalidServiceNameException if is_service else InvalidTopicNameException)(name, *problem)
+    return True

@@ -1,0 +1,12 @@
+"""Check of parameter names."""
+
+from __future__ import annotations
+
+from rclpy.exceptions import InvalidParameterException
+
+
+def validate_parameter_name(name: str) -> bool:
+    """True for a valid name; raises `InvalidParameterException` for an empty one, the only kind that is refused."""
+    if not name:
+        raise InvalidParameterException(name)
+    return True

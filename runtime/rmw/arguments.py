@@ -1,0 +1,182 @@
+"""The ROS part of a command line: `--ros-args ... [--]`.
+
+Grammar and texts of rcl. What is outside stays the program's own; a remap rule there is obeyed and noted as deprecated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+
+from bot_console.runtime.rmw.lexer import GrammarError, Lexeme, Lexer
+from bot_console.runtime.rmw.names import validate_namespace
+from bot_console.runtime.rmw.parameter_yaml import ParameterTable, ParameterYamlError
+from bot_console.runtime.rmw.remapping import RemapRule, parse_rule
+
+START = "--ros-args"
+END = "--"
+SEVERITIES = {"UNSET": 0, "DEBUG": 10, "INFO": 20, "WARN": 30, "ERROR": 40, "FATAL": 50}
+
+
+class ArgumentsError(ValueError):
+    """A command line cannot be parsed; the message has the words of rcl."""
+
+
+@dataclass
+class Arguments:
+    """What a command line says to ROS."""
+
+    remap_rules: list[RemapRule] = field(default_factory=list)
+    parameters: ParameterTable = field(default_factory=ParameterTable)
+    """Values of `-p` and `--params-file`, in their order."""
+    unparsed: list[str] = field(default_factory=list)
+    """The words for the program itself."""
+    unknown_ros_args: list[str] = field(default_factory=list)
+    deprecated_rules: list[str] = field(default_factory=list)
+    """Remap rules outside the ROS part."""
+    default_level: int | None = None
+    logger_levels: dict[str, int] = field(default_factory=dict)
+    log_config_file: str | None = None
+    log_file_name: str | None = None
+    enclave: str | None = None
+    stdout_enabled: bool = True
+    rosout_enabled: bool = True
+    external_logs_enabled: bool = True
+
+
+def parse(words: Sequence[str]) -> Arguments:
+    """Read a command line; raises `ArgumentsError`, and `TypeError` where it is no sequence of strings."""
+    parsed = Arguments()
+    inside = False
+    rest = iter(list(words))
+    for word in rest:
+        if not isinstance(word, str):
+            raise TypeError(f"expected str instance, {type(word).__name__} found")
+        if word == START:
+            inside = True
+        elif inside and word == END:
+            inside = False
+        elif inside:
+            _parse_flag(word, rest, parsed)
+        else:
+            _parse_outside(word, parsed)
+    return parsed
+
+
+def _parse_outside(word: str, parsed: Arguments) -> None:
+    try:
+        rule = parse_rule(word)
+    except GrammarError:
+        parsed.unparsed.append(word)
+        return
+    parsed.remap_rules.append(rule)
+    parsed.deprecated_rules.append(word)
+
+
+def _parse_flag(word: str, rest: Iterable[str], parsed: Arguments) -> None:
+    if word in _VALUED:
+        handler, missing = _VALUED[word]
+        for value in rest:
+            handler(word, value, parsed)
+            return
+        raise ArgumentsError(missing.format(word))
+    if word in _SWITCHES:
+        setattr(parsed, *_SWITCHES[word])
+    else:
+        parsed.unknown_ros_args.append(word)
+
+
+def _parameter(word: str, value: str, parsed: Arguments) -> None:
+    lexer = Lexer(value)
+    try:
+        node = lexer.node_prefix() or "/**"
+        name = _parameter_name(lexer)
+        lexer.expect(Lexeme.SEPARATOR)
+        parsed.parameters.add_value(node, name, value[lexer.index :])
+    except (GrammarError, ParameterYamlError) as error:
+        raise ArgumentsError(f"Couldn't parse parameter override rule: '{word} {value}'. Error: {error}") from None
+
+
+def _parameter_name(lexer: Lexer) -> str:
+    start = lexer.index
+    if lexer.peek() == Lexeme.FORWARD_SLASH:
+        lexer.accept()
+    lexer.match_token()
+    while lexer.peek() != Lexeme.SEPARATOR:
+        if lexer.peek() == Lexeme.FORWARD_SLASH:
+            lexer.accept()
+        else:
+            lexer.expect(Lexeme.DOT)
+        lexer.match_token()
+    return lexer.text[start : lexer.index]
+
+
+def _parameters_file(word: str, value: str, parsed: Arguments) -> None:
+    try:
+        parsed.parameters.add_file(value)
+    except ParameterYamlError as error:
+        raise ArgumentsError(f"Couldn't parse params file: '{word} {value}'. Error: {error}") from None
+
+
+def _remap(word: str, value: str, parsed: Arguments) -> None:
+    try:
+        parsed.remap_rules.append(parse_rule(value))
+    except GrammarError as error:
+        raise ArgumentsError(f"Couldn't parse remap rule: '{word} {value}'. Error: {error}") from None
+
+
+def _log_level(word: str, value: str, parsed: Arguments) -> None:
+    logger, separator, level = value.rpartition(":=")
+    severity = SEVERITIES.get(level.upper())
+    if severity is None or (separator and not logger):
+        raise ArgumentsError(
+            f"Couldn't parse log level: '{word} {value}'. Error: Argument does not use a valid severity level"
+        )
+    if separator:
+        parsed.logger_levels[logger] = severity
+    else:
+        parsed.default_level = severity
+
+
+def _log_config_file(word: str, value: str, parsed: Arguments) -> None:
+    parsed.log_config_file = value
+
+
+def _log_file_name(word: str, value: str, parsed: Arguments) -> None:
+    parsed.log_file_name = value
+
+
+def _enclave(word: str, value: str, parsed: Arguments) -> None:
+    problem = validate_namespace(value)
+    if problem:
+        text = problem[0].replace("namespace", "context name", 1)
+        raise ArgumentsError(f"Enclave name is not valid: '{text}'. Invalid index: {problem[1]}")
+    parsed.enclave = value
+
+
+_MISSING_PARAMETER = "Couldn't parse trailing {} flag. No parameter override rule found."
+_MISSING_REMAP = "Couldn't parse trailing {} flag. No remap rule found."
+_MISSING_ENCLAVE = "Couldn't parse trailing {} flag. No enclave path provided."
+
+_VALUED = {
+    "-p": (_parameter, _MISSING_PARAMETER),
+    "--param": (_parameter, _MISSING_PARAMETER),
+    "--params-file": (_parameters_file, "Couldn't parse trailing {} flag. No file path provided."),
+    "-r": (_remap, _MISSING_REMAP),
+    "--remap": (_remap, _MISSING_REMAP),
+    "--log-level": (_log_level, "Couldn't parse trailing log level flag: '{}'. No log level provided."),
+    "--log-config-file": (_log_config_file, "Couldn't parse trailing {} flag. No file path provided."),
+    "--log-file-name": (_log_file_name, "Couldn't parse trailing {} flag. No file path provided."),
+    "-e": (_enclave, _MISSING_ENCLAVE),
+    "--enclave": (_enclave, _MISSING_ENCLAVE),
+}
+
+_SWITCHES = {
+    f"--{verb}-{what}-logs": (attribute, verb == "enable")
+    for verb in ("enable", "disable")
+    for what, attribute in (
+        ("stdout", "stdout_enabled"),
+        ("rosout", "rosout_enabled"),
+        ("external-lib", "external_logs_enabled"),
+    )
+}

@@ -1,0 +1,152 @@
+"""Validation and expansion of node, namespace, topic and service names.
+
+Each check returns None for a valid name, else the words of rcl and rmw with the index of the offending character.
+"""
+
+from __future__ import annotations
+
+import re
+
+NODE_NAME_LIMIT = 255
+TOPIC_NAME_LIMIT = 247
+NAMESPACE_LIMIT = 245
+
+Problem = tuple[str, int]
+
+_OUTSIDE_NODE = re.compile(r"[^A-Za-z0-9_]")
+_OUTSIDE_FULL = re.compile(r"[^A-Za-z0-9_/]")
+_DIGIT_TOKEN = re.compile(r"/([0-9])")
+_PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*\Z")
+_TYPED_CHARACTERS = re.compile(r"[A-Za-z0-9_/~{}]")
+_NODE_CHARACTERS = re.compile(r"[A-Za-z0-9_]")
+
+
+def validate_node_name(name: str) -> Problem | None:
+    """Check the name of a node."""
+    if not name:
+        return "node name must not be empty", 0
+    outside = _OUTSIDE_NODE.search(name)
+    if outside:
+        return "node name must not contain characters other than alphanumerics or '_'", outside.start()
+    if name[0].isdigit():
+        return "node name must not start with a number", 0
+    if len(name) > NODE_NAME_LIMIT:
+        return f"node name length should not exceed '{NODE_NAME_LIMIT}'", NODE_NAME_LIMIT - 1
+    return None
+
+
+def validate_namespace(namespace: str) -> Problem | None:
+    """Check a namespace, which is absolute."""
+    if not namespace:
+        return "namespace must not be empty", 0
+    if namespace == "/":
+        return None
+    problem = _validate_full(namespace, "namespace")
+    if problem:
+        return problem
+    if len(namespace) > NAMESPACE_LIMIT:
+        return "namespace should not exceed 'RMW_NAMESPACE_MAX_NAME_LENGTH'", NAMESPACE_LIMIT - 1
+    return None
+
+
+def validate_full_topic_name(name: str) -> Problem | None:
+    """Check the name of a topic or service after expansion."""
+    if not name:
+        return "topic name must not be empty", 0
+    problem = _validate_full(name, "topic name")
+    if problem:
+        return problem
+    if len(name) > TOPIC_NAME_LIMIT:
+        return "topic length should not exceed '255U - 8U'", TOPIC_NAME_LIMIT - 1
+    return None
+
+
+def _validate_full(name: str, what: str) -> Problem | None:
+    if name[0] != "/":
+        return f"{what} must be absolute, it must lead with a '/'", 0
+    if name[-1] == "/":
+        unless = ", unless only a '/'" if what == "namespace" else ""
+        return f"{what} must not end with a '/'{unless}", len(name) - 1
+    outside = _OUTSIDE_FULL.search(name)
+    if outside:
+        return f"{what} must not contain characters other than alphanumerics, '_', or '/'", outside.start()
+    repeated = name.find("//")
+    if repeated >= 0:
+        return f"{what} must not contain repeated '/'", repeated + 1
+    digit = _DIGIT_TOKEN.search(name)
+    if digit:
+        return f"{what} must not have a token that starts with a number", digit.start(1)
+    return None
+
+
+def validate_topic_name(name: str) -> Problem | None:
+    """Check the name of a topic or service as it is typed: relative, private or absolute, with substitutions."""
+    if _PLAIN.match(name):
+        return None
+    if not name:
+        return "topic name must not be empty string", 0
+    if name[0].isdigit():
+        return "topic name token must not start with a number", 0
+    if name[-1] == "/":
+        return "topic name must not end with a forward slash", len(name) - 1
+    problem = _validate_characters(name)
+    if problem:
+        return problem
+    digit = _DIGIT_TOKEN.search(name)
+    if digit:
+        return "topic name token must not start with a number", digit.start(1)
+    return None
+
+
+def _validate_characters(name: str) -> Problem | None:
+    opened = -1
+    for index, character in enumerate(name):
+        if not _TYPED_CHARACTERS.match(character) and opened < 0:
+            words = "topic name must not contain characters other than alphanumerics, '_', '~', '{', or '}'"
+            return words, index
+        if opened >= 0 and character != "}":
+            problem = _validate_substitution(name, opened, index)
+            if problem:
+                return problem
+        elif character == "}":
+            if opened < 0:
+                return "topic name must not have unmatched (unbalanced) curly braces '{}'", index
+            opened = -1
+        elif character == "{":
+            opened = index
+        elif character == "~" and index:
+            return "topic name must not have tilde '~' unless it is the first character", index
+    if opened >= 0:
+        return "topic name must not have unmatched (unbalanced) curly braces '{}'", opened
+    return None
+
+
+def _validate_substitution(name: str, opened: int, index: int) -> Problem | None:
+    if not _NODE_CHARACTERS.match(name[index]):
+        return "substitution name must not contain characters other than alphanumerics or '_'", index
+    if index == opened + 1 and name[index].isdigit():
+        return "substitution name must not start with a number", index
+    return None
+
+
+def expand(name: str, node: str, namespace: str) -> str:
+    """The full name of a valid name as typed in a node; raises `ValueError` for an unknown substitution."""
+    if name[0] == "/" and "{" not in name:
+        return name
+    prefix = namespace.rstrip("/")
+    if name[0] == "~":
+        name = f"{prefix}/{node}{name[1:]}"
+    if "{" in name:
+        name = _substitute(name, node, namespace)
+    return name if name[0] == "/" else f"{prefix}/{name}"
+
+
+def _substitute(name: str, node: str, namespace: str) -> str:
+    known = {"node": node, "ns": namespace, "namespace": namespace}
+
+    def value(found: re.Match[str]) -> str:
+        if found[1] not in known:
+            raise ValueError(f"topic name '{name}' is invalid: unknown substitution: {found[0]}")
+        return known[found[1]]
+
+    return re.sub(r"\{([^}]*)\}", value, name)
