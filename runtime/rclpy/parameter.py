@@ -1,0 +1,188 @@
+"""Parameters: a name, a type and a value."""
+
+from __future__ import annotations
+
+from enum import Enum
+from typing import TYPE_CHECKING, Any
+
+from rclpy.impl.parameter_types import FIELDS, LIST_FIELDS, infer, value_fits
+
+if TYPE_CHECKING:
+    from rcl_interfaces.msg import Parameter as ParameterMsg
+    from rcl_interfaces.msg import ParameterValue
+
+PARAMETER_SEPARATOR_STRING = "."
+
+
+class Parameter:
+    """A parameter; it does not change once made."""
+
+    class Type(Enum):
+        """Types of a parameter; the values are those of `rcl_interfaces/msg/ParameterType`."""
+
+        NOT_SET = 0
+        BOOL = 1
+        INTEGER = 2
+        DOUBLE = 3
+        STRING = 4
+        BYTE_ARRAY = 5
+        BOOL_ARRAY = 6
+        INTEGER_ARRAY = 7
+        DOUBLE_ARRAY = 8
+        STRING_ARRAY = 9
+
+        @classmethod
+        def from_parameter_value(cls, parameter_value: Any) -> Parameter.Type:
+            """The type that a Python value stands for; raises `TypeError` where it stands for none."""
+            return cls(infer(parameter_value))
+
+        def check(self, parameter_value: Any) -> bool:
+            """Whether a parameter of this type may hold the value."""
+            return value_fits(self.value, parameter_value)
+
+    def __init__(self, name: str, type_: Parameter.Type | None = None, value: Any = None) -> None:
+        exact = _EXACT.get(value.__class__)
+        if type_ is None:
+            type_ = Parameter.Type.from_parameter_value(value) if exact is None else exact
+        if type_ is not exact:
+            if not isinstance(type_, Parameter.Type):
+                raise TypeError(f"type must be an instance of '{Parameter.Type!r}'")
+            if not type_.check(value):
+                raise ValueError(f"Type '{type_}' and value '{value}' do not agree")
+        self._type_ = type_
+        self._name = name
+        self._value = value
+
+    @classmethod
+    def from_parameter_msg(cls, param_msg: ParameterMsg) -> Parameter:
+        """The parameter of a message; raises `ValueError` for an unknown type."""
+        type_ = Parameter.Type(param_msg.value.type)
+        field = FIELDS.get(type_.value)
+        return cls(param_msg.name, type_, None if field is None else getattr(param_msg.value, field))
+
+    @property
+    def name(self) -> str:
+        """The name, dots included."""
+        return self._name
+
+    @property
+    def type_(self) -> Parameter.Type:
+        """The type."""
+        return self._type_
+
+    @property
+    def value(self) -> Any:
+        """The value as it was given; None for NOT_SET."""
+        return self._value
+
+    def get_parameter_value(self) -> ParameterValue:
+        """The value as a message."""
+        from rcl_interfaces.msg import ParameterValue
+
+        code = self._type_.value
+        field = FIELDS.get(code)
+        return ParameterValue(type=code) if field is None else ParameterValue(type=code, **{field: self._value})
+
+    def to_parameter_msg(self) -> ParameterMsg:
+        """The parameter as a message."""
+        from rcl_interfaces.msg import Parameter as ParameterMsg
+
+        return ParameterMsg(name=self._name, value=self.get_parameter_value())
+
+
+_EXACT: dict[type, Parameter.Type] = {
+    bool: Parameter.Type.BOOL,
+    int: Parameter.Type.INTEGER,
+    float: Parameter.Type.DOUBLE,
+    str: Parameter.Type.STRING,
+}
+
+
+def get_parameter_value(string_value: str) -> ParameterValue:
+    """The value that a text means in YAML 1.1, as `ros2 param set` takes it; raises `yaml.YAMLError`."""
+    import yaml
+    from rcl_interfaces.msg import ParameterValue
+
+    try:
+        value = yaml.safe_load(string_value)
+    except yaml.parser.ParserError:
+        value = string_value
+    if value is None:
+        value = string_value
+    code = _yaml_type(value)
+    if code is None:
+        # Upstream takes what is no parameter value as a string: mixed lists by their text, the rest as it is.
+        return ParameterValue(type=4, string_value=string_value if isinstance(value, list) else value)
+    return ParameterValue(type=code, **{FIELDS[code]: value})
+
+
+def _yaml_type(value: Any) -> int | None:
+    """The type of a value out of YAML; an empty list counts as one of booleans."""
+    if isinstance(value, list):
+        for kind, code in ((bool, 6), (int, 7), (float, 8), (str, 9)):
+            if all(isinstance(each, kind) for each in value):
+                return code
+        return None
+    exact = _EXACT.get(type(value))
+    return None if exact is None else exact.value
+
+
+def parameter_value_to_python(parameter_value: ParameterValue) -> Any:
+    """The Python value of a message, arrays as lists, None for NOT_SET; raises `RuntimeError` for an unknown type."""
+    code = parameter_value.type
+    if code == 0:
+        return None
+    field = FIELDS.get(code)
+    if field is None:
+        raise RuntimeError(f"unexpected parameter type {code}")
+    value = getattr(parameter_value, field)
+    return list(value) if code in LIST_FIELDS else value
+
+
+def parameter_dict_from_yaml_file(
+    parameter_file: str,
+    use_wildcard: bool = False,
+    target_nodes: list[str] | None = None,
+    namespace: str = "",
+) -> dict[str, ParameterMsg]:
+    """The parameters that a file of `ros2 param dump` gives, by name; without `target_nodes` those of all nodes.
+
+    Raises `RuntimeError` for a file without the wanted parameters, `OSError` and `yaml.YAMLError`.
+    """
+    import yaml
+
+    with open(parameter_file, encoding="utf-8") as file:
+        content = yaml.safe_load(file)
+    keys = ["/**"] if use_wildcard and "/**" in content else []
+    if target_nodes:
+        for node in target_nodes:
+            if node not in content.keys():  # noqa: SIM118 - what is no mapping fails as upstream does
+                raise RuntimeError(
+                    f"Param file does not contain parameters for {node},only for nodes: {list(content.keys())} "
+                )
+            keys.append(node)
+    else:
+        keys.extend(key for key in content.keys() if key != "/**")  # noqa: SIM118
+    if not keys:
+        raise RuntimeError("Param file does not contain selected parameters")
+    found: dict[str, Any] = {}
+    for key in keys:
+        section = content[key]
+        if type(section) is not dict or "ros__parameters" not in section:
+            raise RuntimeError(f"YAML file is not a valid ROS parameter file for node {key}")
+        found.update(section["ros__parameters"])
+    return _unpack_parameter_dict(namespace, found)
+
+
+def _unpack_parameter_dict(namespace: str, parameter_dict: dict[str, Any]) -> dict[str, ParameterMsg]:
+    """Flatten nested parameters; the namespace, with its dot, comes before each name."""
+    from rcl_interfaces.msg import Parameter as ParameterMsg
+
+    parameters: dict[str, ParameterMsg] = {}
+    for name, value in parameter_dict.items():
+        full_name = namespace + name
+        if type(value) is dict:
+            parameters.update(_unpack_parameter_dict(full_name + PARAMETER_SEPARATOR_STRING, value))
+        else:
+            parameters[full_name] = ParameterMsg(name=full_name, value=get_parameter_value(str(value)))
+    return parameters
