@@ -23,7 +23,7 @@ class UnsupportedEventTypeError(RCLError):
     """The middleware has no such event."""
 
 
-class NotImplementedError(RCLError):  # noqa: A001  upstream's name
+class NotImplementedError(RCLError):
     """The middleware cannot do this."""
 
 

@@ -102,6 +102,7 @@ class Clock:
     """A clock; one of type ROS_TIME is made as a `ROSClock`."""
 
     def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> Clock:
+        """Choose the class by the type."""
         if not isinstance(clock_type, ClockType):
             raise TypeError("Clock type must be a ClockType enum")
         return super().__new__(ROSClock if clock_type is ClockType.ROS_TIME else cls)
@@ -194,6 +195,7 @@ class ROSClock(Clock):
     """ROS time: system time, unless a time source drives it."""
 
     def __new__(cls, **_: Any) -> ROSClock:
+        """Always this class."""
         return object.__new__(cls)
 
     def __init__(self, *, clock_type: ClockType = ClockType.ROS_TIME) -> None:

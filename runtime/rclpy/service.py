@@ -10,7 +10,7 @@ from rclpy.impl.entity import SERVICE, Entity
 
 
 class Service(Entity):
-    """Answers requests; made by `Node.create_service`. The callback takes (request, response) and returns a response."""
+    """Answers requests; made by `Node.create_service`. The callback takes request and response, and returns one."""
 
     KIND = SERVICE
 

@@ -152,6 +152,7 @@ class Task(Future[T]):
         self.waits_for: Future[Any] | None = None
 
     def __call__(self) -> None:
+        """Run until the next wait, or to the end."""
         if self._done or self._executing or not self._task_lock.acquire(blocking=False):
             return
         try:

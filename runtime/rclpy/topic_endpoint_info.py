@@ -29,6 +29,8 @@ class TopicEndpointInfo:
         "_topic_type_hash",
     )
 
+    __hash__ = None  # type: ignore[assignment]
+
     def __init__(self, **kwargs: Any) -> None:
         unknown = [name for name in kwargs if f"_{name}" not in self.__slots__]
         assert not unknown, f"Invalid arguments passed to constructor: {', '.join(sorted(unknown))}"

@@ -30,7 +30,7 @@ def renew_default_context() -> None:
 
 
 def remove_ros_args(args: Sequence[str] | None = None) -> list[str]:
-    """The words that are not for ROS, the program's name included; raises `RCLError` for words that cannot be parsed."""
+    """The words that are not for ROS, the program's name included; raises `RCLError` for bad rules."""
     import sys
 
     from rclpy.impl.command_line import parse_words

@@ -53,7 +53,7 @@ class PublisherEndpoint(Protocol):
 
 @dataclass(eq=False)
 class SubscriptionEndpoint:
-    """Receives messages: `queue` holds what has come and was not taken yet, as (message, source ns, sequence number)."""
+    """Receives messages: `queue` holds what has come, as (message, source ns, sequence number)."""
 
     endpoint: Endpoint
     raw: bool

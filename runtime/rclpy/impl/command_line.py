@@ -3,43 +3,52 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 from bot_console.runtime.rmw import arguments
+from bot_console.runtime.rmw.arguments import Arguments, ArgumentsError
 from rclpy._rclpy_pybind11 import RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
+from rclpy.logging import apply_arguments, get_logger
+
+DEPRECATED = "Found remap rule '{0}'. This syntax is deprecated. Use '--ros-args --remap {0}' instead."
 
 
-def parse_words(words: Sequence[str]) -> Any:
+def parse_words(words: Sequence[str]) -> Arguments:
     """Parse a command line; raises `RCLError`."""
     try:
-        return arguments.parse(words)
-    except arguments.ArgumentsError as error:
+        return _parse(words)
+    except ArgumentsError as error:
         raise RCLError(f"failed to initialize rcl: {error}") from None
 
 
-def parse_global(words: Sequence[str]) -> Any:
-    """The arguments of a context; raises `RCLError` after a log line of rcl's, `UnknownROSArgsError` for strange flags."""
-    from rclpy.logging import get_logger
-
+def parse_global(words: Sequence[str]) -> Arguments:
+    """The arguments of a context; raises `RCLError` (rcl logs why), `UnknownROSArgsError` for strange flags."""
     try:
-        parsed = arguments.parse(words)
-    except arguments.ArgumentsError as error:
+        parsed = _parse(words)
+    except ArgumentsError as error:
         get_logger("rcl").error("Failed to parse global arguments")
         raise RCLError(f"failed to initialize rcl: {error}") from None
-    if parsed.unknown_ros_args:
-        raise UnknownROSArgsError(repr(list(parsed.unknown_ros_args)))
-    from rclpy.logging import apply_arguments
-
+    _refuse_unknown(parsed)
     apply_arguments(parsed)
     return parsed
 
 
-def parse_local(words: Sequence[str]) -> Any:
+def parse_local(words: Sequence[str]) -> Arguments:
     """The arguments of one node (`cli_args`); raises `RCLInvalidROSArgsError` and `UnknownROSArgsError`."""
     try:
-        parsed = arguments.parse(words)
-    except arguments.ArgumentsError as error:
+        parsed = _parse(words)
+    except ArgumentsError as error:
         raise RCLInvalidROSArgsError(f"Failed to parse ROS arguments: {error}") from None
-    if parsed.unknown_ros_args:
-        raise UnknownROSArgsError(repr(list(parsed.unknown_ros_args)))
+    _refuse_unknown(parsed)
     return parsed
+
+
+def _parse(words: Sequence[str]) -> Arguments:
+    parsed = arguments.parse(words)
+    for rule in parsed.deprecated_rules:
+        get_logger("rcl").warning(DEPRECATED.format(rule))
+    return parsed
+
+
+def _refuse_unknown(parsed: Arguments) -> None:
+    if parsed.unknown_ros_args:
+        raise UnknownROSArgsError(repr(parsed.unknown_ros_args))

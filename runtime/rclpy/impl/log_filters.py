@@ -43,10 +43,7 @@ class Site:
 
     def allows(self) -> bool:
         """Whether the filters let this call through."""
-        for name in self.filters:
-            if not getattr(self, f"_{name}")():
-                return False
-        return True
+        return all(getattr(self, f"_{name}")() for name in self.filters)
 
     def _throttle(self) -> bool:
         now = self._clock.now().nanoseconds if self._clock is not None else 0

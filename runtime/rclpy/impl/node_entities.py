@@ -191,7 +191,8 @@ class NodeEntities:
         self._use()
         if not self.context.ok():
             raise RCLError(
-                "failed to create timer: the given context is not valid, either rcl_init() was not called or rcl_shutdown() was called."
+                "failed to create timer: the given context is not valid, "
+                "either rcl_init() was not called or rcl_shutdown() was called."
             )
         timer = Timer(callback, group, period, clock or self.get_clock(), context=self.context, autostart=autostart)
         timer._node = self
