@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +10,7 @@ from launch.substitution import Substitution
 
 def normalize_to_list_of_substitutions(subs: Any) -> list[Substitution]:
     """A list of substitutions; raises `TypeError` for anything that is neither text nor substitution."""
-    from launch.substitutions import TextSubstitution
+    from launch.substitutions.text_substitution import TextSubstitution
 
     def one(item: Any) -> Substitution:
         if isinstance(item, Substitution):
@@ -19,11 +18,10 @@ def normalize_to_list_of_substitutions(subs: Any) -> list[Substitution]:
         if isinstance(item, (str, Path)):
             return TextSubstitution(text=str(item))
         raise TypeError(
-            f"Failed to normalize given item of type '{type(item)}', when only 'str' or 'launch.Substitution' were expected."
+            f"Failed to normalize given item of type '{type(item)}', when only 'str' or 'launch.Substitution' "
+            "were expected."
         )
 
     if isinstance(subs, (str, Path, Substitution)):
         return [one(subs)]
-    if isinstance(subs, Iterable):
-        return [one(each) for each in subs]
-    return [one(subs)] if not hasattr(subs, "__iter__") and isinstance(subs, Substitution) else [one(each) for each in subs]
+    return [one(each) for each in subs]

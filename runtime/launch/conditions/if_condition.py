@@ -1,0 +1,21 @@
+"""If."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.condition import Condition
+from launch.conditions.evaluate_condition_expression import evaluate_condition_expression
+from launch.utilities import normalize_to_list_of_substitutions
+
+
+class IfCondition(Condition):
+    """Holds when a text says true."""
+
+    def __init__(self, predicate_expression: Any) -> None:
+        self.__expression = normalize_to_list_of_substitutions(predicate_expression)
+        super().__init__(predicate=lambda context: evaluate_condition_expression(context, self.__expression))
+
+    def describe(self) -> str:
+        """A short text for people."""
+        return f"IfCondition({' + '.join(each.describe() for each in self.__expression)})"

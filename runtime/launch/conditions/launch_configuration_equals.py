@@ -1,0 +1,37 @@
+"""Old conditions over one launch configuration."""
+
+from __future__ import annotations
+
+import warnings
+from typing import Any
+
+from launch.condition import Condition
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+class LaunchConfigurationEquals(Condition):
+    """Holds when a launch configuration has a value; one that is not set equals None."""
+
+    def __init__(self, launch_configuration_name: str, expected_value: Any) -> None:
+        name = type(self).__name__
+        substitution = name.replace("LaunchConfiguration", "") + "Substitution"
+        warnings.warn(
+            f"The '{name}' condition is deprecated. Use the '{substitution}' in combination with 'LaunchConfiguration' "
+            "and 'IfCondition' instead.",
+            UserWarning,
+            stacklevel=2,
+        )
+        self.__name = launch_configuration_name
+        self.__expected = None if expected_value is None else normalize_to_list_of_substitutions(expected_value)
+        super().__init__(predicate=self._holds)
+
+    def _holds(self, context: Any) -> bool:
+        expected = None if self.__expected is None else perform_substitutions(context, self.__expected)
+        return context.launch_configurations.get(self.__name) == expected
+
+
+class LaunchConfigurationNotEquals(LaunchConfigurationEquals):
+    """Holds when a launch configuration does not have a value."""
+
+    def _holds(self, context: Any) -> bool:
+        return not super()._holds(context)

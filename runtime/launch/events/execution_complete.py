@@ -1,0 +1,21 @@
+"""An action is done."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.event import Event
+
+
+class ExecutionComplete(Event):
+    """An action is done; of a slow one, when its future is."""
+
+    name = "launch.events.ExecutionComplete"
+
+    def __init__(self, *, action: Any) -> None:
+        self.__action = action
+
+    @property
+    def action(self) -> Any:
+        """The action."""
+        return self.__action

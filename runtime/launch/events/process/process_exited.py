@@ -1,0 +1,22 @@
+"""A process has ended."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.events.process.running_process_event import RunningProcessEvent
+
+
+class ProcessExited(RunningProcessEvent):
+    """A process has ended."""
+
+    name = "launch.events.process.ProcessExited"
+
+    def __init__(self, *, returncode: int, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__returncode = returncode
+
+    @property
+    def returncode(self) -> int:
+        """Its exit code; of one that a signal ended, the signal's number with a minus."""
+        return self.__returncode

@@ -1,0 +1,38 @@
+"""A process has printed or is given something."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.events.process.running_process_event import RunningProcessEvent
+
+
+class ProcessIO(RunningProcessEvent):
+    """Bytes from or to a process."""
+
+    name = "launch.events.process.ProcessIO"
+
+    def __init__(self, *, text: bytes, fd: int, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__text = text
+        self.__fd = fd
+
+    @property
+    def text(self) -> bytes:
+        """The bytes."""
+        return self.__text
+
+    @property
+    def from_stdin(self) -> bool:
+        """Whether they are for its input."""
+        return self.__fd == 0
+
+    @property
+    def from_stdout(self) -> bool:
+        """Whether it has printed them as output."""
+        return self.__fd == 1
+
+    @property
+    def from_stderr(self) -> bool:
+        """Whether it has printed them as errors."""
+        return self.__fd == 2

@@ -1,0 +1,16 @@
+"""Bytes for a process's input."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.events.process.process_io import ProcessIO
+
+
+class ProcessStdin(ProcessIO):
+    """Bytes for a process's input."""
+
+    name = "launch.events.process.ProcessStdin"
+
+    def __init__(self, *, text: bytes, **kwargs: Any) -> None:
+        super().__init__(text=text, fd=0, **kwargs)

@@ -1,0 +1,16 @@
+"""Bytes that a process has printed as output."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.events.process.process_io import ProcessIO
+
+
+class ProcessStdout(ProcessIO):
+    """Bytes that a process has printed as output."""
+
+    name = "launch.events.process.ProcessStdout"
+
+    def __init__(self, *, text: bytes, **kwargs: Any) -> None:
+        super().__init__(text=text, fd=1, **kwargs)

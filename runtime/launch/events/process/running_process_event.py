@@ -1,0 +1,66 @@
+"""Events that come from a process."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.event import Event
+
+
+class RunningProcessEvent(Event):
+    """Something that has happened in or to a process."""
+
+    name = "launch.events.process.RunningProcessEvent"
+
+    def __init__(
+        self,
+        *,
+        action: Any,
+        name: str,
+        cmd: list[str],
+        cwd: str | None,
+        env: dict[str, str] | None,
+        pid: int,
+        **_more: Any,
+    ) -> None:
+        self.__action = action
+        self.__name = name
+        self.__cmd = cmd
+        self.__cwd = cwd
+        self.__env = env
+        self.__pid = pid
+
+    @property
+    def action(self) -> Any:
+        """The action that runs the process."""
+        return self.__action
+
+    @property
+    def execute_process_action(self) -> Any:
+        """The same, by its old name."""
+        return self.__action
+
+    @property
+    def process_name(self) -> str:
+        """Its label, as `talker-1`."""
+        return self.__name
+
+    @property
+    def cmd(self) -> list[str]:
+        """Its command line."""
+        return self.__cmd
+
+    @property
+    def cwd(self) -> str | None:
+        """Its working directory; None: that of the launch."""
+        return self.__cwd
+
+    @property
+    def env(self) -> dict[str, str] | None:
+        """Its environment; None: that of the launch."""
+        return self.__env
+
+    @property
+    def pid(self) -> int:
+        """Its number."""
+        return self.__pid

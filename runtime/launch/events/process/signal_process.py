@@ -1,0 +1,28 @@
+"""A process shall get a signal."""
+
+from __future__ import annotations
+
+import signal
+from typing import Any
+
+from launch.events.process.process_targeted_event import ProcessTargetedEvent
+
+
+class SignalProcess(ProcessTargetedEvent):
+    """A process shall get a signal."""
+
+    name = "launch.events.process.SignalProcess"
+
+    def __init__(self, *, signal_number: str | signal.Signals, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__signal = signal_number
+
+    @property
+    def signal(self) -> Any:
+        """The signal as it was given."""
+        return self.__signal
+
+    @property
+    def signal_name(self) -> str:
+        """Its name, as `SIGINT`."""
+        return self.__signal if isinstance(self.__signal, str) else signal.Signals(self.__signal).name

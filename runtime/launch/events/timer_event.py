@@ -1,0 +1,21 @@
+"""A timer has run down."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.event import Event
+
+
+class TimerEvent(Event):
+    """A timer action has run down."""
+
+    name = "launch.events.TimerEvent"
+
+    def __init__(self, *, timer_action: Any) -> None:
+        self.__timer_action = timer_action
+
+    @property
+    def timer_action(self) -> Any:
+        """The timer."""
+        return self.__timer_action

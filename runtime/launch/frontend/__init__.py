@@ -1,0 +1,7 @@
+"""Launch files in XML and YAML: what their parsers share."""
+
+from launch.frontend.entity import Entity
+from launch.frontend.expose import expose_action, expose_substitution
+from launch.frontend.parser import InvalidFrontendLaunchFileError, Parser
+
+__all__ = ["Entity", "InvalidFrontendLaunchFileError", "Parser", "expose_action", "expose_substitution"]

@@ -1,0 +1,120 @@
+"""What is logged where: the level, the formats, the screen, the main log file and files of processes."""
+
+from __future__ import annotations
+
+import logging
+import os
+import sys
+from typing import Any, TextIO
+
+from launch.logging import formats
+from launch.logging.log_directory import new_run_directory
+
+SCREEN_FORMAT = "OVERRIDE_LAUNCH_SCREEN_FORMAT"
+LOG_FORMAT = "OVERRIDE_LAUNCH_LOG_FORMAT"
+
+
+class ScreenHandler(logging.StreamHandler[Any]):
+    """Writes to whatever `sys.stdout` is at that moment."""
+
+    def __init__(self) -> None:
+        logging.Handler.__init__(self)
+
+    @property
+    def stream(self) -> TextIO:  # type: ignore[override]
+        """The standard output."""
+        return sys.stdout
+
+    @stream.setter
+    def stream(self, value: TextIO) -> None:
+        raise AttributeError("the screen is always sys.stdout")
+
+    def __repr__(self) -> str:
+        return "<ScreenHandler>"
+
+
+class LaunchConfig:
+    """The settings; files and folders are made when the first line goes there."""
+
+    def __init__(self) -> None:
+        self.reset()
+
+    def reset(self) -> None:
+        """Start anew, with a folder of a new run."""
+        for handler in getattr(self, "_files", {}).values():
+            handler.close()
+        self._level = logging.INFO
+        self._log_dir: str | None = None
+        self._files: dict[str, logging.Handler] = {}
+        self._screen: logging.Handler | None = None
+        self._screen_format: str | None = None
+        self._log_format: str | None = None
+
+    @property
+    def level(self) -> int:
+        """Records below this are dropped."""
+        return self._level
+
+    @level.setter
+    def level(self, value: int) -> None:
+        from launch.logging.launch_logger import set_level
+
+        self._level = value
+        set_level(value)
+
+    @property
+    def log_dir(self) -> str:
+        """The folder of this run."""
+        if self._log_dir is None:
+            self._log_dir = new_run_directory()
+        return self._log_dir
+
+    @log_dir.setter
+    def log_dir(self, value: str) -> None:
+        if self._files:
+            raise RuntimeError("Cannot set logging directory after a logger has been configured")
+        os.makedirs(value, exist_ok=True)
+        self._log_dir = value
+
+    def get_log_file_path(self, file_name: str = "launch.log") -> str:
+        """Where a log file of this run is."""
+        return os.path.join(self.log_dir, file_name)
+
+    def set_screen_format(self, screen_format: str, *, screen_style: str | None = None) -> None:
+        """Choose how records look on the screen: a name such as `default_with_timestamp`, or a format."""
+        self._screen_format = screen_format
+        self._screen = None if self._screen is None else self._with_screen_format(self._screen)
+
+    def set_log_format(self, log_format: str, *, log_style: str | None = None) -> None:
+        """Choose how records look in the main log file."""
+        self._log_format = log_format
+
+    def get_screen_handler(self) -> logging.Handler:
+        """What writes to the screen."""
+        if self._screen is None:
+            self._screen = self._with_screen_format(ScreenHandler())
+        return self._screen
+
+    def set_screen_handler(self, handler: logging.Handler) -> None:
+        """Let something else than the standard output be the screen: a console that draws it itself."""
+        self._screen = self._with_screen_format(handler)
+
+    def get_log_file_handler(self, file_name: str = "launch.log") -> logging.Handler:
+        """What writes to a log file of this run; the file is made with its first line."""
+        if file_name not in self._files:
+            handler = logging.FileHandler(self.get_log_file_path(file_name), delay=True, encoding="utf-8")
+            chosen = os.environ.get(LOG_FORMAT) or self._log_format or "default"
+            launch_format = formats.LOG.get(chosen, chosen)
+            handler.setFormatter(formats.OutputAwareFormatter(launch_format, formats.OUTPUT_IN_LOG))
+            self._files[file_name] = handler
+        return self._files[file_name]
+
+    def _with_screen_format(self, handler: logging.Handler) -> logging.Handler:
+        chosen = os.environ.get(SCREEN_FORMAT) or self._screen_format or "default"
+        launch_format = formats.SCREEN.get(chosen, chosen)
+        handler.setFormatter(formats.OutputAwareFormatter(launch_format, formats.OUTPUT_ON_SCREEN))
+        return handler
+
+
+launch_config = LaunchConfig()
+"""The settings of this process."""

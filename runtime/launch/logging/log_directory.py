@@ -1,0 +1,42 @@
+"""Where log files are: `$ROS_LOG_DIR`, else `$ROS_HOME/log`, else `~/.ros/log`, and in it a folder for each run."""
+
+from __future__ import annotations
+
+import datetime
+import os
+import socket
+
+
+def get_logging_directory() -> str:
+    """The folder that holds the folders of all runs."""
+    given = os.environ.get("ROS_LOG_DIR")
+    if given:
+        return os.path.expanduser(given)
+    home = os.environ.get("ROS_HOME") or os.path.join("~", ".ros")
+    return os.path.join(os.path.expanduser(home), "log")
+
+
+def new_run_directory() -> str:
+    """A path for this run that no other run has; `latest` beside it leads to it."""
+    moment = datetime.datetime.now().strftime("%Y-%m-%d-%H-%M-%S-%f")
+    name = f"{moment}-{socket.gethostname()}-{os.getpid()}"
+    base = get_logging_directory()
+    path = os.path.join(base, name)
+    number = 1
+    while os.path.exists(path):
+        number += 1
+        path = os.path.join(base, f"{name}-{number}")
+    os.makedirs(path)
+    _point_latest_at(base, path)
+    return path
+
+
+def _point_latest_at(base: str, path: str) -> None:
+    link = os.path.join(base, "latest")
+    try:
+        if os.path.islink(link):
+            os.unlink(link)
+        if not os.path.exists(link):
+            os.symlink(path, link, target_is_directory=True)
+    except OSError:  # no links here, or another run was quicker; the link is a convenience
+        return

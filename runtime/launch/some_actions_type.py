@@ -1,0 +1,11 @@
+"""What may stand where actions are wanted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Union
+
+from launch.action import Action
+
+SomeActionsType = Union[Action, Iterable[Action]]
+SomeActionsType_types_tuple = (Action, Iterable)

@@ -1,0 +1,52 @@
+"""Names that nobody else has."""
+
+from __future__ import annotations
+
+import os
+import random
+import re
+import socket
+from typing import Any
+
+from launch.frontend import expose_substitution
+from launch.substitution import Substitution
+from launch.substitutions.joined import described
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+@expose_substitution("anon")
+class AnonName(Substitution):
+    """A name that nobody else has; the same each time for the same beginning."""
+
+    def __init__(self, name: Any) -> None:
+        super().__init__()
+        self.__name = normalize_to_list_of_substitutions(name)
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type[AnonName], dict[str, Any]]:
+        """From `$(anon name)`."""
+        if len(data) != 1:
+            raise TypeError("anon substitution expects 1 argument")
+        return cls, {"name": data[0]}
+
+    @property
+    def name(self) -> list[Substitution]:
+        """How it begins."""
+        return self.__name
+
+    def describe(self) -> str:
+        """As `AnonName('rviz')`."""
+        return f"AnonName({described(self.__name)})"
+
+    def perform(self, context: Any) -> str:
+        """The name."""
+        name = perform_substitutions(context, self.__name)
+        key = f"anon{name}"
+        if key not in context.launch_configurations:
+            context.launch_configurations[key] = self.compute_name(name)
+        return context.launch_configurations[key]
+
+    def compute_name(self, id_value: str) -> str:
+        """A new name."""
+        full = f"{id_value}_{socket.gethostname()}_{os.getpid()}_{random.randint(0, 2**63)}"
+        return re.sub(r"[.\-:]", "_", full)

@@ -1,0 +1,139 @@
+"""Not, and, or, any, all."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.frontend import expose_substitution
+from launch.substitution import Substitution
+from launch.substitutions.joined import bool_of, described, word
+from launch.utilities import normalize_to_list_of_substitutions
+
+
+@expose_substitution("not")
+class NotSubstitution(Substitution):
+    """The opposite."""
+
+    def __init__(self, value: Any) -> None:
+        super().__init__()
+        self.__value = normalize_to_list_of_substitutions(value)
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type[NotSubstitution], dict[str, Any]]:
+        """From `$(not value)`."""
+        if len(data) != 1:
+            raise TypeError("not substitution expects 1 argument")
+        return cls, {"value": data[0]}
+
+    @property
+    def value(self) -> list[Substitution]:
+        """What is turned round."""
+        return self.__value
+
+    def describe(self) -> str:
+        """As `NotSubstitution('true')`."""
+        return f"NotSubstitution({described(self.__value)})"
+
+    def perform(self, context: Any) -> str:
+        """`true` or `false`."""
+        return word(not bool_of(context, self.__value))
+
+
+class _TwoSided(Substitution):
+    """Two sides, both always evaluated."""
+
+    _name = ""
+
+    def __init__(self, left: Any, right: Any) -> None:
+        super().__init__()
+        self.__left = normalize_to_list_of_substitutions(left)
+        self.__right = normalize_to_list_of_substitutions(right)
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type[_TwoSided], dict[str, Any]]:
+        """From two words."""
+        if len(data) != 2:
+            raise TypeError(f"{cls._name} substitution expects 2 arguments")
+        return cls, {"left": data[0], "right": data[1]}
+
+    @property
+    def left(self) -> list[Substitution]:
+        """The first side."""
+        return self.__left
+
+    @property
+    def right(self) -> list[Substitution]:
+        """The second side."""
+        return self.__right
+
+    def describe(self) -> str:
+        """As `AndSubstitution('true' 'false')`."""
+        return f"{type(self).__name__}({described(self.__left)} {described(self.__right)})"
+
+    def sides(self, context: Any) -> tuple[bool, bool]:
+        """Truth values of both sides."""
+        return bool_of(context, self.__left), bool_of(context, self.__right)
+
+
+@expose_substitution("and")
+class AndSubstitution(_TwoSided):
+    """Whether both sides are true."""
+
+    _name = "and"
+
+    def perform(self, context: Any) -> str:
+        """`true` or `false`."""
+        return word(all(self.sides(context)))
+
+
+@expose_substitution("or")
+class OrSubstitution(_TwoSided):
+    """Whether one side is true."""
+
+    _name = "or"
+
+    def perform(self, context: Any) -> str:
+        """`true` or `false`."""
+        return word(any(self.sides(context)))
+
+
+class _ManySided(Substitution):
+    def __init__(self, *args: Any) -> None:
+        super().__init__()
+        self.__args = [normalize_to_list_of_substitutions(each) for each in args]
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[Any, dict[str, Any]]:
+        """From any number of words."""
+        return lambda args: cls(*args), {"args": list(data)}
+
+    @property
+    def args(self) -> list[list[Substitution]]:
+        """The sides."""
+        return self.__args
+
+    def describe(self) -> str:
+        """As `AnySubstitution('true' 'false')`."""
+        return f"{type(self).__name__}({' '.join(described(each) for each in self.__args)})"
+
+    def sides(self, context: Any) -> list[bool]:
+        """Truth values of all sides."""
+        return [bool_of(context, each) for each in self.__args]
+
+
+@expose_substitution("any")
+class AnySubstitution(_ManySided):
+    """Whether any side is true."""
+
+    def perform(self, context: Any) -> str:
+        """`true` or `false`."""
+        return word(any(self.sides(context)))
+
+
+@expose_substitution("all")
+class AllSubstitution(_ManySided):
+    """Whether all sides are true."""
+
+    def perform(self, context: Any) -> str:
+        """`true` or `false`."""
+        return word(all(self.sides(context)))

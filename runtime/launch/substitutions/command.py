@@ -1,0 +1,76 @@
+"""The output of a command."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import subprocess
+from typing import Any
+
+import launch.logging
+from launch.frontend import expose_substitution
+from launch.substitution import Substitution
+from launch.substitutions.joined import described
+from launch.substitutions.substitution_failure import SubstitutionFailure
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+WORDS = ("fail", "ignore", "warn", "capture")
+
+
+@expose_substitution("command")
+class Command(Substitution):
+    """The standard output of a command, which runs without a shell."""
+
+    def __init__(self, command: Any, *, on_stderr: Any = "fail") -> None:
+        super().__init__()
+        self.__command = normalize_to_list_of_substitutions(command)
+        self.__on_stderr = normalize_to_list_of_substitutions(on_stderr)
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type[Command], dict[str, Any]]:
+        """From `$(command 'words' on_stderr)`."""
+        if not 1 <= len(data) <= 2:
+            raise ValueError("command substitution expects 1 or 2 arguments")
+        return cls, {"command": data[0], **({"on_stderr": data[1]} if len(data) > 1 else {})}
+
+    @property
+    def command(self) -> list[Substitution]:
+        """The command."""
+        return self.__command
+
+    @property
+    def on_stderr(self) -> list[Substitution]:
+        """What happens when it prints to its standard error."""
+        return self.__on_stderr
+
+    def describe(self) -> str:
+        """As `Command('date')`."""
+        return f"Command({described(self.__command)})"
+
+    def perform(self, context: Any) -> str:
+        """The output with its last newline; raises `SubstitutionFailure` where the command fails."""
+        command: Any = perform_substitutions(context, self.__command)
+        command = command if os.name == "nt" else shlex.split(command)
+        on_stderr = perform_substitutions(context, self.__on_stderr)
+        if on_stderr not in WORDS:
+            raise SubstitutionFailure(
+                "expected 'on_stderr' to be one of: 'fail', 'ignore', 'warn' or 'capture'"
+            )
+        errors = subprocess.STDOUT if on_stderr == "capture" else subprocess.PIPE
+        environment = dict(context.environment)
+        try:
+            done = subprocess.run(
+                command, stdout=subprocess.PIPE, stderr=errors, text=True, check=False, env=environment
+            )
+        except FileNotFoundError as error:
+            raise SubstitutionFailure(f"file not found: {error}") from error
+        said = f"Command: {' '.join(command) if isinstance(command, list) else command}"
+        if done.returncode != 0:
+            captured = f"\nCaptured stderr output: {done.stderr}" if done.stderr else ""
+            raise SubstitutionFailure(f"executed command failed. {said}{captured}")
+        if done.stderr and on_stderr != "ignore":
+            text = f"executed command showed stderr output. {said}\nCaptured stderr output:\n{done.stderr}"
+            if on_stderr == "fail":
+                raise SubstitutionFailure(text)
+            launch.logging.get_logger().warning(text)
+        return done.stdout

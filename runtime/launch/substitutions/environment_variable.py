@@ -1,0 +1,51 @@
+"""The value of an environment variable."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.frontend import expose_substitution
+from launch.substitution import Substitution
+from launch.substitutions.joined import described
+from launch.substitutions.substitution_failure import SubstitutionFailure
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+@expose_substitution("env")
+class EnvironmentVariable(Substitution):
+    """The value of an environment variable, or a default."""
+
+    def __init__(self, name: Any, *, default_value: Any = None) -> None:
+        super().__init__()
+        self.__name = normalize_to_list_of_substitutions(name)
+        self.__default = None if default_value is None else normalize_to_list_of_substitutions(default_value)
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type[EnvironmentVariable], dict[str, Any]]:
+        """From `$(env NAME default)`."""
+        if not 1 <= len(data) <= 2:
+            raise TypeError("env substitution expects 1 or 2 arguments")
+        return cls, {"name": data[0], **({"default_value": data[1]} if len(data) > 1 else {})}
+
+    @property
+    def name(self) -> list[Substitution]:
+        """Its name."""
+        return self.__name
+
+    @property
+    def default_value(self) -> list[Substitution] | None:
+        """The default."""
+        return self.__default
+
+    def describe(self) -> str:
+        """As `EnvVar('HOME')`."""
+        return f"EnvVar({described(self.__name)})"
+
+    def perform(self, context: Any) -> str:
+        """The value; raises `SubstitutionFailure` where there is neither value nor default."""
+        name = perform_substitutions(context, self.__name)
+        default = None if self.__default is None else perform_substitutions(context, self.__default)
+        value = context.environment.get(name, default)
+        if value is None:
+            raise SubstitutionFailure(f"environment variable '{name}' does not exist")
+        return value

@@ -1,0 +1,90 @@
+"""Whether two values are equal."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from launch.frontend import expose_substitution
+from launch.substitution import Substitution
+from launch.substitutions.joined import described, word
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+TRUTH = {"true": True, "1": True, "false": False, "0": False}
+
+
+def _pieces(value: Any) -> list[Substitution]:
+    """Substitutions from any value; None is the empty text."""
+    if value is None:
+        return normalize_to_list_of_substitutions("")
+    if isinstance(value, (bool, int, float)):
+        return normalize_to_list_of_substitutions(str(value).lower() if isinstance(value, bool) else str(value))
+    return normalize_to_list_of_substitutions(value)
+
+
+def _number(text: str) -> float | None:
+    try:
+        return float(text)
+    except ValueError:
+        return None
+
+
+def _equal(left: str, right: str) -> bool:
+    if left in TRUTH and right in TRUTH:
+        return TRUTH[left] == TRUTH[right]
+    numbers = _number(left), _number(right)
+    if numbers[0] is not None and numbers[1] is not None:
+        return math.isclose(numbers[0], numbers[1])
+    return left == right
+
+
+@expose_substitution("equals")
+class EqualsSubstitution(Substitution):
+    """Whether two values are equal: as truth values, else as numbers, else as texts."""
+
+    _name = "equals"
+
+    def __init__(self, left: Any, right: Any) -> None:
+        super().__init__()
+        self.__left = _pieces(left)
+        self.__right = _pieces(right)
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type[EqualsSubstitution], dict[str, Any]]:
+        """From `$(equals a b)`."""
+        if len(data) != 2:
+            raise TypeError(f"{cls._name} substitution expects 2 arguments")
+        return cls, {"left": data[0], "right": data[1]}
+
+    @property
+    def left(self) -> list[Substitution]:
+        """The first value."""
+        return self.__left
+
+    @property
+    def right(self) -> list[Substitution]:
+        """The second value."""
+        return self.__right
+
+    def describe(self) -> str:
+        """As `EqualsSubstitution('a' 'b')`."""
+        return f"{type(self).__name__}({described(self.__left)} {described(self.__right)})"
+
+    def equal(self, context: Any) -> bool:
+        """Whether they are equal now."""
+        return _equal(perform_substitutions(context, self.__left), perform_substitutions(context, self.__right))
+
+    def perform(self, context: Any) -> str:
+        """`true` or `false`."""
+        return word(self.equal(context))
+
+
+@expose_substitution("not-equals")
+class NotEqualsSubstitution(EqualsSubstitution):
+    """Whether two values differ."""
+
+    _name = "not-equals"
+
+    def perform(self, context: Any) -> str:
+        """`true` or `false`."""
+        return word(not self.equal(context))

@@ -1,0 +1,48 @@
+"""The text of a file."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from launch.frontend import expose_substitution
+from launch.substitution import Substitution
+from launch.substitutions.joined import described
+from launch.substitutions.substitution_failure import SubstitutionFailure
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+@expose_substitution("file-content")
+class FileContent(Substitution):
+    """The text of a file."""
+
+    name = "FileContent"
+
+    def __init__(self, path: Any) -> None:
+        super().__init__()
+        self.__path = normalize_to_list_of_substitutions(path)
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type[FileContent], dict[str, Any]]:
+        """From `$(file-content path)`."""
+        if len(data) != 1:
+            raise AttributeError("file-content substitution expects 1 argument")
+        return cls, {"path": data[0]}
+
+    @property
+    def path(self) -> list[Substitution]:
+        """Where it is."""
+        return self.__path
+
+    def describe(self) -> str:
+        """As `FileContent('x')`."""
+        return f"{self.name}({described(self.__path)})"
+
+    def perform(self, context: Any) -> str:
+        """The text; raises `SubstitutionFailure` where there is no such file."""
+        path = os.path.abspath(perform_substitutions(context, self.__path))
+        try:
+            with open(path, encoding="utf-8") as file:
+                return file.read()
+        except FileNotFoundError as error:
+            raise SubstitutionFailure(f"File not found: {path}") from error

@@ -1,0 +1,48 @@
+"""Where a program is."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from typing import Any
+
+from launch.frontend import expose_substitution
+from launch.substitution import Substitution
+from launch.substitutions.joined import described
+from launch.substitutions.substitution_failure import SubstitutionFailure
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+@expose_substitution("find-exec")
+class FindExecutable(Substitution):
+    """The absolute path of a program on the PATH."""
+
+    def __init__(self, *, name: Any) -> None:
+        super().__init__()
+        self.__name = normalize_to_list_of_substitutions(name)
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type[FindExecutable], dict[str, Any]]:
+        """From `$(find-exec name)`."""
+        if len(data) != 1:
+            raise AttributeError("find-exec substitution expects 1 argument")
+        return cls, {"name": data[0]}
+
+    @property
+    def name(self) -> list[Substitution]:
+        """Its name."""
+        return self.__name
+
+    def describe(self) -> str:
+        """As `FindExec('x')`."""
+        return f"FindExec({described(self.__name)})"
+
+    def perform(self, context: Any) -> str:
+        """The path; raises `SubstitutionFailure` where there is none."""
+        name = perform_substitutions(context, self.__name)
+        found = shutil.which(name, path=context.environment.get("PATH", os.defpath))
+        if found is not None:
+            return os.path.abspath(found)
+        if name == "ros2":  # answered by this runtime's own verbs, so the program need not be installed
+            return name
+        raise SubstitutionFailure(f"executable '{self.__name}' not found on the PATH")

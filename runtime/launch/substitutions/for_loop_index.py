@@ -1,0 +1,59 @@
+"""Values of the iteration of a loop, for launch files in XML and YAML."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.frontend import expose_substitution
+from launch.substitution import Substitution
+from launch.substitutions.joined import described
+from launch.substitutions.substitution_failure import SubstitutionFailure
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+@expose_substitution("for-var")
+class ForEachVar(Substitution):
+    """A value of the iteration of a `ForEach`, by its name."""
+
+    def __init__(self, name: Any, *, default_value: Any = None) -> None:
+        super().__init__()
+        self._name = normalize_to_list_of_substitutions(name)
+        self._default = None if default_value is None else normalize_to_list_of_substitutions(default_value)
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type[ForEachVar], dict[str, Any]]:
+        """From `$(for-var name default)`."""
+        if not 1 <= len(data) <= 2:
+            raise ValueError(f"{cls.__name__} substitution expects 1 or 2 arguments")
+        return cls, {"name": data[0], **({"default_value": data[1]} if len(data) > 1 else {})}
+
+    @property
+    def name(self) -> list[Substitution]:
+        """Its name."""
+        return self._name
+
+    def describe(self) -> str:
+        """As `ForEachVar('x')`."""
+        return f"{type(self).__name__}({described(self._name)})"
+
+    def perform(self, context: Any) -> str:
+        """The value; raises `SubstitutionFailure` outside of a loop that has it."""
+        name = perform_substitutions(context, self._name)
+        values = context.get_locals_as_dict()
+        if name in values:
+            return str(values[name])
+        if self._default is None:
+            raise SubstitutionFailure(f"No local variable '{name}' and no default value provided")
+        return perform_substitutions(context, self._default)
+
+
+@expose_substitution("index")
+class ForLoopIndex(ForEachVar):
+    """The number of the iteration of a `ForLoop`."""
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type[ForLoopIndex], dict[str, Any]]:
+        """From `$(index name)`."""
+        if len(data) != 1:
+            raise ValueError(f"{cls.__name__} substitution expects 1 argument")
+        return cls, {"name": data[0]}

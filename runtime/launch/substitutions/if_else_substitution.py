@@ -1,0 +1,55 @@
+"""One of two values."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.frontend import expose_substitution
+from launch.substitution import Substitution
+from launch.substitutions.joined import bool_of, described
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+@expose_substitution("if")
+class IfElseSubstitution(Substitution):
+    """One of two values, by a condition; raises `RuntimeError` when both are empty."""
+
+    def __init__(self, condition: Any, if_value: Any = "", else_value: Any = "") -> None:
+        super().__init__()
+        if if_value == else_value == "":
+            raise RuntimeError("One of if_value and else_value must be specified")
+        self._condition = normalize_to_list_of_substitutions(condition)
+        self._if_value = normalize_to_list_of_substitutions(if_value)
+        self._else_value = normalize_to_list_of_substitutions(else_value)
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type[IfElseSubstitution], dict[str, Any]]:
+        """From `$(if condition value other)`."""
+        if not 2 <= len(data) <= 3:
+            raise TypeError("if substitution expects from 2 or 3 arguments")
+        return cls, dict(zip(("condition", "if_value", "else_value"), data, strict=False))
+
+    @property
+    def condition(self) -> list[Substitution]:
+        """The condition."""
+        return self._condition
+
+    @property
+    def if_value(self) -> list[Substitution]:
+        """The value when it holds."""
+        return self._if_value
+
+    @property
+    def else_value(self) -> list[Substitution]:
+        """The value when it does not."""
+        return self._else_value
+
+    def describe(self) -> str:
+        """As `IfElseSubstitution('true', 'a', 'b')`."""
+        parts = (self._condition, self._if_value, self._else_value)
+        return f"IfElseSubstitution({', '.join(described(each) for each in parts)})"
+
+    def perform(self, context: Any) -> str:
+        """The value."""
+        chosen = self._if_value if bool_of(context, self._condition) else self._else_value
+        return perform_substitutions(context, chosen)

@@ -1,0 +1,34 @@
+"""What substitutions over other substitutions share."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from launch.utilities.perform_substitutions import perform_substitutions
+
+
+def described(subs: Iterable[Any]) -> str:
+    """Short texts of substitutions, joined by plus signs."""
+    return " + ".join(each.describe() for each in subs)
+
+
+def bool_of(context: Any, subs: Iterable[Any]) -> bool:
+    """The truth value of a text by YAML's rules; raises `SubstitutionFailure` where it has none."""
+    from launch.substitutions.substitution_failure import SubstitutionFailure
+    from launch.utilities.type_utils import perform_typed_substitution
+
+    try:
+        return perform_typed_substitution(context, list(subs), bool)
+    except (TypeError, ValueError) as error:
+        raise SubstitutionFailure(error) from error
+
+
+def word(value: bool) -> str:
+    """`true` or `false`."""
+    return "true" if value else "false"
+
+
+def text_of(context: Any, subs: Iterable[Any]) -> str:
+    """The text."""
+    return perform_substitutions(context, subs)

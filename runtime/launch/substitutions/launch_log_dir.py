@@ -1,0 +1,30 @@
+"""The folder of a run's log files."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import launch.logging
+from launch.frontend import expose_substitution
+from launch.substitution import Substitution
+
+
+@expose_substitution("launch_log_dir")
+@expose_substitution("log_dir")
+class LaunchLogDir(Substitution):
+    """The folder of this run's log files."""
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type[LaunchLogDir], dict[str, Any]]:
+        """From `$(log_dir)`."""
+        if len(data) != 0:
+            raise TypeError("launch_log_dir/log_dir substitution doesn't expect arguments")
+        return cls, {}
+
+    def describe(self) -> str:
+        """As `LaunchLogDir()`."""
+        return "LaunchLogDir()"
+
+    def perform(self, context: Any) -> str:
+        """The folder."""
+        return launch.logging.launch_config.log_dir

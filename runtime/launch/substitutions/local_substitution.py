@@ -1,0 +1,32 @@
+"""Locals of a launch."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.substitution import Substitution
+
+
+class LocalSubstitution(Substitution):
+    """An attribute of the locals, as `event.reason`."""
+
+    def __init__(self, expression: str, description: str | None = None) -> None:
+        super().__init__()
+        self.__expression = expression
+        self.__description = description
+
+    @property
+    def expression(self) -> str:
+        """The attribute's path."""
+        return self.__expression
+
+    def describe(self) -> str:
+        """As `LocalVar('node name')`."""
+        return f"LocalVar('{self.__expression if self.__description is None else self.__description}')"
+
+    def perform(self, context: Any) -> str:
+        """The value; raises `AttributeError` where it is missing."""
+        value = context.locals
+        for name in self.__expression.split("."):
+            value = getattr(value, name)
+        return str(value)

@@ -1,0 +1,54 @@
+"""Paths from pieces."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from typing import Any
+
+from launch.frontend import expose_substitution
+from launch.substitution import Substitution
+from launch.substitutions.joined import described
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+@expose_substitution("path-join")
+class PathJoinSubstitution(Substitution):
+    """Pieces of a path, joined; `/` adds a piece."""
+
+    def __init__(self, substitutions: Iterable[Any]) -> None:
+        self.__pieces = [normalize_to_list_of_substitutions(each) for each in substitutions]
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type[Substitution], dict[str, Any]]:
+        """From `$(path-join a b c)`."""
+        if len(data) == 0:
+            raise TypeError("path-join substitution expects at least 1 argument")
+        return PathJoinSubstitution, {"substitutions": list(data)}
+
+    @property
+    def substitutions(self) -> list[Any]:
+        """The pieces, each a substitution or a list of them."""
+        return [each[0] if len(each) == 1 else each for each in self.__pieces]
+
+    def __truediv__(self, additional_path: Any) -> PathJoinSubstitution:
+        """A path below."""
+        return PathJoinSubstitution([*self.__pieces, additional_path])
+
+    def __repr__(self) -> str:
+        return self.describe()
+
+    def describe(self) -> str:
+        """As `PathJoin('<a> + <b>')`."""
+        return f"PathJoin('{' + '.join(described(each) for each in self.__pieces)}')"
+
+    def perform(self, context: Any) -> str:
+        """The path."""
+        return os.path.join(*(perform_substitutions(context, each) for each in self.__pieces))
+
+
+class PathSubstitution(PathJoinSubstitution):
+    """A path that grows with `/`."""
+
+    def __init__(self, path: Any) -> None:
+        super().__init__([path])

@@ -1,0 +1,67 @@
+"""The value of a Python expression."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Iterable
+from typing import Any
+
+from launch.frontend import expose_substitution
+from launch.substitution import Substitution
+from launch.substitutions.joined import described
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+@expose_substitution("eval")
+class PythonExpression(Substitution):
+    """The value of a Python expression as text; names of the modules can be used with and without the module's name."""
+
+    def __init__(self, expression: Any, python_modules: Any = ("math",)) -> None:
+        super().__init__()
+        self.__expression = normalize_to_list_of_substitutions(expression)
+        self.__modules = [normalize_to_list_of_substitutions(each) for each in _each(python_modules)]
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type[PythonExpression], dict[str, Any]]:
+        """From `$(eval 'expression' 'module, module')`."""
+        if not 1 <= len(data) <= 2:
+            raise TypeError("eval substitution expects 1 or 2 arguments")
+        kwargs: dict[str, Any] = {"expression": data[0]}
+        if len(data) > 1:
+            names = perform_substitutions(None, data[1]) if _is_text(data[1]) else ""
+            kwargs["python_modules"] = [name.strip() for name in names.split(",") if name.strip()]
+        return cls, kwargs
+
+    @property
+    def expression(self) -> list[Substitution]:
+        """The expression."""
+        return self.__expression
+
+    @property
+    def python_modules(self) -> list[list[Substitution]]:
+        """Names of the modules."""
+        return self.__modules
+
+    def describe(self) -> str:
+        """As `PythonExpr('1 + 1', ['math'])`."""
+        modules = ", ".join(described(each) for each in self.__modules)
+        return f"PythonExpr({described(self.__expression)}, [{modules}])"
+
+    def perform(self, context: Any) -> str:
+        """The value as text; raises what the expression raises."""
+        modules = [importlib.import_module(perform_substitutions(context, each)) for each in self.__modules]
+        names: dict[str, Any] = {}
+        for module in modules:
+            names.update(vars(module)) if module.__name__ == "math" else None
+        names.update({module.__name__: module for module in modules})
+        return str(eval(perform_substitutions(context, self.__expression), {}, names))
+
+
+def _each(modules: Any) -> Iterable[Any]:
+    return (modules,) if isinstance(modules, (str, Substitution)) else modules
+
+
+def _is_text(pieces: Any) -> bool:
+    from launch.substitutions.text_substitution import TextSubstitution
+
+    return all(isinstance(each, TextSubstitution) for each in pieces)

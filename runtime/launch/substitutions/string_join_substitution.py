@@ -1,0 +1,46 @@
+"""Texts with something between them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from launch.frontend import expose_substitution
+from launch.substitution import Substitution
+from launch.substitutions.joined import described
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+@expose_substitution("string-join")
+class StringJoinSubstitution(Substitution):
+    """Texts with a delimiter between them."""
+
+    def __init__(self, substitutions: Iterable[Any], delimiter: Any = "") -> None:
+        self.__parts = [normalize_to_list_of_substitutions(each) for each in substitutions]
+        self.__delimiter = normalize_to_list_of_substitutions(delimiter)
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type[StringJoinSubstitution], dict[str, Any]]:
+        """From `$(string-join delimiter a b c)`."""
+        if len(data) < 2:
+            raise TypeError("string-join substitution expects at least 2 arguments")
+        return cls, {"delimiter": data[0], "substitutions": list(data[1:])}
+
+    @property
+    def substitutions(self) -> list[list[Substitution]]:
+        """The texts."""
+        return self.__parts
+
+    @property
+    def delimiter(self) -> list[Substitution]:
+        """What stands between them."""
+        return self.__delimiter
+
+    def describe(self) -> str:
+        """As `StringJoin('a' + 'b')`."""
+        return f"StringJoin('{' + '.join(described(each) for each in self.__parts)}')"
+
+    def perform(self, context: Any) -> str:
+        """The text."""
+        delimiter = perform_substitutions(context, self.__delimiter)
+        return delimiter.join(perform_substitutions(context, each) for each in self.__parts)

@@ -1,0 +1,5 @@
+"""A substitution cannot be evaluated."""
+
+
+class SubstitutionFailure(RuntimeError):
+    """A substitution cannot be evaluated."""

@@ -1,0 +1,29 @@
+"""A fixed text."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.substitution import Substitution
+
+
+class TextSubstitution(Substitution):
+    """A fixed text; raises `TypeError` for anything but text."""
+
+    def __init__(self, *, text: str) -> None:
+        if not isinstance(text, str):
+            raise TypeError(f"TextSubstitution expected Text object got '{type(text)}' instead.")
+        self.__text = text
+
+    @property
+    def text(self) -> str:
+        """The text."""
+        return self.__text
+
+    def describe(self) -> str:
+        """The text in quotes."""
+        return f"'{self.__text}'"
+
+    def perform(self, context: Any) -> str:
+        """The text."""
+        return self.__text

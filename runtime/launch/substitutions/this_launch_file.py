@@ -1,0 +1,32 @@
+"""The launch file that is being visited."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.frontend import expose_substitution
+from launch.substitution import Substitution
+from launch.substitutions.substitution_failure import SubstitutionFailure
+
+
+@expose_substitution("filename")
+class ThisLaunchFile(Substitution):
+    """The path of the launch file that is being visited."""
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type[ThisLaunchFile], dict[str, Any]]:
+        """From `$(filename)`."""
+        if len(data) != 0:
+            raise TypeError("filename substitution doesn't expect arguments")
+        return cls, {}
+
+    def describe(self) -> str:
+        """As `ThisLaunchFile()`."""
+        return "ThisLaunchFile()"
+
+    def perform(self, context: Any) -> str:
+        """The path; raises `SubstitutionFailure` where there is no file."""
+        path = context.get_locals_as_dict().get("current_launch_file_path")
+        if path is None:
+            raise SubstitutionFailure("ThisLaunchFile used outside of a launch file (in a script)")
+        return path

@@ -1,0 +1,38 @@
+"""The folder of the launch file that is being visited."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.frontend import expose_substitution
+from launch.substitution import Substitution
+from launch.substitutions.substitution_failure import SubstitutionFailure
+
+
+@expose_substitution("dirname")
+class ThisLaunchFileDir(Substitution):
+    """The folder of the launch file that is being visited."""
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type[ThisLaunchFileDir], dict[str, Any]]:
+        """From `$(dirname)`."""
+        if len(data) != 0:
+            raise TypeError("dirname substitution doesn't expect arguments")
+        return cls, {}
+
+    def __truediv__(self, additional_path: Any) -> Any:
+        """A path below."""
+        from launch.substitutions.path_join_substitution import PathJoinSubstitution
+
+        return PathJoinSubstitution([self, additional_path])
+
+    def describe(self) -> str:
+        """As `ThisLaunchFileDir()`."""
+        return "ThisLaunchFileDir()"
+
+    def perform(self, context: Any) -> str:
+        """The folder; raises `SubstitutionFailure` where there is no file."""
+        folder = context.get_locals_as_dict().get("current_launch_file_directory")
+        if folder is None:
+            raise SubstitutionFailure("ThisLaunchFileDir used outside of a launch file (in a script)")
+        return folder

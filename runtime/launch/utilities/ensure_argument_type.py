@@ -1,0 +1,17 @@
+"""Checks of what constructors are given."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+
+def ensure_argument_type(argument: Any, types: Any, argument_name: str, caller: str | None = None) -> None:
+    """Raise `TypeError` unless an argument is of one of the types."""
+    expected = list(types) if isinstance(types, Iterable) else [types]
+    if not all(isinstance(each, type) for each in expected):
+        raise TypeError(f"'types' should be a type or a list of types, but got '{types}'")
+    if isinstance(argument, tuple(expected)):
+        return
+    who = f"'{caller}' expected '{argument_name}' to be" if caller else f"Expected '{argument_name}' to be"
+    raise TypeError(f"{who} one of {expected}, but got '{argument}' of type '{type(argument)}'")
