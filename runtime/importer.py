@@ -30,6 +30,8 @@ PACKAGES = (
     "launch_yaml",
     "rclpy",
     "ros2cli",
+    "rosidl_parser",
+    "rosidl_runtime_py",
 )
 ALIAS = "bot_console.runtime."
 OWN_PACKAGE = "intelligent_robot"

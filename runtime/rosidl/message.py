@@ -7,6 +7,8 @@ from array import array
 from collections.abc import Mapping
 from typing import Any, ClassVar
 
+from bot_console.runtime.rosidl.slot_types import SlotTypes
+
 CHECK_VARIABLE = "ROS_PYTHON_CHECK_FIELDS"
 
 
@@ -21,6 +23,7 @@ class Message:
     __slots__ = ()
     __hash__ = None  # type: ignore[assignment]
     _fields_and_field_types: ClassVar[Mapping[str, str]] = {}
+    SLOT_TYPES: ClassVar[SlotTypes] = SlotTypes()
     _check_fields: bool
 
     @classmethod

@@ -1,0 +1,54 @@
+"""Hashes of interface types."""
+
+from __future__ import annotations
+
+from typing import Any
+
+SIZE = 32
+
+
+class TypeHash:
+    """A type's hash: version of the scheme (1 is RIHS01) and 32 bytes; raises `AssertionError` for other types."""
+
+    _TYPE_HASH_SIZE = SIZE
+
+    def __init__(self, version: int = -1, value: bytes = bytes(SIZE)) -> None:
+        self.version = version
+        self.value = value
+
+    @property
+    def version(self) -> int:
+        """Version of the scheme, -1 for none."""
+        return self._version
+
+    @version.setter
+    def version(self, value: int) -> None:
+        assert isinstance(value, int)
+        self._version = value
+
+    @property
+    def value(self) -> bytes:
+        """The bytes of the hash."""
+        return self._value
+
+    @value.setter
+    def value(self, value: bytes) -> None:
+        assert isinstance(value, bytes)
+        self._value = value
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, TypeHash) and (self.version, self.value) == (other.version, other.value)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __str__(self) -> str:
+        if self.version <= 0 or len(self.value) != SIZE:
+            return "INVALID"
+        return f"RIHS{self.version:02}_{self.value.hex()}"
+
+
+def type_hash_of(interface: Any) -> TypeHash:
+    """The hash of a message, service or action class; computed when first asked for."""
+    from bot_console.runtime.rosidl.type_hash import VERSION, digest
+
+    return TypeHash(VERSION, digest(interface))

@@ -1,0 +1,42 @@
+"""Tells message, service and action classes from each other and from anything else."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from bot_console.runtime.rosidl.message import Message, ServiceType
+
+HINT = (
+    " This might be a ROS 1 message type but it should be a ROS 2 message type."
+    " Make sure to source your ROS 2 workspace after your ROS 1 workspace."
+)
+
+
+def check_for_type_support(msg_or_srv_type: Any) -> None:
+    """Raise `AttributeError` for anything but a class made from an interface definition."""
+    if isinstance(msg_or_srv_type, ServiceType):
+        return
+    if not (isinstance(msg_or_srv_type, type) and issubclass(msg_or_srv_type, Message)):
+        name = type(msg_or_srv_type).__name__
+        raise AttributeError(f"type object '{name}' has no attribute '_TYPE_SUPPORT'{HINT}")
+
+
+def check_is_valid_msg_type(msg_type: Any) -> None:
+    """Raise `RuntimeError` for a service or action, `AttributeError` for what is no interface class at all."""
+    check_for_type_support(msg_type)
+    if isinstance(msg_type, ServiceType):
+        raise RuntimeError(f"The message type provided is not valid ({msg_type}), this might be a service or action")
+
+
+def check_is_valid_srv_type(srv_type: Any) -> None:
+    """Raise `RuntimeError` for a message or action, `AttributeError` for what is no interface class at all."""
+    check_for_type_support(srv_type)
+    if not all(hasattr(srv_type, part) for part in ("Response", "Request", "Event")):
+        raise RuntimeError(f"The service type provided is not valid ({srv_type}), this might be a message or action")
+
+
+def check_is_valid_action_type(action_type: Any) -> None:
+    """Raise `RuntimeError` for a message or service, `AttributeError` for what is no interface class at all."""
+    check_for_type_support(action_type)
+    if not all(hasattr(action_type, part) for part in ("Goal", "Result", "Feedback", "Impl")):
+        raise RuntimeError(f"The action type provided is not valid ({action_type}), this might be a message or service")
