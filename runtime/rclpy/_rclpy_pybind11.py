@@ -29,3 +29,7 @@ class NotImplementedError(RCLError):
 
 class InvalidHandle(RuntimeError):
     """Something was used after it was destroyed."""
+
+
+class RMWError(RuntimeError):
+    """The middleware refused a call, or got bytes that are no message."""
