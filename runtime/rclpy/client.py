@@ -17,6 +17,8 @@ class Client(Entity):
     """Asks a service; made by `Node.create_client`."""
 
     KIND = CLIENT
+    events: Any = None
+    """What publishes the client's events, while introspection is on."""
 
     def __init__(self, node: Any, srv_type: Any, srv_name: str, qos_profile: Any, callback_group: Any) -> None:
         super().__init__(callback_group)
@@ -75,6 +77,8 @@ class Client(Entity):
             future: Future[Any] = Future()
             self._pending_requests[number] = future
         self._node._bus.request(self.endpoint, number, request)
+        if self.events is not None:
+            self.events.tell(0, self.endpoint, number, request=request)
         return future
 
     def get_pending_request(self, sequence_number: int) -> Future[Any]:
@@ -99,6 +103,8 @@ class Client(Entity):
             number, response = self.endpoint.queue.popleft()
         except IndexError:
             return None
+        if self.events is not None:
+            self.events.tell(3, self.endpoint, number, response=response)
         with self._lock:
             future = self._pending_requests.pop(number, None)
         if future is not None:

@@ -13,6 +13,8 @@ class Service(Entity):
     """Answers requests; made by `Node.create_service`. The callback takes request and response, and returns one."""
 
     KIND = SERVICE
+    events: Any = None
+    """What publishes the service's events, while introspection is on."""
 
     def __init__(
         self,
@@ -58,6 +60,8 @@ class Service(Entity):
             client, number, request = self.endpoint.queue.popleft()
         except IndexError:
             return None
+        if self.events is not None:
+            self.events.tell(1, client, number, request=request)
         if self._is_async:
             return self._respond_later(client, number, request)
         self.send_response(self.callback(request, self.srv_type.Response()), (client, number))
@@ -72,6 +76,8 @@ class Service(Entity):
             raise TypeError
         self.use()
         self._node._bus.respond(header[0], header[1], response)
+        if self.events is not None:
+            self.events.tell(2, header[0], header[1], response=response)
 
     def configure_introspection(self, clock: Any, service_event_qos_profile: Any, introspection_state: Any) -> None:
         """Publish what the service does on a topic beside it."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import struct
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache
 from typing import Any
 
 from bot_console.runtime.rosidl.definition import Type, parse_type
@@ -83,7 +83,7 @@ def runs(cls: Any) -> Iterator[Sequence[Part]]:
         yield group
 
 
-@lru_cache(maxsize=None)
+@cache
 def aligned(codes: str, order: str) -> tuple[struct.Struct, ...]:
     """Structures for numbers in a row, one for each place modulo 8 at which the first may lie."""
     found: list[struct.Struct] = []

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from array import array
 from collections.abc import Callable, Iterator, Sequence
-from functools import lru_cache
+from functools import cache
 from typing import Any
 
 from bot_console.runtime.rosidl.cdr_layout import CODES, FILLER, Part, aligned, compiled, nested, runs
@@ -17,7 +17,7 @@ class CdrError(ValueError):
     """Bytes that are no message of the class asked for."""
 
 
-@lru_cache(maxsize=None)
+@cache
 def reader(cls: Any, order: str = "<") -> Callable[[memoryview, int], tuple[Any, int]]:
     """The function `(data, place)` that gives a message and the place behind it; raises `CdrError`."""
     names: dict[str, Any] = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from array import array
 from collections.abc import Callable, Iterator, Sequence
-from functools import lru_cache
+from functools import cache
 from typing import Any
 
 from bot_console.runtime.rosidl.cdr_layout import CODES, FILLER, Part, aligned, compiled, runs
@@ -15,7 +15,7 @@ from bot_console.runtime.rosidl.slot_types import nested_class
 COUNT = aligned("I", "<")
 
 
-@lru_cache(maxsize=None)
+@cache
 def writer(cls: Any) -> Callable[[Any, bytearray], None]:
     """The function `(message, out)`; the fields must hold what their types say, as in a copy made by `_copy_`."""
     names: dict[str, Any] = {

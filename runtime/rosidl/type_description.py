@@ -1,4 +1,4 @@
-"""What `type_description_interfaces/msg/TypeDescription` says of an interface class, as plain dictionaries (REP 2016)."""
+"""Descriptions of interface classes as in `type_description_interfaces/msg/TypeDescription` (REP 2016), in plain data."""
 
 from __future__ import annotations
 
@@ -86,10 +86,7 @@ def _members(cls: Any) -> Iterator[tuple[str, Any]]:
 
 
 def _field_type(kind: Type, nested: str) -> Description:
-    if nested:
-        number = NESTED
-    else:
-        number = (BOUNDED_TEXT if kind.limit else IDS)[kind.item]
+    number = NESTED if nested else (BOUNDED_TEXT if kind.limit else IDS)[kind.item]
     if kind.sequence:
         number += BOUNDED if kind.bound else UNBOUNDED
     elif kind.size:

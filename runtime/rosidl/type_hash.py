@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from functools import lru_cache
+from functools import cache
 from hashlib import sha256
 from typing import Any
 
@@ -12,7 +12,7 @@ from bot_console.runtime.rosidl.type_description import describe
 VERSION = 1
 
 
-@lru_cache(maxsize=None)
+@cache
 def digest(cls: Any) -> bytes:
     """The 32 bytes of the hash of a message, service or action class."""
     return sha256(json.dumps(describe(cls), separators=(", ", ": ")).encode()).digest()

@@ -1,0 +1,65 @@
+"""Service introspection: what a service or a client does, published beside it on `<service>/_service_event`."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from typing import Any
+
+EVENT_TOPIC = "/_service_event"
+
+
+class ServiceIntrospectionState(IntEnum):
+    """How much is published."""
+
+    OFF = 0
+    METADATA = 1
+    CONTENTS = 2
+
+
+class ServiceEvents:
+    """Publishes the events of one service or client; their numbers are those of `ServiceEventInfo`."""
+
+    def __init__(self, entity: Any, clock: Any, qos_profile: Any) -> None:
+        self.state = ServiceIntrospectionState.OFF
+        self._event = entity.srv_type.Event
+        self._clock = clock
+        self._publisher = entity._node.create_publisher(self._event, entity.service_name + EVENT_TOPIC, qos_profile)
+
+    def tell(self, kind: int, client: Any, number: int, *, request: Any = None, response: Any = None) -> None:
+        """Publish one event; request and response only in the state CONTENTS."""
+        if self.state == ServiceIntrospectionState.OFF:
+            return
+        event = self._event()
+        info = event.info
+        info.event_type = kind
+        info.stamp = self._clock.now().to_msg()
+        info.sequence_number = number
+        info.client_gid[:] = list(client_gid(client))
+        if self.state == ServiceIntrospectionState.CONTENTS:
+            event.request = [] if request is None else [request]
+            event.response = [] if response is None else [response]
+        self._publisher.publish(event)
+
+    def close(self) -> None:
+        """Publish no more."""
+        self.state = ServiceIntrospectionState.OFF
+        self._publisher._node.destroy_publisher(self._publisher)
+
+
+def client_gid(client: Any) -> bytes:
+    """Sixteen bytes that no other client endpoint of this process has while it lives."""
+    return id(client).to_bytes(16, "little")
+
+
+def configure(entity: Any, clock: Any, qos_profile: Any, state: ServiceIntrospectionState) -> None:
+    """Let a service or client publish its events, or stop it with the state OFF; raises `ValueError` for no state."""
+    state = ServiceIntrospectionState(state)
+    entity.use()
+    events = entity.events
+    if events is None and state != ServiceIntrospectionState.OFF:
+        events = entity.events = ServiceEvents(entity, clock, qos_profile)
+    if events is not None:
+        events.state = state
+        if state == ServiceIntrospectionState.OFF:
+            events.close()
+            entity.events = None

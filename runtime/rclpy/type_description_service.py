@@ -1,0 +1,93 @@
+"""The service `~/get_type_description` of a node."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from rcl_interfaces.msg import ParameterDescriptor
+from rclpy.parameter import Parameter
+
+START_TYPE_DESCRIPTION_SERVICE_PARAM = "start_type_description_service"
+
+
+class TypeDescriptionService:
+    """Declares the read-only parameter that switches the service, and starts it unless that says no."""
+
+    def __init__(self, node: Any) -> None:
+        self._node = node
+        self.service_name = f"{node.get_name()}/get_type_description"
+        name = START_TYPE_DESCRIPTION_SERVICE_PARAM
+        if not node.has_parameter(name):
+            description = "If enabled, start the ~/get_type_description service."
+            node.declare_parameter(name, True, ParameterDescriptor(description=description, read_only=True))
+        parameter = node.get_parameter(name)
+        self.enabled = parameter.type_ == Parameter.Type.BOOL and parameter.value
+        if parameter.type_ not in (Parameter.Type.BOOL, Parameter.Type.NOT_SET):
+            node.get_logger().error(f"Invalid type for parameter '{name}' {parameter.type_!r} should be bool")
+        if self.enabled:
+            from type_description_interfaces.srv import GetTypeDescription
+
+            node.create_service(GetTypeDescription, "~/get_type_description", self._answer)
+
+    def _answer(self, request: Any, response: Any) -> Any:
+        """Describe a type that an entity of this node has, found by its hash; words as rcl's."""
+        if not _is_hash(request.type_hash):
+            self._node.get_logger().error(f"Failed to parse type hash '{request.type_hash}'")
+            response.failure_reason = "Failed to parse type hash"
+            return response
+        found = self._find(request.type_hash)
+        if found is None:
+            response.failure_reason = "Type not currently in use by this node"
+            return response
+        _fill(response, found, request.include_type_sources)
+        response.successful = True
+        return response
+
+    def _find(self, wanted: str) -> Any:
+        from bot_console.runtime.rosidl.type_hash import text
+
+        return next((cls for cls in self._types() if text(cls) == wanted), None)
+
+    def _types(self) -> Iterator[Any]:
+        node = self._node
+        for entity in (*node.publishers, *node.subscriptions):
+            yield entity.msg_type
+        for entity in (*node.services, *node.clients):
+            yield entity.srv_type
+
+
+def _is_hash(text: str) -> bool:
+    version, _, digits = text.partition("_")
+    return version == "RIHS01" and len(digits) == 64 and not set(digits) - set("0123456789abcdef")
+
+
+def _fill(response: Any, cls: Any, with_sources: bool) -> None:
+    from bot_console.runtime.rosidl.type_description import describe
+
+    description = describe(cls)
+    target = response.type_description
+    target.type_description = _individual(description["type_description"])
+    target.referenced_type_descriptions = [_individual(each) for each in description["referenced_type_descriptions"]]
+    if with_sources:
+        names = (target.type_description, *target.referenced_type_descriptions)
+        response.type_sources = [_source(each.type_name) for each in names]
+
+
+def _individual(row: Mapping[str, Any]) -> Any:
+    from type_description_interfaces.msg import Field, FieldType, IndividualTypeDescription
+
+    fields = [Field(name=each["name"], type=FieldType(**each["type"])) for each in row["fields"]]
+    return IndividualTypeDescription(type_name=row["type_name"], fields=fields)
+
+
+def _source(name: str) -> Any:
+    """The definition file of a type; an empty one for what is derived from another definition."""
+    from bot_console.runtime.rosidl.texts import definition_text
+    from type_description_interfaces.msg import TypeSource
+
+    package, kind, short = name.split("/")
+    text = definition_text(package, kind, short)
+    if text is None:
+        return TypeSource(type_name=name, encoding="implicit")
+    return TypeSource(type_name=name, encoding=kind, raw_file_contents=text)
