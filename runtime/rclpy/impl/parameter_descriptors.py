@@ -1,4 +1,4 @@
-"""What a descriptor allows. Each check returns None, or the reason for which a value is refused in the words of rclpy."""
+"""What a descriptor allows. A check returns None, or why a value is refused, in the words of rclpy."""
 
 from __future__ import annotations
 

@@ -36,6 +36,7 @@ class ParameterSetting:
     _post_set_parameters_callbacks: list[Setter]
     _parameter_event_publisher: Any
     _clock: Any
+    _event_node_name: str
 
     def set_parameters(self, parameter_list: Sequence[Parameter]) -> list[SetParametersResult]:
         """Set parameters one after the other; returns one result for each.

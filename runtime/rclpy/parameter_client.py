@@ -1,0 +1,141 @@
+"""A client of the parameter services of another node."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+from bot_console.runtime.process import current
+from rclpy.parameter import Parameter, parameter_dict_from_yaml_file
+from rclpy.qos import QoSProfile, qos_profile_services_default
+from rclpy.task import Future
+
+if TYPE_CHECKING:
+    from rcl_interfaces.msg import Parameter as ParameterMsg
+
+NANO = 1_000_000_000
+
+Callback = Callable[[Any], None]
+
+
+class AsyncParameterClient:
+    """Reads and sets the parameters of a remote node; each method returns a future of the service's response.
+
+    A callback given to a method is called with the future once it is done.
+    """
+
+    def __init__(
+        self,
+        node: Any,
+        remote_node_name: str,
+        qos_profile: QoSProfile = qos_profile_services_default,
+        callback_group: Any = None,
+    ) -> None:
+        from rcl_interfaces import srv
+
+        self.node = node
+        self.remote_node_name = remote_node_name
+
+        def client(service_type: Any, name: str) -> Any:
+            return node.create_client(
+                service_type, f"{remote_node_name}/{name}", qos_profile=qos_profile, callback_group=callback_group
+            )
+
+        self._get_parameter_client = client(srv.GetParameters, "get_parameters")
+        self._list_parameter_client = client(srv.ListParameters, "list_parameters")
+        self._set_parameter_client = client(srv.SetParameters, "set_parameters")
+        self._get_parameter_types_client = client(srv.GetParameterTypes, "get_parameter_types")
+        self._describe_parameters_client = client(srv.DescribeParameters, "describe_parameters")
+        self._set_parameters_atomically_client = client(srv.SetParametersAtomically, "set_parameters_atomically")
+
+    def _clients(self) -> tuple[Any, ...]:
+        return (
+            self._list_parameter_client,
+            self._set_parameter_client,
+            self._get_parameter_client,
+            self._get_parameter_types_client,
+            self._describe_parameters_client,
+            self._set_parameters_atomically_client,
+        )
+
+    def services_are_ready(self) -> bool:
+        """Whether all parameter services of the remote node are there."""
+        return all(client.service_is_ready() for client in self._clients())
+
+    def wait_for_services(self, timeout_sec: float | None = None) -> bool:
+        """Block until the services are there; False when time (s) is over or the context was shut down."""
+        clock = current().clock
+        deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * NANO)
+        for client in self._clients():
+            left = None if deadline is None else max(0, deadline - clock.steady_ns()) / NANO
+            if not client.wait_for_service(left):
+                return False
+        return self.services_are_ready()
+
+    def list_parameters(
+        self, prefixes: list[str] | None = None, depth: int | None = None, callback: Callback | None = None
+    ) -> Future[Any]:
+        """List the names below prefixes, at most `depth` levels deep."""
+        client = self._list_parameter_client
+        return _ask(client, client.srv_type.Request(prefixes=prefixes or [], depth=depth or 0), callback)
+
+    def get_parameters(self, names: list[str], callback: Callback | None = None) -> Future[Any]:
+        """Read parameters."""
+        client = self._get_parameter_client
+        return _ask(client, client.srv_type.Request(names=names), callback)
+
+    def set_parameters(
+        self, parameters: Sequence[Parameter | ParameterMsg], callback: Callback | None = None
+    ) -> Future[Any]:
+        """Set parameters one by one."""
+        client = self._set_parameter_client
+        return _ask(client, client.srv_type.Request(parameters=_messages(parameters)), callback)
+
+    def set_parameters_atomically(
+        self, parameters: Sequence[Parameter | ParameterMsg], callback: Callback | None = None
+    ) -> Future[Any]:
+        """Set all parameters or none."""
+        client = self._set_parameters_atomically_client
+        return _ask(client, client.srv_type.Request(parameters=_messages(parameters)), callback)
+
+    def describe_parameters(self, names: list[str], callback: Callback | None = None) -> Future[Any]:
+        """Read the descriptors of parameters."""
+        client = self._describe_parameters_client
+        return _ask(client, client.srv_type.Request(names=names), callback)
+
+    def get_parameter_types(self, names: list[str], callback: Callback | None = None) -> Future[Any]:
+        """Read the types of parameters."""
+        client = self._get_parameter_types_client
+        return _ask(client, client.srv_type.Request(names=names), callback)
+
+    def delete_parameters(self, names: list[str], callback: Callback | None = None) -> Future[Any]:
+        """Delete parameters, which only those with dynamic typing allow."""
+        return self.set_parameters([Parameter(name) for name in names], callback)
+
+    def load_parameter_file(
+        self, parameter_file: str, use_wildcard: bool = False, callback: Callback | None = None
+    ) -> Future[Any]:
+        """Set the parameters of a file one by one, those under all its node names.
+
+        Raises `RuntimeError` for a file without parameters, `OSError` and `yaml.YAMLError`.
+        """
+        parameters = parameter_dict_from_yaml_file(parameter_file, use_wildcard)
+        return self.set_parameters(list(parameters.values()), callback)
+
+    def load_parameter_file_atomically(
+        self, parameter_file: str, use_wildcard: bool = False, callback: Callback | None = None
+    ) -> Future[Any]:
+        """Set all parameters of a file or none; raises what `load_parameter_file` raises."""
+        parameters = parameter_dict_from_yaml_file(parameter_file, use_wildcard)
+        return self.set_parameters_atomically(list(parameters.values()), callback)
+
+
+def _messages(parameters: Sequence[Any]) -> list[Any]:
+    return [each.to_parameter_msg() if isinstance(each, Parameter) else each for each in parameters]
+
+
+def _ask(client: Any, request: Any, callback: Callback | None) -> Future[Any]:
+    future = client.call_async(request)
+    if callback is not None:
+        future.add_done_callback(callback)
+    return future

@@ -1,0 +1,128 @@
+"""Calls back when parameters of any node change."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from itertools import chain
+from typing import TYPE_CHECKING, Any
+
+from rclpy.qos import QoSProfile, qos_profile_parameter_events
+
+if TYPE_CHECKING:
+    from rcl_interfaces.msg import Parameter as ParameterMsg
+    from rcl_interfaces.msg import ParameterEvent
+
+TOPIC = "/parameter_events"
+UNKNOWN = "Callback doesn't exist"
+
+
+class ParameterCallbackHandle:
+    """A callback for one parameter; keep it to remove the callback."""
+
+    def __init__(self, parameter_name: str, node_name: str, callback: Callable[[ParameterMsg], None]) -> None:
+        self.parameter_name = parameter_name
+        self.node_name = node_name
+        self.callback = callback
+
+
+class ParameterEventCallbackHandle:
+    """A callback for all events; keep it to remove the callback."""
+
+    def __init__(self, callback: Callable[[ParameterEvent], None]) -> None:
+        self.callback = callback
+
+
+class ParameterEventHandler:
+    """Listens to `/parameter_events`. Callbacks added last are called first, those for one parameter before others."""
+
+    def __init__(
+        self,
+        node: Any,
+        qos_profile: QoSProfile | int = qos_profile_parameter_events,
+        callback_group: Any = None,
+        event_callbacks: Any = None,
+        qos_overriding_options: Any = None,
+        raw: bool = False,
+    ) -> None:
+        from rcl_interfaces.msg import ParameterEvent
+
+        self.node = node
+        self.qos_profile = qos_profile
+        self._parameter_callbacks: dict[tuple[str, str], list[ParameterCallbackHandle]] = {}
+        self._event_callbacks: list[ParameterEventCallbackHandle] = []
+        self.parameter_event_subscription = node.create_subscription(
+            ParameterEvent,
+            TOPIC,
+            self._on_event,
+            qos_profile,
+            callback_group=callback_group,
+            event_callbacks=event_callbacks,
+            qos_overriding_options=qos_overriding_options,
+            raw=raw,
+        )
+
+    def destroy(self) -> None:
+        """Listen no more."""
+        self.node.destroy_subscription(self.parameter_event_subscription)
+
+    def _on_event(self, event: ParameterEvent) -> None:
+        for (parameter_name, node_name), handles in list(self._parameter_callbacks.items()):
+            parameter = self.get_parameter_from_event(event, parameter_name, node_name)
+            if parameter is not None:
+                for handle in list(handles):
+                    handle.callback(parameter)
+        for handle in list(self._event_callbacks):
+            handle.callback(event)
+
+    @staticmethod
+    def get_parameter_from_event(event: ParameterEvent, parameter_name: str, node_name: str) -> ParameterMsg | None:
+        """The new or changed parameter of a node in an event, or None where the event does not have it."""
+        if event.node != node_name:
+            return None
+        for parameter in ParameterEventHandler.get_parameters_from_event(event):
+            if parameter.name == parameter_name:
+                return parameter
+        return None
+
+    @staticmethod
+    def get_parameters_from_event(event: ParameterEvent) -> Iterator[ParameterMsg]:
+        """The new and the changed parameters of an event."""
+        yield from chain(event.new_parameters, event.changed_parameters)
+
+    def add_parameter_callback(
+        self, parameter_name: str, node_name: str, callback: Callable[[ParameterMsg], None]
+    ) -> ParameterCallbackHandle:
+        """Call back with a parameter of a node, given relative or by full name, whenever it is set."""
+        handle = ParameterCallbackHandle(parameter_name, self._resolve_path(node_name), callback)
+        self._parameter_callbacks.setdefault((parameter_name, handle.node_name), []).insert(0, handle)
+        return handle
+
+    def remove_parameter_callback(self, handle: ParameterCallbackHandle) -> None:
+        """Call back no more; raises `RuntimeError` for a handle that is not there."""
+        key = (handle.parameter_name, handle.node_name)
+        handles = self._parameter_callbacks.get(key, [])
+        if handle not in handles:
+            raise RuntimeError(UNKNOWN)
+        handles.remove(handle)
+        if not handles:
+            del self._parameter_callbacks[key]
+
+    def add_parameter_event_callback(self, callback: Callable[[ParameterEvent], None]) -> ParameterEventCallbackHandle:
+        """Call back with each event of any node."""
+        handle = ParameterEventCallbackHandle(callback)
+        self._event_callbacks.insert(0, handle)
+        return handle
+
+    def remove_parameter_event_callback(self, handle: ParameterEventCallbackHandle) -> None:
+        """Call back no more; raises `RuntimeError` for a handle that is not there."""
+        if handle not in self._event_callbacks:
+            raise RuntimeError(UNKNOWN)
+        self._event_callbacks.remove(handle)
+
+    def _resolve_path(self, node_path: str | None = None) -> str:
+        """The full name of a node; an empty one means the node that listens."""
+        if not node_path:
+            return self.node.get_fully_qualified_name()
+        if node_path.startswith("/"):
+            return node_path
+        return f"{self.node.get_namespace().rstrip('/')}/{node_path}"

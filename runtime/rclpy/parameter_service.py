@@ -1,0 +1,86 @@
+"""The parameter services of a node."""
+
+from __future__ import annotations
+
+import weakref
+from typing import Any
+
+from rclpy.exceptions import ParameterNotDeclaredException, ParameterUninitializedException
+from rclpy.parameter import Parameter
+from rclpy.qos import qos_profile_parameters
+
+
+class ParameterService:
+    """Answers questions about the parameters of a node, and sets them; made by the node itself."""
+
+    def __init__(self, node: Any) -> None:
+        from rcl_interfaces import srv
+
+        self._node_ref = weakref.ref(node)
+        services = (
+            (srv.DescribeParameters, "describe_parameters", self._describe),
+            (srv.GetParameters, "get_parameters", self._get),
+            (srv.GetParameterTypes, "get_parameter_types", self._get_types),
+            (srv.ListParameters, "list_parameters", self._list),
+            (srv.SetParameters, "set_parameters", self._set),
+            (srv.SetParametersAtomically, "set_parameters_atomically", self._set_atomically),
+        )
+        for service_type, name, callback in services:
+            node.create_service(service_type, f"{node.get_name()}/{name}", callback, qos_profile=qos_profile_parameters)
+
+    def _node(self) -> Any:
+        node = self._node_ref()
+        if node is None:
+            raise ReferenceError("Expected valid node weak reference")
+        return node
+
+    def _describe(self, request: Any, response: Any) -> Any:
+        """One undeclared name empties the whole answer, here as in the two services below."""
+        try:
+            response.descriptors = self._node().describe_parameters(request.names)
+        except ParameterNotDeclaredException:
+            response.descriptors = []
+        return response
+
+    def _get(self, request: Any, response: Any) -> Any:
+        node = self._node()
+        try:
+            response.values = [node.get_parameter(name).get_parameter_value() for name in request.names]
+        except (ParameterNotDeclaredException, ParameterUninitializedException):
+            response.values = []
+        return response
+
+    def _get_types(self, request: Any, response: Any) -> Any:
+        node = self._node()
+        try:
+            types = [node.get_parameter_type(name) for name in request.names]
+        except ParameterNotDeclaredException:
+            types = []
+        response.types = [each.value if isinstance(each, Parameter.Type) else each for each in types]
+        return response
+
+    def _list(self, request: Any, response: Any) -> Any:
+        try:
+            response.result = self._node().list_parameters(request.prefixes, request.depth)
+        except (TypeError, ValueError):
+            # Upstream answers a wrong question with an empty list.
+            pass
+        return response
+
+    def _set(self, request: Any, response: Any) -> Any:
+        for message in request.parameters:
+            response.results.append(self._set_all([message]))
+        return response
+
+    def _set_atomically(self, request: Any, response: Any) -> Any:
+        response.result = self._set_all(request.parameters)
+        return response
+
+    def _set_all(self, messages: list[Any]) -> Any:
+        from rcl_interfaces.msg import SetParametersResult
+
+        parameters = [Parameter.from_parameter_msg(message) for message in messages]
+        try:
+            return self._node().set_parameters_atomically(parameters)
+        except ParameterNotDeclaredException as error:
+            return SetParametersResult(successful=False, reason=str(error))

@@ -1,0 +1,123 @@
+"""QoS policies of a publisher or subscription that parameters may override."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from rclpy.duration import Duration
+from rclpy.exceptions import ParameterAlreadyDeclaredException
+from rclpy.publisher import Publisher
+from rclpy.qos import (
+    DurabilityPolicy,
+    HistoryPolicy,
+    LivelinessPolicy,
+    QoSPolicyKind,
+    QoSProfile,
+    ReliabilityPolicy,
+)
+from rclpy.subscription import Subscription
+
+_ENUMS: dict[QoSPolicyKind, Any] = {
+    QoSPolicyKind.LIVELINESS: LivelinessPolicy,
+    QoSPolicyKind.RELIABILITY: ReliabilityPolicy,
+    QoSPolicyKind.HISTORY: HistoryPolicy,
+    QoSPolicyKind.DURABILITY: DurabilityPolicy,
+}
+_DURATIONS = (QoSPolicyKind.LIFESPAN, QoSPolicyKind.DEADLINE, QoSPolicyKind.LIVELINESS_LEASE_DURATION)
+
+
+class InvalidQosOverridesError(Exception):
+    """The callback of the options refuses the profile that the overrides make."""
+
+
+class QoSOverridingOptions:
+    """Which policies may be overridden; `entity_id` tells two entities of one topic apart."""
+
+    def __init__(
+        self,
+        policy_kinds: Iterable[QoSPolicyKind],
+        *,
+        callback: Callable[[QoSProfile], bool] | None = None,
+        entity_id: str | None = None,
+    ) -> None:
+        self._policy_kinds = policy_kinds
+        self._callback = callback
+        self._entity_id = entity_id
+
+    @property
+    def policy_kinds(self) -> Iterable[QoSPolicyKind]:
+        """The policies that get a parameter each."""
+        return self._policy_kinds
+
+    @property
+    def callback(self) -> Callable[[QoSProfile], bool] | None:
+        """What says whether the profile with its overrides is valid."""
+        return self._callback
+
+    @property
+    def entity_id(self) -> str | None:
+        """What stands after the kind of entity in the parameters' names."""
+        return self._entity_id
+
+    @classmethod
+    def with_default_policies(
+        cls, *, callback: Callable[[QoSProfile], bool] | None = None, entity_id: str | None = None
+    ) -> QoSOverridingOptions:
+        """Options for history, depth and reliability."""
+        kinds = (QoSPolicyKind.HISTORY, QoSPolicyKind.DEPTH, QoSPolicyKind.RELIABILITY)
+        return cls(kinds, callback=callback, entity_id=entity_id)
+
+
+def _declare_qos_parameters(
+    entity_type: type[Publisher] | type[Subscription],
+    node: Any,
+    topic_name: str,
+    qos: QoSProfile,
+    options: QoSOverridingOptions,
+) -> None:
+    """Declare a read-only parameter for each policy of the options, and put the values into the profile.
+
+    Raises `RuntimeError` for a value that is no policy, `InvalidQosOverridesError`, and what declaring raises.
+    """
+    if not issubclass(entity_type, (Publisher, Subscription)):
+        raise TypeError("Argument `entity_type` should be a subclass of Publisher or Subscription")
+    from rcl_interfaces.msg import ParameterDescriptor
+
+    kind = "publisher" if issubclass(entity_type, Publisher) else "subscription"
+    suffix = "" if options.entity_id is None else f"_{options.entity_id}"
+    about = f"for {kind} `{topic_name}` with id `{options.entity_id}`"
+    for policy in options.policy_kinds:
+        if policy == QoSPolicyKind.LIFESPAN and kind == "subscription":
+            continue
+        word = policy.name.lower()
+        name = f"qos_overrides.{topic_name}.{kind}{suffix}.{word}"
+        descriptor = ParameterDescriptor(description=f"{word} {about}", read_only=True)
+        try:
+            parameter = node.declare_parameter(name, _parameter_value(qos, policy), descriptor)
+        except ParameterAlreadyDeclaredException:
+            parameter = node.get_parameter(name)
+        setattr(qos, word, _policy_value(policy, parameter.value))
+    if options.callback is not None and not options.callback(qos):
+        raise InvalidQosOverridesError(f"Provided QoS overrides {about}, are not valid")
+
+
+def _parameter_value(qos: QoSProfile, policy: QoSPolicyKind) -> Any:
+    """A policy as the value of a parameter: a word, nanoseconds, or a number."""
+    value = getattr(qos, policy.name.lower())
+    if policy in _ENUMS:
+        if value.name == "UNKNOWN":
+            raise ValueError("User provided QoS profile is invalid")
+        return value.name.lower()
+    return value.nanoseconds if policy in _DURATIONS else value
+
+
+def _policy_value(policy: QoSPolicyKind, value: Any) -> Any:
+    if policy in _DURATIONS:
+        return Duration(nanoseconds=value)
+    if policy not in _ENUMS:
+        return value
+    try:
+        return _ENUMS[policy][value.upper()]
+    except KeyError:
+        raise RuntimeError(f"Unexpected QoS override for policy `{policy.name.lower()}`: `{value}`") from None
