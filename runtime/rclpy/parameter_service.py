@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import weakref
+from contextlib import suppress
 from typing import Any
 
 from rclpy.exceptions import ParameterNotDeclaredException, ParameterUninitializedException
@@ -60,11 +61,9 @@ class ParameterService:
         return response
 
     def _list(self, request: Any, response: Any) -> Any:
-        try:
+        # Upstream answers a wrong question with an empty list.
+        with suppress(TypeError, ValueError):
             response.result = self._node().list_parameters(request.prefixes, request.depth)
-        except (TypeError, ValueError):
-            # Upstream answers a wrong question with an empty list.
-            pass
         return response
 
     def _set(self, request: Any, response: Any) -> Any:
