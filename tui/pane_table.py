@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import importlib
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from bot_console.tui.panes.pane import Pane
+if TYPE_CHECKING:
+    from bot_console.tui.panes.pane import Pane
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ Making one is cheap: rclpy and numpy are imported by the thread, so that the fir
 from __future__ import annotations
 
 import threading
+import time
 import traceback
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
@@ -20,6 +21,7 @@ from bot_console.tui.console.model import (
     LaunchInfo,
     LogFilter,
     LogRecord,
+    LogState,
     Profile,
     ProfileDifference,
     SetOutcome,
@@ -31,9 +33,11 @@ from bot_console.tui.console.protocol import Answer, Samples
 if TYPE_CHECKING:
     from bot_console.tui.console.log_store import LogStore
     from bot_console.tui.console.node import ConsoleNode
+    from bot_console.tui.console.process_output import Once
 
 T = TypeVar("T")
 STARTING = "the console is still connecting to the ROS system"
+NOWHERE = ("", "", 0)
 LAST_WORD = 0.15
 """Seconds that the final zero Twist has to reach the robot before anything is shut down."""
 
@@ -58,6 +62,7 @@ class RosConsole:
         self._run_line = run_line
         self._node: ConsoleNode | None = None
         self._logs: LogStore | None = None
+        self._once: Once | None = None
         self._problem = ""
         self._ready = threading.Event()
         self._thread = threading.Thread(target=self._serve, name="bot-console", daemon=True)
@@ -72,10 +77,12 @@ class RosConsole:
         try:
             from bot_console.tui.console.log_store import LogStore
             from bot_console.tui.console.node import ConsoleNode
+            from bot_console.tui.console.process_output import Once
             from bot_console.tui.console.profiles import find
 
             self._logs = LogStore()
-            self._node = ConsoleNode(self._logs)
+            self._once = Once(self._logs.add)
+            self._node = ConsoleNode(self._once)
             self._profiles = find(self._profile_folders)
             self._ready.set()
             self._node.spin()
@@ -89,10 +96,15 @@ class RosConsole:
         """Wait until connected, or the connection failed; whether it is connected."""
         return self._ready.wait(timeout) and self._node is not None
 
-    @property
-    def logs(self) -> LogStore | None:
-        """Where log lines of other sources are added; None until connected."""
-        return self._logs
+    def record(self, stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:
+        """Take a log record that a process wrote to its console; it shows once, though `/rosout` brings it too."""
+        if self._once:
+            self._once.record(stamp, severity, name, text, site)
+
+    def printed(self, severity: int, label: str, text: str) -> None:
+        """Take a line that a process printed."""
+        if self._logs:
+            self._logs.add(time.time_ns(), severity, label, text, NOWHERE)
 
     def snapshot(self) -> ConsoleSnapshot:
         """The newest snapshot; the same object when nothing changed."""
@@ -106,7 +118,7 @@ class RosConsole:
                 seq=old.seq,
                 graph=node.graph.info,
                 parameters=node.parameters.trees,
-                logs=node.logs.state,
+                logs=self._logs.state if self._logs else LogState(),
                 journal=node.journal.state,
                 world=world,
                 drive=node.drive.info((world.speed, world.turn) if world.pose else None),

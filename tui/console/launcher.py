@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from bot_console.tui.console.model import (
     LaunchArgument,
@@ -27,6 +27,14 @@ INTERRUPTED = (0, -2, -15, 130)
 """Exit codes of a process that ended as it was asked to."""
 
 
+class Joinable(Protocol):
+    """A thread, or what can be waited for like one."""
+
+    def join(self, timeout: float | None = None) -> object:
+        """Wait for the end, at most so many seconds."""
+        ...
+
+
 class _Process:
     """A launched process: the action that runs it, what is shown of it, and what reads its output."""
 
@@ -41,14 +49,23 @@ class _Process:
 class RosLauncher:
     """Runs launch files, each in a LaunchService and thread of its own. Methods may be called from any thread."""
 
-    def __init__(self, record: Add, printed: Callable[[int, str, str], None], files: Sequence[str] = ()) -> None:
+    def __init__(
+        self,
+        record: Add,
+        printed: Callable[[int, str, str], None],
+        files: Callable[[], Sequence[str]] = tuple,
+        spawn: Callable[[Callable[[], None]], Joinable] | None = None,
+    ) -> None:
+        """`spawn` starts the thread of a launch, in a way that keeps what launch itself prints off the screen."""
         self._record = record
+        self._spawn = spawn or _thread
         self._printed = printed
-        self._known_files = tuple(files)
+        self._files_of_workspace = files
         self._lock = threading.RLock()
         self._processes: dict[str, _Process] = {}
         self._keys: dict[int, str] = {}
-        self._services: list[tuple[Any, threading.Thread]] = []
+        self._services: list[Any] = []
+        self._threads: list[Joinable] = []
         self._files: list[str] = []
         self._timeline: deque[LaunchEvent] = deque(maxlen=TIMELINE)
         self._events = 0
@@ -68,8 +85,8 @@ class RosLauncher:
     def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
         """Run one more launch file; the answer comes when its first process runs or it has failed."""
         outcome: Future[Answer] = Future()
-        thread = threading.Thread(target=self._serve, args=(path, dict(arguments), outcome), name="launch", daemon=True)
-        thread.start()
+        given = dict(arguments)
+        self._threads.append(self._spawn(lambda: self._serve(path, given, outcome)))
         return outcome
 
     def _serve(self, path: str, arguments: dict[str, str], outcome: Future[Answer]) -> None:
@@ -84,7 +101,7 @@ class RosLauncher:
             self._tell(f"launch {path}")
         service = LaunchService(noninteractive=True)
         with self._lock:
-            self._services.append((service, threading.current_thread()))
+            self._services.append(service)
         include = IncludeLaunchDescription(AnyLaunchDescriptionSource(path), launch_arguments=arguments.items())
         service.include_launch_description(LaunchDescription([*self._handlers(path, outcome), include]))
         try:
@@ -93,7 +110,7 @@ class RosLauncher:
         except Exception as error:  # the border of the launch thread: shown in the pane
             problem = f"{path}: {error}"
         with self._lock:
-            self._services = [each for each in self._services if each[0] is not service]
+            self._services.remove(service)
             if problem:
                 self._problem = problem
                 self._tell(problem, Severity.ERROR)
@@ -184,7 +201,7 @@ class RosLauncher:
 
     def files(self) -> Sequence[str]:
         """Launch files of the workspace."""
-        return self._known_files
+        return self._files_of_workspace()
 
     def start(self, key: str) -> Future[Answer]:
         """Start an ended process again."""
@@ -226,7 +243,7 @@ class RosLauncher:
                 if verb == "kill"
                 else ShutdownProcess(process_matcher=matcher)
             )
-            for service, _ in self._services:
+            for service in self._services:
                 service.emit_event(event)
         return Answer(True, f"{verb}: {process.info.label}")
 
@@ -237,10 +254,16 @@ class RosLauncher:
             for process in self._processes.values():
                 process.stopping = True
         deadline = time.monotonic() + patience
-        for service, _ in services:
+        for service in services:
             service.shutdown()
-        for _, thread in services:
+        for thread in self._threads:
             thread.join(max(0.0, deadline - time.monotonic()))
+
+
+def _thread(target: Callable[[], None]) -> threading.Thread:
+    thread = threading.Thread(target=target, name="launch", daemon=True)
+    thread.start()
+    return thread
 
 
 def _node_names(action: Any) -> tuple[str, ...]:

@@ -90,9 +90,8 @@ class ConsoleNode:
 
     def _on_log(self, message: Log) -> None:
         stamp = message.stamp.sec * 1_000_000_000 + message.stamp.nanosec
-        self.logs.add(
-            stamp, _number(message.level), message.name, message.msg, (message.file, message.function, message.line)
-        )
+        site = message.file, message.function, message.line
+        self._once.record(stamp, _number(message.level), message.name, message.msg, site)
 
     def call(self, service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:
         """Call a service of any type."""

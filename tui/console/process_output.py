@@ -6,6 +6,7 @@ through the public `RCUTILS_CONSOLE_OUTPUT_FORMAT`, keeps the two apart, so that
 
 from __future__ import annotations
 
+import threading
 from collections import OrderedDict
 from collections.abc import Callable
 
@@ -30,16 +31,18 @@ class Once:
 
     def __init__(self, add: Add) -> None:
         self._add = add
+        self._lock = threading.Lock()
         self._seen: OrderedDict[tuple[int, str, str], None] = OrderedDict()
 
     def record(self, stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:
-        """Pass a record on unless it came before."""
+        """Pass a record on unless it came before; from any thread."""
         key = (stamp, name, text)
-        if self._seen.pop(key, self) is None:
-            return
-        self._seen[key] = None
-        if len(self._seen) > REMEMBERED:
-            self._seen.popitem(last=False)
+        with self._lock:
+            if self._seen.pop(key, self) is None:
+                return
+            self._seen[key] = None
+            if len(self._seen) > REMEMBERED:
+                self._seen.popitem(last=False)
         self._add(stamp, severity, name, text, site)
 
 

@@ -1,0 +1,64 @@
+"""The command `bot-console`: the one place that knows the console and the runtime."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Sequence
+
+from bot_console.tui.cli import ros2
+
+Words = list[str]
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run a command line and give its exit code: 0 done, 1 failed, 2 wrong usage."""
+    words = list(sys.argv[1:] if argv is None else argv)
+    command = _COMMANDS.get(words[0]) if words else None
+    if command:
+        return command(words[1:])
+    if words and words[0] in ros2.VERBS:
+        return ros2.verb(words)
+    from bot_console.tui.cli.arguments import parse
+
+    options = parse(words)
+    if options.headless:
+        from bot_console.tui.cli.headless import run
+
+        return run(options)
+    from bot_console.tui.cli.session import run as show
+
+    return show(options)
+
+
+def _run(words: Words) -> int:
+    from bot_console.tui.cli.run import run
+
+    return run(words)
+
+
+def _launch(words: Words) -> int:
+    return ros2.main(["launch", *words])
+
+
+def _ros2(words: Words) -> int:
+    return main(words)
+
+
+def _export(words: Words) -> int:
+    from bot_console.tui.cli.export import run
+
+    return run(words)
+
+
+def _colcon(words: Words) -> int:
+    print("Nothing has to be built: packages of the workspace are read from their sources.")
+    return 0
+
+
+_COMMANDS: dict[str, Callable[[Words], int]] = {
+    "run": _run,
+    "launch": _launch,
+    "ros2": _ros2,
+    "export": _export,
+    "colcon": _colcon,
+}

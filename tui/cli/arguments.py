@@ -1,0 +1,132 @@
+"""The options of `bot-console` itself."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+from bot_console.tui.pane_table import PANES
+
+EXAMPLES = """\
+examples:
+  bot-console                              a robot in a room, with its parameters, log and map
+  bot-console outdoor                      the same robot in the open
+  bot-console --launch my.launch.py a:=1   any ROS 2 launch file
+  bot-console run my_node.py               a node of yours, alone in this terminal
+  bot-console launch my_package x.launch.py
+  bot-console --headless --fast --profile warehouse --duration 600 --seed 7
+
+other commands: run, launch, export, and the verbs of ros2 (bot-console interface show std_msgs/msg/String)
+
+exit codes: 0 done, 1 failed (one line says why), 2 wrong usage
+"""
+
+
+@dataclass
+class Options:
+    """What was asked for."""
+
+    profile: str = "indoor"
+    launch: str = ""
+    launch_arguments: dict[str, str] = field(default_factory=dict[str, str])
+    pane: str = "overview"
+    workspace: list[Path] = field(default_factory=list[Path])
+    headless: bool = False
+    fast: bool = False
+    duration: float | None = None
+    seed: int | None = None
+    log_to: Path | None = None
+
+
+def parse(words: Sequence[str]) -> Options:
+    """Read a command line; ends the program with exit code 2 for wrong usage."""
+    words, pane = _rqt(list(words))
+    parser = _parser()
+    given = parser.parse_args(words)
+    named = {each.id for each in PANES} | {"overview"}
+    if given.pane not in named:
+        parser.error(f"there is no pane '{given.pane}'; panes: {', '.join(sorted(named))}")
+    profile, pairs = _profile_and_pairs(parser, given)
+    if given.fast and not given.headless:
+        parser.error("--fast goes with --headless: a screen shows real time")
+    if given.duration is not None and not given.duration > 0:
+        parser.error(f"--duration must be positive, not {given.duration:g} s")
+    return Options(
+        profile=profile,
+        launch=given.launch or "",
+        launch_arguments=pairs,
+        pane=pane or given.pane,
+        workspace=given.workspace or [],
+        headless=given.headless,
+        fast=given.fast,
+        duration=given.duration,
+        seed=given.seed,
+    )
+
+
+def _profile_and_pairs(parser: argparse.ArgumentParser, given: argparse.Namespace) -> tuple[str, dict[str, str]]:
+    pairs: dict[str, str] = {}
+    profiles: list[str] = [given.profile] if given.profile else []
+    for word in given.words:
+        name, assigned, value = word.partition(":=")
+        if assigned and name:
+            pairs[name] = value
+        else:
+            profiles.append(word)
+    if len(profiles) > 1:
+        parser.error(f"one profile at a time, not {', '.join(profiles)}")
+    if profiles and given.launch:
+        parser.error("a launch file brings its own settings: give either a profile or --launch")
+    known = profile_names()
+    if profiles and profiles[0] not in known:
+        parser.error(f"there is no profile and no command '{profiles[0]}'; profiles: {', '.join(known)}")
+    return (profiles[0] if profiles else "indoor"), pairs
+
+
+def profile_names() -> list[str]:
+    """The profiles that come with the robot."""
+    folder = Path(__file__).resolve().parents[2] / "profiles"
+    return sorted(path.stem for path in folder.glob("*.yaml"))
+
+
+_RQT_PANES = {"rqt": "overview", "rqt_graph": "graph", "rqt_plot": "plot", "rqt_console": "logs",
+              "rqt_reconfigure": "parameters", "rqt_robot_steering": "steering", "rviz2": "world"}  # fmt: skip
+
+
+def _rqt(words: list[str]) -> tuple[list[str], str]:
+    """`rqt_plot ...` and the like open the console on a pane."""
+    if words and words[0] in _RQT_PANES:
+        return [word for word in words[1:] if not word.startswith("/")], _RQT_PANES[words[0]]
+    return words, ""
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        "bot-console",
+        description="rqt for the terminal, with the robot included.",
+        epilog=EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add = parser.add_argument
+    add("words", nargs="*", metavar="PROFILE | NAME:=VALUE", help=f"a profile ({', '.join(profile_names())})")
+    add("--launch", metavar="FILE", help="open the console on this launch file instead")
+    add("--pane", default="overview", help="the pane to begin with")
+    add("--workspace", action="append", type=Path, metavar="DIR", help="where packages are; may be repeated")
+    add("--headless", action="store_true", help="no screen: logs on stderr, a JSON report on stdout at the end")
+    add("--fast", action="store_true", help="with --headless: simulated time, as fast as it goes, repeatable")
+    add("--profile", metavar="NAME", help="the same as PROFILE")
+    add("--duration", type=float, metavar="S", help="with --headless: seconds to run")
+    add("--seed", type=int, metavar="N", help="seed of the world")
+    add("--version", action="version", version=f"bot-console {installed_version()}")
+    return parser
+
+
+def installed_version() -> str:
+    """The version of the installed package."""
+    try:
+        return version("bot-console")
+    except PackageNotFoundError:
+        return "(not installed)"

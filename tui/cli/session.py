@@ -1,0 +1,182 @@
+"""A run of the console: the app, the launched system beside it in this process, and the way both end."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from types import FrameType
+
+from bot_console.runtime.importer import install
+from bot_console.runtime.process import NodeProcess, on_notice
+from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.cli.arguments import Options
+from bot_console.tui.cli.workspaces import choose, launch_files
+from bot_console.tui.console.connection import RosConsole
+from bot_console.tui.console.launcher import RosLauncher
+from bot_console.tui.console.model import Severity
+from bot_console.tui.console.process_output import FORMAT_VARIABLE, MARKED_FORMAT
+
+ROOT = Path(__file__).resolve().parents[2]
+SWITCH_INTERVAL = 0.0005
+"""Seconds after which a busy node must let the screen's thread run; Python's 5 ms make keys feel slow."""
+LAST_WORD = 0.2
+"""Seconds that the final zero Twist has to reach the robot before anything is shut down."""
+READY = 20.0
+LINE_LIMIT = 15.0
+"""Seconds after which a `ros2` line that does not end by itself is interrupted, as by Ctrl-C."""
+
+
+class Session:
+    """Holds the parts together."""
+
+    def __init__(self, options: Options) -> None:
+        self._options = options
+        self._closed = False
+        self.console = RosConsole(
+            launch_info=lambda: self.launcher.info(),
+            profile_folders=[ROOT / "profiles"],
+            active_profile="" if options.launch else options.profile,
+            run_line=run_line,
+        )
+        self.launcher = RosLauncher(self.console.record, self.console.printed, launch_files, self._spawn)
+        self.app = BotConsoleApp(
+            self.console, self.launcher, start_pane=options.pane, on_first_frame=self._on_first_frame
+        )
+
+    def run(self) -> int:
+        """Show the console until it is quit; the robot stands still when this returns, however it ended."""
+        with self._ended_by_signals(), _marked_output(), _eager_switching():
+            try:
+                self.app.run()
+            finally:
+                self.close()
+        return self.app.return_code or 0
+
+    def _on_first_frame(self) -> None:
+        from bot_console.runtime.process.virtual import reinstall_stdio
+
+        reinstall_stdio()
+        self.console.start()
+        threading.Thread(target=self._launch, name="start", daemon=True).start()
+
+    def _launch(self) -> None:
+        """Start the system as soon as the console listens, so that not even its first log line is lost."""
+        if not self.console.wait_ready(READY):
+            return
+        self._forget_notices = on_notice(self._on_notice)
+        options = self._options
+        if options.launch:
+            self.launcher.launch(options.launch, options.launch_arguments)
+            return
+        arguments = {"profile": options.profile, **options.launch_arguments}
+        if options.seed is not None:
+            arguments["seed"] = str(options.seed)
+        self.launcher.launch(str(ROOT / "launch" / "robot_system.launch.py"), arguments)
+
+    def _on_notice(self, process: NodeProcess, text: str) -> None:
+        self.console.printed(Severity.WARN, process.name, text)
+
+    def _spawn(self, target: Callable[[], None]) -> Launching:
+        """A launch is a node process too, so that what it prints goes to the log."""
+        return Launching(target, self.console.printed)
+
+    @contextlib.contextmanager
+    def _ended_by_signals(self) -> Iterator[None]:
+        """SIGTERM and SIGHUP (a closed terminal) stop the robot first, then end the app."""
+
+        def end(number: int, frame: FrameType | None) -> None:
+            self.console.all_stop(True)
+            self.app.exit(return_code=128 + number)
+
+        before = {each: signal.signal(each, end) for each in (signal.SIGTERM, signal.SIGHUP)}
+        try:
+            yield
+        finally:
+            for each, handler in before.items():
+                signal.signal(each, handler)
+
+    def close(self) -> None:
+        """Zero velocity, then end the launched processes, then leave the graph; a second call does nothing."""
+        if self._closed:
+            return
+        self._closed = True
+        self.console.all_stop(True)
+        threading.Event().wait(LAST_WORD)
+        self.launcher.close()
+        self.console.close()
+
+
+class Launching:
+    """One running launch."""
+
+    def __init__(self, target: Callable[[], None], printed: Callable[[int, str, str], None]) -> None:
+        self._process = NodeProcess("launch")
+
+        def tell(severity: Severity) -> Callable[[str], None]:
+            return lambda text: printed(severity, "launch", text.rstrip("\n")) if text.strip() else None
+
+        self._process.start(target, stdout=tell(Severity.INFO), stderr=tell(Severity.WARN))
+
+    def join(self, timeout: float | None = None) -> object:
+        """Wait for the end, at most so many seconds."""
+        return self._process.wait(timeout)
+
+
+def run(options: Options) -> int:
+    """Show the console."""
+    if not sys.stdout.isatty() or not sys.stdin.isatty():
+        print("bot-console needs a terminal; without one, use --headless", file=sys.stderr)
+        return 1
+    if options.launch and not Path(options.launch).is_file():
+        print(f"there is no launch file {options.launch}", file=sys.stderr)
+        return 1
+    install()
+    choose(options.workspace)
+    return Session(options).run()
+
+
+def run_line(line: str) -> str:
+    """Run a `ros2` line in a node process of its own and give what it printed."""
+    import shlex
+
+    from ros2cli.command_line import main
+
+    words = shlex.split(line)
+    words = words[1:] if words[:1] == ["ros2"] else words
+    if words[:1] == ["colcon"]:
+        return "Nothing has to be built: packages of the workspace are read from their sources."
+    printed: list[str] = []
+    process = NodeProcess("ros2")
+    process.start(lambda: sys.exit(main(words)), argv=["ros2", *words], stdout=printed.append, stderr=printed.append)
+    if process.wait(LINE_LIMIT) is None:
+        process.stop()
+    return "".join(printed)
+
+
+@contextlib.contextmanager
+def _marked_output() -> Iterator[None]:
+    """Loggers of launched nodes mark their lines, so that these are told from what is merely printed."""
+    before = os.environ.get(FORMAT_VARIABLE)
+    os.environ[FORMAT_VARIABLE] = MARKED_FORMAT
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ[FORMAT_VARIABLE]
+        else:
+            os.environ[FORMAT_VARIABLE] = before
+
+
+@contextlib.contextmanager
+def _eager_switching() -> Iterator[None]:
+    before = sys.getswitchinterval()
+    sys.setswitchinterval(SWITCH_INTERVAL)
+    try:
+        yield
+    finally:
+        sys.setswitchinterval(before)
