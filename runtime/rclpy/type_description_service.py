@@ -28,7 +28,7 @@ class TypeDescriptionService:
         if self.enabled:
             from type_description_interfaces.srv import GetTypeDescription
 
-            node.create_service(GetTypeDescription, "~/get_type_description", self._answer)
+            node.create_service(GetTypeDescription, self.service_name, self._answer)
 
     def _answer(self, request: Any, response: Any) -> Any:
         """Describe a type that an entity of this node has, found by its hash; words as rcl's."""
