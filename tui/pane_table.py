@@ -19,6 +19,8 @@ class PaneEntry:
     title: str
     class_name: str
     overview: bool = False
+    short: str = ""
+    """The title where there is little room; empty: the title."""
 
     def load(self) -> type[Pane]:
         """The class of the pane."""
@@ -26,7 +28,12 @@ class PaneEntry:
 
 
 PANES = (
-    PaneEntry("parameters", "1", "Parameters", "ParametersPane", overview=True),
-    PaneEntry("world", "5", "World", "WorldPane", overview=True),
+    PaneEntry("parameters", "1", "Parameters", "ParametersPane", overview=True, short="Params"),
     PaneEntry("logs", "2", "Logs", "LogsPane", overview=True),
+    PaneEntry("graph", "3", "Graph", "GraphPane"),
+    PaneEntry("plot", "4", "Plot", "PlotPane", overview=True),
+    PaneEntry("world", "5", "World", "WorldPane", overview=True),
+    PaneEntry("steering", "6", "Steering", "SteeringPane", short="Steer"),
+    PaneEntry("profiles", "7", "Profiles", "ProfilesPane"),
+    PaneEntry("launch", "8", "Launch", "LaunchPane"),
 )

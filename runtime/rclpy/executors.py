@@ -136,7 +136,7 @@ class Executor:
     def remove_node(self, node: Any) -> None:
         """Serve a node no more; its `executor` goes on pointing here, as upstream leaves it."""
         if self._nodes.pop(node, None) is not None:
-            node._detach(self)
+            node._detach()
 
     def get_nodes(self) -> list[Any]:
         """The nodes that are served."""
