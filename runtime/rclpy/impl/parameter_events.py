@@ -2,10 +2,28 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+from builtin_interfaces.msg import Time
 from rcl_interfaces.msg import Parameter as ParameterMsg
-from rcl_interfaces.msg import ParameterValue
+from rcl_interfaces.msg import ParameterEvent, ParameterValue
 from rclpy.impl.parameter_types import FIELDS
 from rclpy.parameter import Parameter
+
+NANO = 1_000_000_000
+
+
+def parameter_event(node: str, now: int, new: list[Any], changed: list[Any], deleted: list[Any]) -> ParameterEvent:
+    """The event of a node (full name) at a time (ns)."""
+    seconds, nanoseconds = divmod(now, NANO)
+    return ParameterEvent(
+        stamp=Time(sec=seconds, nanosec=nanoseconds, check_fields=False),
+        node=node,
+        new_parameters=new,
+        changed_parameters=changed,
+        deleted_parameters=deleted,
+        check_fields=False,
+    )
 
 
 def event_parameter(parameter: Parameter) -> ParameterMsg:

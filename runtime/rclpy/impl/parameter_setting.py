@@ -8,7 +8,7 @@ from typing import Any
 from rcl_interfaces.msg import ParameterDescriptor, ParameterEvent, SetParametersResult
 from rclpy.exceptions import ParameterNotDeclaredException
 from rclpy.impl.parameter_descriptors import refusal
-from rclpy.impl.parameter_events import event_parameter
+from rclpy.impl.parameter_events import event_parameter, parameter_event
 from rclpy.parameter import Parameter
 
 EMPTIED = (
@@ -87,15 +87,7 @@ class ParameterSetting:
             result = callback(parameters)
             if not result.successful:
                 return result
-        event = ParameterEvent(node=self._event_node_name, check_fields=False)
-        for parameter in parameters:
-            if parameter._type_ is NOT_SET and not keep_not_set:
-                event.deleted_parameters.append(event_parameter(parameter))
-                self._parameters.pop(parameter._name, None)
-                self._descriptors.pop(parameter._name, None)
-            else:
-                self._store(parameter, descriptors, event)
-        event.stamp = self._clock.now().to_msg()
+        event = self._store(parameters, descriptors, keep_not_set)
         self._parameter_event_publisher.publish(event)
         for callback in self._post_set_parameters_callbacks:
             callback(parameters)
@@ -120,17 +112,31 @@ class ParameterSetting:
         return None
 
     def _store(
-        self, parameter: Parameter, descriptors: dict[str, ParameterDescriptor] | None, event: ParameterEvent
-    ) -> None:
-        name = parameter._name
-        if descriptors is not None:
-            self._descriptors[name] = descriptors[name]
-        elif name not in self._descriptors:
-            self._descriptors[name] = ParameterDescriptor(dynamic_typing=True)
-        before = self._parameters.get(name)
-        new = before is None or before._type_ is NOT_SET
-        (event.new_parameters if new else event.changed_parameters).append(event_parameter(parameter))
-        self._parameters[name] = parameter
+        self,
+        parameters: Sequence[Parameter],
+        descriptors: dict[str, ParameterDescriptor] | None,
+        keep_not_set: bool,
+    ) -> ParameterEvent:
+        """Take the values over; returns the event that tells of them."""
+        stored = self._parameters
+        new: list[Any] = []
+        changed: list[Any] = []
+        deleted: list[Any] = []
+        for parameter in parameters:
+            name = parameter._name
+            if parameter._type_ is NOT_SET and not keep_not_set:
+                stored.pop(name, None)
+                self._descriptors.pop(name, None)
+                deleted.append(event_parameter(parameter))
+                continue
+            if descriptors is not None:
+                self._descriptors[name] = descriptors[name]
+            elif name not in self._descriptors:
+                self._descriptors[name] = ParameterDescriptor(dynamic_typing=True)
+            before = stored.get(name)
+            (new if before is None or before._type_ is NOT_SET else changed).append(event_parameter(parameter))
+            stored[name] = parameter
+        return parameter_event(self._event_node_name, self._clock._now_ns(), new, changed, deleted)
 
     def add_pre_set_parameters_callback(self, callback: Callable[[list[Parameter]], list[Parameter]]) -> None:
         """Call back with the parameters to be set, before any check; what it returns is set instead."""

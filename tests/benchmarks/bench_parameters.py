@@ -1,0 +1,131 @@
+"""What parameters cost: `python tests/benchmarks/bench_parameters.py [RUNS]`, JSON out.
+
+Processor time in microseconds, medians of some runs with spread; ratios are within one run. The floor is the cost of
+the messages that one change must make and send, without any rule around them.
+"""
+
+from __future__ import annotations
+
+import json
+import statistics
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from bot_console.runtime.importer import install
+
+install()
+
+import rclpy  # noqa: E402
+from rcl_interfaces.msg import (  # noqa: E402
+    FloatingPointRange,
+    ParameterDescriptor,
+    ParameterEvent,
+    ParameterValue,
+    SetParametersResult,
+)
+from rcl_interfaces.msg import Parameter as ParameterMsg  # noqa: E402
+from rclpy.parameter import Parameter  # noqa: E402
+
+SETS = 5_000
+ENTRIES = 1_000
+
+
+def validate(parameters: list[Parameter]) -> SetParametersResult:
+    for parameter in parameters:
+        if parameter.name == "speed" and not 0.1 <= parameter.value <= 5.0:
+            return SetParametersResult(successful=False, reason="Speed must be between 0.1 and 5.0")
+    return SetParametersResult(successful=True)
+
+
+def node_with_speed() -> Any:
+    node = rclpy.create_node("bench")
+    limits = FloatingPointRange(from_value=0.0, to_value=5.0)
+    node.declare_parameter("speed", 1.0, ParameterDescriptor(floating_point_range=[limits]))
+    node.add_on_set_parameters_callback(validate)
+    return node
+
+
+def per_call(action: Callable[[int], Any], count: int) -> float:
+    start = time.process_time()
+    for number in range(count):
+        action(number)
+    return (time.process_time() - start) / count * 1e6
+
+
+def floor_of_a_change() -> float:
+    """The result of the callback, the result of the call and the event, made and copied as the bus copies it."""
+
+    def make(number: int) -> None:
+        SetParametersResult(successful=True)
+        SetParametersResult(successful=True)
+        value = ParameterValue(type=3, double_value=float(number))
+        event = ParameterEvent(node="/bench", changed_parameters=[ParameterMsg(name="speed", value=value)])
+        event._copy_()
+
+    return per_call(make, SETS)
+
+
+def local_set(watched: bool) -> float:
+    """`set_parameters` of one parameter with range and callback; a subscription hears the event if `watched`."""
+    node = node_with_speed()
+    if watched:
+        node.create_subscription(ParameterEvent, "/parameter_events", lambda event: None, 10)
+    values = [1.0 + number % 100 / 100 for number in range(SETS)]
+    cost = per_call(lambda number: node.set_parameters([Parameter("speed", value=values[number])]), SETS)
+    node.destroy_node()
+    return cost
+
+
+def read() -> float:
+    """`get_parameter(...).value`."""
+    node = node_with_speed()
+    cost = per_call(lambda number: node.get_parameter("speed").value, SETS)
+    node.destroy_node()
+    return cost
+
+
+def parameter_file() -> float:
+    """Reading a file of many values and declaring them, for each value."""
+    lines = "".join(f"    group{number // 50}.p{number}: {number / 8}\n" for number in range(ENTRIES))
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "many.yaml"
+        path.write_text("/**:\n  ros__parameters:\n" + lines)
+        words = ["--ros-args", "--params-file", str(path)]
+        start = time.process_time()
+        node = rclpy.create_node("many", cli_args=words, automatically_declare_parameters_from_overrides=True)
+        cost = (time.process_time() - start) / ENTRIES * 1e6
+        node.destroy_node()
+    return cost
+
+
+MEASURES: dict[str, Callable[[], float]] = {
+    "floor_us": floor_of_a_change,
+    "local_set_us": lambda: local_set(False),
+    "local_set_watched_us": lambda: local_set(True),
+    "get_parameter_us": read,
+    "file_and_declare_us_each": parameter_file,
+}
+
+
+def main(runs: int) -> None:
+    rclpy.init(args=[])
+    rows: dict[str, list[float]] = {name: [] for name in MEASURES}
+    for _ in range(runs):
+        for name, measure in MEASURES.items():
+            rows[name].append(measure())
+    found: dict[str, Any] = {
+        name: {"median": round(statistics.median(row), 3), "low": round(min(row), 3), "high": round(max(row), 3)}
+        for name, row in rows.items()
+    }
+    ratios = [set_ / floor for set_, floor in zip(rows["local_set_us"], rows["floor_us"], strict=True)]
+    found["local_set_over_floor"] = round(statistics.median(ratios), 2)
+    print(json.dumps(found, indent=2))
+    rclpy.shutdown()
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]) if len(sys.argv) > 1 else 5)
