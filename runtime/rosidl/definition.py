@@ -89,10 +89,11 @@ class Field:
 
 @dataclass(frozen=True)
 class Constant:
-    """A constant and the Python literal of its value."""
+    """A constant, the Python literal of its value, and its type as definition files write it."""
 
     name: str
     value: str
+    type: str = ""
 
 
 @dataclass(frozen=True)

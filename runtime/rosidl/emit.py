@@ -82,8 +82,8 @@ def _constructor(definition: Definition, known: dict[str, str]) -> Iterator[str]
         "    self, *, " + "".join(each + ", " for each in arguments) + "check_fields: bool | None = None, **_other: Any"
     )
     yield ") -> None:"
-    yield "    self._check_fields = checks = _checks_asked_for() if check_fields is None else check_fields"
-    yield "    if checks and _other:"
+    yield "    self._check_fields = _checks = _checks_asked_for() if check_fields is None else check_fields"
+    yield "    if _checks and _other:"
     yield "        raise AssertionError('Invalid arguments passed to constructor: ' + ', '.join(sorted(_other)))"
     for field in definition.fields:
         yield from ("    " + line for line in _initial(field, known))
@@ -96,7 +96,7 @@ def _is_plain(kind: Type) -> bool:
 def _initial(field: Field, known: dict[str, str]) -> Iterator[str]:
     name = field.name
     if _is_plain(field.type):
-        yield "if checks:"
+        yield "if _checks:"
         yield f"    self._check('{name}', {name})"
         yield f"self._{name} = {name}"
         return

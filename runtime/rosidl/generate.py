@@ -1,4 +1,4 @@
-"""Generates the modules of the standard interfaces into `generated/`; run by the build hook, and by hand as a script."""
+"""Generates the modules of the standard interfaces into `generated/`; run by the build hook, or by hand."""
 
 from __future__ import annotations
 
@@ -21,11 +21,12 @@ def main() -> None:
     fresh = HERE / "generated.new"
     shutil.rmtree(fresh, ignore_errors=True)
     folders: dict[Path, dict[str, str]] = {}
-    for each in interfaces():
+    for each, text in interfaces():
         folder = fresh / each.package / each.kind
         folder.mkdir(parents=True, exist_ok=True)
         file = module_name(each.name)
         (folder / f"{file}.py").write_text(module(each), encoding="utf-8")
+        (folder / f"{each.name}.{each.kind}").write_text(text, encoding="utf-8")
         names = folders.setdefault(folder, {})
         names[each.name] = file
         if each.kind != "msg":

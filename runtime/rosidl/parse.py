@@ -11,7 +11,8 @@ LINE = re.compile(
     r"^(?P<type>[A-Za-z][\w/]*)(?:<=(?P<limit>\d+))?(?P<array>\[(?:<=)?\d*\])?\s+(?P<name>[A-Za-z]\w*)\s*(?P<rest>.*)$"
 )
 CONSTANT = re.compile(r"^[A-Z]([A-Z0-9_]*[A-Z0-9])?$")
-FIELD = re.compile(r"^[a-z]\w*$")
+FIELD = re.compile(r"^(?!.*__)(?!.*_$)[a-z][a-z0-9_]*$")
+NAME = re.compile(r"^[A-Z][A-Za-z0-9]*$")
 PARTS = {"msg": ("",), "srv": ("_Request", "_Response"), "action": ("_Goal", "_Result", "_Feedback")}
 TEXTS = ("string", "wstring")
 
@@ -23,13 +24,15 @@ class DefinitionError(ValueError):
 def parse(text: str, package: str, kind: str, name: str, file: str = "") -> Interface:
     """Read the text of a definition file; raises `DefinitionError`."""
     names = PARTS[kind]
+    where = file or f"{package}/{kind}/{name}"
+    if not NAME.match(name):
+        raise DefinitionError(f"{where}: '{name}' is no interface name (a capital letter, then letters and digits)")
     sections: list[list[tuple[int, str]]] = [[]]
     for number, line in enumerate(text.splitlines(), 1):
         if line.strip() == "---":
             sections.append([])
         else:
             sections[-1].append((number, line))
-    where = file or f"{package}/{kind}/{name}"
     if len(sections) != len(names):
         raise DefinitionError(f"{where}: a .{kind} file has {len(names) - 1} lines with '---', not {len(sections) - 1}")
     parts = [_part(name + suffix, rows, package, where) for suffix, rows in zip(names, sections, strict=True)]
@@ -81,8 +84,8 @@ def _row(line: str, package: str) -> Field | Constant:
     if rest.startswith("="):
         if not CONSTANT.match(name) or not kind.primitive or kind.sequence or kind.size:
             raise ValueError("a constant has a primitive type and a NAME in capitals")
-        return Constant(name, _literal(rest[1:].strip(), kind))
-    if not FIELD.match(name) or "__" in name or name.endswith("_"):
+        return Constant(name, _literal(rest[1:].strip(), kind), match["type"])
+    if not FIELD.match(name):
         raise ValueError(f"'{name}' is no field name (lower case letters, digits, single underscores)")
     return Field(name, kind, _default(rest, kind) if rest else None)
 

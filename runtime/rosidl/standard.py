@@ -8,6 +8,7 @@ from typing import Any
 
 from bot_console.runtime.rosidl.definition import PRIMITIVES, Constant, Definition, Field, Interface, Type
 from bot_console.runtime.rosidl.parse import parse
+from bot_console.runtime.rosidl.write import written
 
 FOLDER = Path(__file__).resolve().parent / "definitions"
 DEFAULTS = {
@@ -21,20 +22,21 @@ EMPTY = "structure_needs_at_least_one_member"
 LEFT_OUT = ("actionlib_msgs", "rosbag2_interfaces", "rmw_dds_common")
 
 
-def interfaces() -> Iterator[Interface]:
-    """All standard interfaces; a definition of ours wins over the type store's."""
+def interfaces() -> Iterator[tuple[Interface, str]]:
+    """All standard interfaces with their text; a definition of ours wins over the type store's."""
     ours = list(_ours())
-    known = {(each.package, each.kind, each.name) for each in ours}
+    known = {(each.package, each.kind, each.name) for each, _ in ours}
     yield from ours
     for each in _from_store():
         if (each.package, each.kind, each.name) not in known:
-            yield each
+            yield each, written(each)
 
 
-def _ours() -> Iterator[Interface]:
+def _ours() -> Iterator[tuple[Interface, str]]:
     for path in sorted(FOLDER.glob("*/*/*.*")):
         kind = path.suffix[1:]
-        yield parse(path.read_text(encoding="utf-8"), path.parts[-3], kind, path.stem, str(path))
+        text = path.read_text(encoding="utf-8")
+        yield parse(text, path.parts[-3], kind, path.stem, str(path)), text
 
 
 def _from_store() -> Iterator[Interface]:
@@ -49,7 +51,8 @@ def _from_store() -> Iterator[Interface]:
 
 
 def _constant(name: str, kind: str, value: Any) -> Constant:
-    return Constant(name, repr(bytes([value]) if kind == "byte" and isinstance(value, int) else value))
+    literal = repr(bytes([value]) if kind == "byte" and isinstance(value, int) else value)
+    return Constant(name, literal, kind)
 
 
 def _field(owner: str, name: str, description: Any) -> Field:

@@ -1,4 +1,4 @@
-"""Descriptions of interface classes as in `type_description_interfaces/msg/TypeDescription` (REP 2016), in plain data."""
+"""Descriptions of interface classes, as in `type_description_interfaces/msg/TypeDescription`, in plain data."""
 
 from __future__ import annotations
 

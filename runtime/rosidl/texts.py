@@ -1,0 +1,51 @@
+"""The definition files of all interfaces there are: of the standard packages, and of packages that others add."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+GENERATED = Path(__file__).resolve().parent / "generated"
+KINDS = ("msg", "srv", "action")
+Folders = Callable[[], Mapping[str, Path]]
+_sources: list[Folders] = []
+
+
+def add_source(folders: Folders) -> None:
+    """Let what `folders` gives count as well: package names with the folders in which `msg`, `srv`, `action` lie."""
+    if folders not in _sources:
+        _sources.append(folders)
+
+
+def package_folder(package: str) -> Path | None:
+    """The folder in which a package's `msg`, `srv` and `action` lie; None for an unknown package."""
+    if (GENERATED / package).is_dir():
+        return GENERATED / package
+    return next((found[package] for each in _sources if package in (found := each())), None)
+
+
+def known_packages() -> Sequence[str]:
+    """Names of all packages that define interfaces, sorted."""
+    standard = (each.name for each in GENERATED.iterdir() if each.is_dir() and not each.name.startswith("_"))
+    return sorted({*standard, *(name for each in _sources for name in each())})
+
+
+def interface_names(package: str) -> Sequence[str]:
+    """Interfaces of a package such as `msg/String`, sorted."""
+    folder = package_folder(package)
+    if folder is None:
+        return []
+    return sorted(f"{kind}/{path.stem}" for kind in KINDS for path in (folder / kind).glob(f"*.{kind}"))
+
+
+def definition_path(package: str, kind: str, name: str) -> Path | None:
+    """The definition file of an interface; None where there is none."""
+    folder = package_folder(package)
+    path = None if folder is None or kind not in KINDS else folder / kind / f"{name}.{kind}"
+    return path if path is not None and path.is_file() else None
+
+
+def definition_text(package: str, kind: str, name: str) -> str | None:
+    """The text of a definition file, comments and all; None where there is none."""
+    path = definition_path(package, kind, name)
+    return None if path is None else path.read_text(encoding="utf-8")

@@ -1,0 +1,49 @@
+"""Writes interfaces as `.msg`, `.srv` and `.action` files have them."""
+
+from __future__ import annotations
+
+import ast
+from typing import Any
+
+from bot_console.runtime.rosidl.definition import PRIMITIVES, Constant, Definition, Field, Interface, Type
+
+WORDS = {"boolean": "bool", "octet": "byte", "float": "float32", "double": "float64"}
+WORDS = {name: WORDS.get(name, name) for name in PRIMITIVES.values()}
+
+
+def written(interface: Interface) -> str:
+    """The text of a definition file, its parts divided by `---`."""
+    return "---\n".join(_part(each, interface.package) for each in interface.parts)
+
+
+def _part(definition: Definition, package: str) -> str:
+    lines = [_constant(each) for each in definition.constants]
+    lines += [_field(each, package) for each in definition.fields]
+    return "".join(line + "\n" for line in lines)
+
+
+def _constant(constant: Constant) -> str:
+    return f"{constant.type} {constant.name}={_value(ast.literal_eval(constant.value))}"
+
+
+def _field(field: Field, package: str) -> str:
+    text = f"{_type(field.type, package)} {field.name}"
+    return text if field.default is None else f"{text} {_value(ast.literal_eval(field.default))}"
+
+
+def _type(kind: Type, package: str) -> str:
+    item = WORDS[kind.item] if kind.primitive else kind.item.removeprefix(f"{package}/")
+    item += f"<={kind.limit}" if kind.limit else ""
+    if kind.sequence:
+        return f"{item}[<={kind.bound}]" if kind.bound else f"{item}[]"
+    return f"{item}[{kind.size}]" if kind.size else item
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, bytes):
+        return str(value[0])
+    if isinstance(value, list):
+        return "[" + ", ".join(map(_value, value)) + "]"
+    return repr(value)

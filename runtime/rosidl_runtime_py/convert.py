@@ -1,0 +1,154 @@
+"""Messages as YAML, CSV and dictionaries; the output is that of `ros2 topic echo`."""
+
+from __future__ import annotations
+
+import sys
+from array import array
+from collections import OrderedDict
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+from rosidl_parser.definition import AbstractString, AbstractWString, Array, BasicType, BoundedSequence
+
+
+@dataclass(frozen=True)
+class Shortening:
+    """What is left out: elements and characters beyond `length`, arrays, strings."""
+
+    length: int | None = None
+    no_arrays: bool = False
+    no_strings: bool = False
+
+    def cuts(self, value: Any) -> bool:
+        """Whether a value is longer than what is shown."""
+        return self.length is not None and len(value) > self.length
+
+
+def message_to_yaml(
+    msg: Any,
+    *,
+    truncate_length: int | None = None,
+    no_arr: bool = False,
+    no_str: bool = False,
+    flow_style: bool = False,
+) -> str:
+    """A message as YAML; each sequence and string up to `truncate_length`, followed by `...`."""
+    import yaml
+
+    values = message_to_ordereddict(msg, truncate_length=truncate_length, no_arr=no_arr, no_str=no_str)
+    return yaml.dump(values, Dumper=_dumper(), allow_unicode=True, width=sys.maxsize, default_flow_style=flow_style)
+
+
+@cache
+def _dumper() -> Any:
+    import yaml
+
+    class Dumper(yaml.Dumper):
+        """Writes fields in their order."""
+
+    def in_order(dumper: Any, data: OrderedDict[str, Any]) -> Any:
+        rows = [(dumper.represent_data(key), dumper.represent_data(value)) for key, value in data.items()]
+        return yaml.MappingNode("tag:yaml.org,2002:map", rows)
+
+    Dumper.add_representer(OrderedDict, in_order)
+    return Dumper
+
+
+def message_to_csv(msg: Any, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False) -> str:
+    """The values of a message with commas between them."""
+    return _csv(msg, Shortening(truncate_length, no_arr, no_str))
+
+
+def _csv(msg: Any, short: Shortening) -> str:
+    types = zip(msg.get_fields_and_field_types(), msg.SLOT_TYPES, strict=False)
+    return ",".join(_csv_value(getattr(msg, name), kind, short) for name, kind in types)
+
+
+def _csv_value(value: Any, kind: Any, short: Shortening) -> str:
+    if _is_array(value):
+        if short.no_arrays and kind is not None:
+            return _array_words(value, kind)
+        shown = value[: short.length] if short.cuts(value) else value
+        items = [_csv_value(each, None, short) for each in shown]
+        return ",".join([*items, "..."] if short.cuts(value) else items)
+    if isinstance(value, str) and short.no_strings:
+        return _string_words(value)
+    if isinstance(value, (str, bytes)) and short.cuts(value):
+        rest = b"..." if isinstance(value, bytes) else "..."
+        return str(value[: short.length] + rest)
+    if isinstance(value, (str, bytes, bool, int, float)) or _is_numpy_number(value):
+        return str(value)
+    return _csv(value, short)
+
+
+def message_to_ordereddict(
+    msg: Any, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False
+) -> OrderedDict[str, Any]:
+    """The fields of a message in their order, nested ones as dictionaries too."""
+    return _ordered(msg, Shortening(truncate_length, no_arr, no_str))
+
+
+def _ordered(msg: Any, short: Shortening) -> OrderedDict[str, Any]:
+    types = zip(msg.get_fields_and_field_types(), msg.SLOT_TYPES, strict=False)
+    return OrderedDict((name, _plain(getattr(msg, name, None), kind, short)) for name, kind in types)
+
+
+def _plain(value: Any, kind: Any, short: Shortening) -> Any:
+    if isinstance(value, bytes):
+        text = value.decode("latin-1")
+        return text[: short.length] + "..." if short.cuts(text) else text
+    if isinstance(value, str):
+        if short.no_strings:
+            return _string_words(value)
+        return value[: short.length] + "..." if short.cuts(value) else value
+    if _is_array(value):
+        return _plain_array(value, kind, short)
+    if isinstance(value, Mapping):
+        return {_plain(key, None, Shortening()): _plain(each, None, short) for key, each in value.items()}
+    if _is_numpy_number(value):
+        return value.item()
+    return value if isinstance(value, (bool, int, float)) else _ordered(value, short)
+
+
+def _plain_array(value: Any, kind: Any, short: Shortening) -> Any:
+    if short.no_arrays and kind is not None:
+        return _array_words(value, kind)
+    shown = value[: short.length] if short.cuts(value) else value
+    items = [_plain(each, None, short) for each in shown]
+    items += ["..."] if short.cuts(value) else []
+    return tuple(items) if isinstance(value, tuple) else items
+
+
+def _is_array(value: Any) -> bool:
+    return isinstance(value, (list, tuple, array)) or type(value).__name__ == "ndarray"
+
+
+def _is_numpy_number(value: Any) -> bool:
+    return type(value).__module__ == "numpy" and hasattr(value, "item")
+
+
+def _string_words(value: str) -> str:
+    return f"<string length: <{len(value)}>>"
+
+
+def _array_words(value: Any, kind: Any) -> str:
+    item = _item_words(kind.value_type)
+    if isinstance(kind, Array):
+        return f"<array type: {item}[{kind.size}]>"
+    bound = f"[{kind.maximum_size}]" if isinstance(kind, BoundedSequence) else ""
+    return f"<sequence type: {item}{bound}, length: {len(value)}>"
+
+
+def _item_words(kind: Any) -> str:
+    if isinstance(kind, BasicType):
+        return kind.typename
+    if isinstance(kind, AbstractString):
+        return "string"
+    return "wstring" if isinstance(kind, AbstractWString) else "/".join(kind.namespaced_name())
+
+
+def get_message_slot_types(msg: Any) -> OrderedDict[str, Any]:
+    """The types of a message's fields by name, as `rosidl_parser.definition` has them."""
+    return OrderedDict(zip((slot[1:] for slot in msg.__slots__), msg.SLOT_TYPES, strict=False))

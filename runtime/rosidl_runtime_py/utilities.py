@@ -1,0 +1,79 @@
+"""Interface classes by their full name, such as `std_msgs/msg/String`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rosidl_parser.definition import NamespacedType
+from rosidl_runtime_py.import_message import import_message_from_namespaced_type
+
+
+def get_interface(identifier: str) -> Any:
+    """The class of any interface; raises `ImportError` or `AttributeError` where there is none."""
+    return import_message_from_namespaced_type(get_namespaced_type(identifier))
+
+
+def get_message(identifier: str) -> Any:
+    """The class of a message, `std_msgs/String` will do; raises `ValueError` for a service or action."""
+    interface = import_message_from_namespaced_type(get_message_namespaced_type(identifier))
+    if not is_message(interface):
+        raise ValueError(f"Expected the full name of a message, got '{identifier}'")
+    return interface
+
+
+def get_service(identifier: str) -> Any:
+    """The class of a service, `std_srvs/Trigger` will do; raises `ValueError` for a message or action."""
+    interface = import_message_from_namespaced_type(get_service_namespaced_type(identifier))
+    if not is_service(interface):
+        raise ValueError(f"Expected the full name of a service, got '{identifier}'")
+    return interface
+
+
+def get_action(identifier: str) -> Any:
+    """The class of an action, `example_interfaces/Fibonacci` will do; raises `ValueError` for anything else."""
+    interface = import_message_from_namespaced_type(get_action_namespaced_type(identifier))
+    if not is_action(interface):
+        raise ValueError(f"Expected the full name of an action, got '{identifier}'")
+    return interface
+
+
+def get_namespaced_type(identifier: str) -> NamespacedType:
+    """The type of a full name."""
+    return _namespaced(identifier)
+
+
+def get_message_namespaced_type(identifier: str) -> NamespacedType:
+    """The type of a message's name, `msg` added where it is left out."""
+    return _namespaced(identifier, "msg")
+
+
+def get_service_namespaced_type(identifier: str) -> NamespacedType:
+    """The type of a service's name, `srv` added where it is left out."""
+    return _namespaced(identifier, "srv")
+
+
+def get_action_namespaced_type(identifier: str) -> NamespacedType:
+    """The type of an action's name, `action` added where it is left out."""
+    return _namespaced(identifier, "action")
+
+
+def _namespaced(identifier: str, kind: str = "") -> NamespacedType:
+    *namespaces, name = identifier.split("/")
+    if len(namespaces) == 1 and kind:
+        namespaces.append(kind)
+    return NamespacedType(namespaces, name)
+
+
+def is_message(interface: Any) -> bool:
+    """Whether an object is a message class or a message."""
+    return hasattr(interface, "SLOT_TYPES")
+
+
+def is_service(interface: Any) -> bool:
+    """Whether an object is a service class."""
+    return hasattr(interface, "Request") and hasattr(interface, "Response")
+
+
+def is_action(interface: Any) -> bool:
+    """Whether an object is an action class."""
+    return all(hasattr(interface, part) for part in ("Goal", "Result", "Feedback"))
