@@ -67,6 +67,11 @@ class LocalPublisher:
         """How many subscriptions receive."""
         return len(self.targets)
 
+    @property
+    def published(self) -> int:
+        """How many messages were published."""
+        return self._number
+
     def late(self, target: SubscriptionEndpoint) -> None:
         """Give a subscription that has come late what was kept for it."""
         now = current().clock.system_ns()
@@ -112,6 +117,11 @@ class LocalBus:
         self._services: dict[str, list[ServiceEndpoint]] = {}
         self._clients: dict[str, list[ClientEndpoint]] = {}
         self._watchers: list[Notify] = []
+
+    def published(self) -> int:
+        """How many messages the present publishers have published in all."""
+        with self._lock:
+            return sum(each.published for publishers in self._publishers.values() for each in publishers)
 
     def add_node(self, name: str, namespace: str, enclave: str) -> NodeId:
         """Let a node appear in the graph."""

@@ -1,0 +1,80 @@
+"""The node of a headless run that asks the simulator for its report when the time has come."""
+
+from __future__ import annotations
+
+import json
+import threading
+from typing import Any
+
+import rclpy
+from rclpy.clock import Clock, ClockType
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from std_srvs.srv import Trigger
+
+PROBE_PERIOD = 0.1
+"""Seconds between two looks at how late a timer is called."""
+
+
+class Observer:
+    """Waits for the end of a run of `duration` s, asks `report`, and keeps what it learns."""
+
+    def __init__(self, duration: float) -> None:
+        self._duration = duration
+        self._figures: dict[str, Any] = {}
+        self._late: list[float] = []
+        self._collisions = 0
+        self._node: Node | None = None
+        self.done = threading.Event()
+        self.complete = False
+        """Whether the simulator has answered."""
+
+    def run(self) -> None:
+        """The main of the observer's node process."""
+        rclpy.init()
+        self._node = node = rclpy.create_node(
+            "_observer", enable_rosout=False, start_parameter_services=False, use_global_arguments=False
+        )
+        self._steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._client = node.create_client(Trigger, "/report")
+        self._end = node.create_timer(self._duration, self._ask, clock=self._steady)
+        self._due = self._steady.now().nanoseconds
+        node.create_timer(PROBE_PERIOD, self._probe, clock=self._steady)
+        try:
+            rclpy.spin(node)
+        except (KeyboardInterrupt, ExternalShutdownException):
+            pass
+        finally:
+            node.destroy_node()
+            rclpy.try_shutdown()
+
+    def _probe(self) -> None:
+        period = round(PROBE_PERIOD * 1e9)
+        now = self._steady.now().nanoseconds
+        self._due += period
+        self._late.append((now - self._due) * 1e-6)
+        self._due += max(0, now - self._due) // period * period
+
+    def _ask(self) -> None:
+        self._end.cancel()
+        if not self._client.service_is_ready():
+            self.done.set()
+            return
+        self._client.call_async(Trigger.Request()).add_done_callback(self._answered)
+
+    def _answered(self, future: Any) -> None:
+        self._figures = json.loads(future.result().message)
+        self.complete = True
+        self._figures["messages"] = self._node.context.bus.published() if self._node else 0
+        self.done.set()
+
+    def report(self) -> dict[str, Any]:
+        """What is known; times in s, lateness in ms."""
+        late = sorted(self._late)
+        if late:
+            self._figures["timer_lateness_ms"] = {
+                "median": round(late[len(late) // 2], 3),
+                "p99": round(late[min(len(late) - 1, len(late) * 99 // 100)], 3),
+                "max": round(late[-1], 3),
+            }
+        return self._figures
