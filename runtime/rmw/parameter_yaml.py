@@ -27,7 +27,8 @@ def chosen(slots: Slots) -> Any:
     for is_list in (False, True):
         for kind in _KINDS:
             if (kind, is_list) in slots:
-                return slots[kind, is_list]
+                value = slots[kind, is_list]
+                return list(value) if is_list else value
     return None
 
 
