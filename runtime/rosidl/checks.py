@@ -1,88 +1,106 @@
-"""Field checks with rclpy's words; on with `check_fields=True` or `ROS_PYTHON_CHECK_FIELDS=1`."""
+"""Field checks with the words of Jazzy; on with `check_fields=True` or `ROS_PYTHON_CHECK_FIELDS=1`."""
 
 from __future__ import annotations
 
 import math
 from array import array
+from collections.abc import Callable, Sequence, Set
 from functools import lru_cache
 from typing import Any
 
 from bot_console.runtime.rosidl.definition import DTYPES, INTEGERS, TYPECODES, Type, parse_type
 from bot_console.runtime.rosidl.emit_copy import LIMITS
+from bot_console.runtime.rosidl.slot_types import nested_class
 
-SINGLE = 3.402823466e38
-DOUBLE = 1.7976931348623157e308
+BOUNDS = {"float": (3.402823466e38, "3.402823466e+38"), "double": (1.7976931348623157e308, "1.7976931348623157e+308")}
+PYTHON = {"boolean": bool, "octet": bytes, "string": str, "wstring": str, "float": float, "double": float}
 cached_type = lru_cache(None)(parse_type)
 
 
-def check(text: str, field: str, value: Any) -> None:
-    """Raise `AssertionError` unless a value fits the type that `text` names."""
-    kind = cached_type(text)
-    if kind.size and kind.item in DTYPES:
-        _fixed(kind, field, value)
-    elif kind.sequence or kind.size:
-        _many(kind, field, value)
+def check(owner: Any, field: str, value: Any) -> bool:
+    """Raise `AssertionError` unless a value fits a field; whether it is an array that the field can keep."""
+    kind = cached_type(owner._fields_and_field_types[field])
+    if kind.sequence or kind.size:
+        if kind.item in TYPECODES and _is_kept(kind, field, value):
+            return True
+        _many(kind, owner, field, value)
     else:
-        _one(kind, field, value)
+        _one(kind, owner, field, value)
+    return False
 
 
-def _one(kind: Type, field: str, value: Any) -> None:
+def _class(kind: Type, owner: Any) -> Any:
     if not kind.primitive:
-        name = kind.item.rpartition("/")[2]
-        assert type(value).__name__ == name, f"The '{field}' field must be a sub message of type '{name}'"
-    elif kind.item in INTEGERS:
-        assert isinstance(value, int), f"The '{field}' field must be of type 'int'"
-        low, high = LIMITS[kind.item]
-        word = "an unsigned integer" if kind.item.startswith("u") else "an integer"
-        assert low <= value <= high, f"The '{field}' field must be {word} in [{low}, {high}]"
-    elif kind.item in ("float", "double"):
-        assert isinstance(value, float), f"The '{field}' field must be of type 'float'"
-        limit = SINGLE if kind.item == "float" else DOUBLE
-        text = "3.402823466e+38" if kind.item == "float" else "1.7976931348623157e+308"
-        fits = not (-limit > value or value > limit) or math.isinf(value)
-        assert fits, f"The '{field}' field must be a float in [-{text}, {text}]"
+        return nested_class(owner, kind.item)
+    return PYTHON.get(kind.item, int)
+
+
+def _one(kind: Type, owner: Any, field: str, value: Any) -> None:
+    cls = _class(kind, owner)
+    if not kind.primitive:
+        assert isinstance(value, cls), f"The '{field}' field must be a sub message of type '{cls.__name__}'"
     elif kind.item == "octet":
         fits = isinstance(value, (bytes, bytearray)) and len(value) == 1
         assert fits, f"The '{field}' field must be of type 'bytes' or 'ByteString' with length 1"
+    elif kind.limit:
+        fits = isinstance(value, str) and len(value) <= kind.limit
+        assert fits, f"The '{field}' field must be string value not longer than {kind.limit}"
     else:
-        name = "bool" if kind.item == "boolean" else "str"
-        assert isinstance(value, bool if name == "bool" else str), f"The '{field}' field must be of type '{name}'"
-        if kind.limit:
-            assert len(value) <= kind.limit, f"The '{field}' field must be string value not longer than {kind.limit}"
+        assert isinstance(value, cls), f"The '{field}' field must be of type '{cls.__name__}'"
+        fits, words = _range(kind, "{}")
+        assert fits(value), f"The '{field}' field must be {words}"
 
 
-def _fixed(kind: Type, field: str, value: Any) -> None:
-    import numpy
+def _range(kind: Type, number: str) -> tuple[Callable[[Any], bool], str]:
+    """Whether a number is in the range of its type, and how that range is called; `number` formats the bounds."""
+    if kind.item in INTEGERS:
+        low, high = LIMITS[kind.item]
+        word = "an integer" if low else "an unsigned integer"
+        return (lambda value: low <= value <= high), f"{word} in [{low}, {high}]"
+    if kind.item in BOUNDS:
+        bound, text = BOUNDS[kind.item]
+        shown = text if number == "{}" else number.format(bound)
+        fits = lambda value: not (value < -bound or value > bound) or math.isinf(value)  # noqa: E731
+        return fits, f"a {kind.item} in [-{shown}, {shown}]"
+    return (lambda value: True), ""
 
-    if isinstance(value, numpy.ndarray):
+
+def _is_kept(kind: Type, field: str, value: Any) -> bool:
+    """Whether a value is the very array type of the field; its element type and size are checked."""
+    if kind.size and type(value).__name__ == "ndarray":
         dtype = DTYPES[kind.item]
         assert value.dtype == dtype, f"The '{field}' numpy.ndarray() must have the dtype of 'numpy.{dtype}'"
-    size = getattr(value, "size", None) or len(value)
-    assert size == kind.size, f"The '{field}' numpy.ndarray() must have a size of {kind.size}"
+        assert value.size == kind.size, f"The '{field}' numpy.ndarray() must have a size of {kind.size}"
+        return True
+    if kind.sequence and isinstance(value, array):
+        code = TYPECODES[kind.item]
+        assert value.typecode == code, f"The '{field}' array.array() must have the type code of '{code}'"
+        fits = not kind.bound or len(value) <= kind.bound
+        assert fits, f"The '{field}' array.array() must have a size <= {kind.bound}"
+        return True
+    return False
 
 
-def _many(kind: Type, field: str, value: Any) -> None:
-    if isinstance(value, array) and kind.item in TYPECODES:
-        _bounded(kind, field, value)
+def _many(kind: Type, owner: Any, field: str, value: Any) -> None:
+    cls = _class(kind, owner)
+    in_range, words = _range(kind, "{:f}")
+    fits = (
+        isinstance(value, (Sequence, Set))
+        and not isinstance(value, str)
+        and (not kind.limit or all(len(each) <= kind.limit for each in value))
+        and (not kind.bound or len(value) <= kind.bound)
+        and (not kind.size or len(value) == kind.size)
+        and all(isinstance(each, cls) for each in value)
+        and all(in_range(each) for each in value)
+    )
+    if fits:
         return
-    if kind.item in TYPECODES:
-        array(TYPECODES[kind.item], value)
-        return
-    word = "a set or sequence"
-    sequence = isinstance(value, (list, tuple, set, bytes, bytearray)) and not isinstance(value, str)
-    assert sequence, f"The '{field}' field must be {word} and each value of type '{_element(kind)}'"
-    _bounded(kind, field, value)
-    for each in value:
-        _one(Type(kind.item, limit=kind.limit), field, bytes([each]) if isinstance(each, int) and isinstance(value, bytes) else each)  # fmt: skip
-
-
-def _bounded(kind: Type, field: str, value: Any) -> None:
-    if kind.bound:
-        assert len(value) <= kind.bound, f"The '{field}' field must be a set or sequence with length <= {kind.bound}"
-    if kind.size:
-        assert len(value) == kind.size, f"The '{field}' field must be a set or sequence with length {kind.size}"
-
-
-def _element(kind: Type) -> str:
-    words = {"boolean": "bool", "octet": "bytes", "string": "str", "wstring": "str"}
-    return words.get(kind.item, kind.item.rpartition("/")[2])
+    parts = ["a set or sequence"]
+    if kind.bound or kind.size:
+        parts.append(f"with length <= {kind.bound}" if kind.bound else f"with length {kind.size}")
+    if kind.limit:
+        parts.append(f"and each string value not longer than {kind.limit}")
+    parts.append(f"and each value of type '{cls.__name__}'")
+    if words:
+        parts.append(f"and each {words.partition(' ')[2]}")
+    raise AssertionError(f"The '{field}' field must be {' '.join(parts)}")

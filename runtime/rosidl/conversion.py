@@ -5,7 +5,6 @@ What the wire would take is converted; what it would not is an error that names 
 
 from __future__ import annotations
 
-from array import array
 from typing import Any
 
 
@@ -148,16 +147,11 @@ def to_messages(message: Any, field: str, cls: Any, size: int, bound: int) -> li
     return copies
 
 
-def to_array(typecode: str, value: Any) -> array[Any]:
-    """What a setter makes of a value for a sequence of numbers."""
-    return value if isinstance(value, array) and value.typecode == typecode else array(typecode, value)
-
-
 def to_ndarray(dtype: str, value: Any) -> Any:
     """What a setter makes of a value for numbers of fixed size."""
     import numpy
 
-    return value if isinstance(value, numpy.ndarray) else numpy.array(value, dtype)
+    return numpy.array(value, dtype)
 
 
 def zeros(dtype: str, size: int) -> Any:

@@ -20,7 +20,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.rosidl.conversion import (
-    to_array as _to_array, to_bool as _to_bool, to_fixed as _to_fixed, to_float as _to_float, to_int as _to_int,
+    to_bool as _to_bool, to_fixed as _to_fixed, to_float as _to_float, to_int as _to_int,
     to_list as _to_list, to_message as _to_message, to_messages as _to_messages, to_ndarray as _to_ndarray,
     to_octet as _to_octet, to_str as _to_str, too_long as _too_long, zeros as _zeros,
 )
@@ -61,6 +61,9 @@ def _message(definition: Definition, known: dict[str, str]) -> Iterator[str]:
     yield f"    _fields_and_field_types = {types!r}"
     for constant in definition.constants:
         yield f"    {constant.name} = {constant.value}"
+    for field in definition.fields:
+        if field.default is not None:
+            yield f"    {field.name.upper()}__DEFAULT = {field.default}"
     yield ""
     yield from ("    " + line for line in _constructor(definition, known))
     yield ""
@@ -103,9 +106,16 @@ def _initial(field: Field, known: dict[str, str]) -> Iterator[str]:
     yield f"if {name} is _MISSING:"
     yield f"    self._{name} = {_default(field, known)}"
     yield "else:"
-    yield f"    self.{name} = {name}"
+    yield f"    self.{name} = {_converted(field.type, name)}"
     if field.type.size and field.type.item in DTYPES:
         yield f"    assert self._{name}.shape == ({field.type.size},)"
+
+
+def _converted(kind: Type, value: str) -> str:
+    """What a constructor or a setter makes of a value: numbers are always copied."""
+    if kind.size and kind.item in DTYPES:
+        return f"_to_ndarray('{DTYPES[kind.item]}', {value})"
+    return f"_array('{TYPECODES[kind.item]}', {value})" if kind.sequence and kind.item in TYPECODES else value
 
 
 def _default(field: Field, known: dict[str, str] | None = None) -> str:
@@ -165,14 +175,15 @@ def _property(field: Field, known: dict[str, str]) -> Iterator[str]:
     yield ""
     yield f"@{name}.setter"
     yield f"def {name}(self, value: {_taken(kind, known)}) -> None:"
+    converted = _converted(kind, "value")
     yield "    if self._check_fields:"
-    yield f"        self._check('{name}', value)"
-    if kind.size and kind.item in DTYPES:
-        yield f"    self._{name} = _to_ndarray('{DTYPES[kind.item]}', value)"
-    elif kind.item in TYPECODES and kind.sequence:
-        yield f"    self._{name} = _to_array('{TYPECODES[kind.item]}', value)"
+    if converted == "value":
+        yield f"        self._check('{name}', value)"
     else:
-        yield f"    self._{name} = value  # type: ignore[assignment]"
+        yield f"        if self._check('{name}', value):"
+        yield f"            self._{name} = value"
+        yield "            return"
+    yield f"    self._{name} = {converted}  # type: ignore[assignment]"
 
 
 def _holder(interface: Interface) -> Sequence[str]:

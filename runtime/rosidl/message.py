@@ -31,11 +31,11 @@ class Message:
         """Field names with their types, such as `sequence<double>`."""
         return dict(cls._fields_and_field_types)
 
-    def _check(self, field: str, value: Any) -> None:
-        """Refuse a value as rclpy does with checks on; raises `AssertionError`."""
+    def _check(self, field: str, value: Any) -> bool:
+        """Refuse a value as rclpy does with checks on, by `AssertionError`; whether it may be kept as it is."""
         from bot_console.runtime.rosidl.checks import check
 
-        check(self._fields_and_field_types[field], field, value)
+        return check(type(self), field, value)
 
     def __repr__(self) -> str:
         package, kind = type(self).__module__.split(".")[:2]
