@@ -17,6 +17,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING
 
+from bot_console.runtime.interface_finder import InterfaceFinder, interface_folders
+from bot_console.runtime.rosidl.texts import add_source
+
 if TYPE_CHECKING:
     from bot_console.runtime.process.fresh_import import FreshModules
 
@@ -93,15 +96,22 @@ def node_modules(folders: Sequence[str | os.PathLike[str]] = ()) -> FreshModules
 
 
 _finder = RosFinder()
+_interfaces = InterfaceFinder()
 
 
 def install() -> None:
     """Make the ROS names mean the embedded runtime; a second call does nothing."""
-    if _finder not in sys.meta_path:
-        sys.meta_path.insert(0, _finder)
+    if _finder in sys.meta_path:
+        return
+    sys.meta_path.insert(0, _finder)
+    # Just before the path: a folder `my_interfaces` without `__init__.py` would be a namespace package there.
+    place = sys.meta_path.index(PathFinder) if PathFinder in sys.meta_path else len(sys.meta_path)
+    sys.meta_path.insert(place, _interfaces)
+    add_source(interface_folders)
 
 
 def uninstall() -> None:
-    """Take the finder away again; modules already imported stay."""
-    if _finder in sys.meta_path:
-        sys.meta_path.remove(_finder)
+    """Take the finders away again; modules already imported stay."""
+    for finder in (_finder, _interfaces):
+        if finder in sys.meta_path:
+            sys.meta_path.remove(finder)

@@ -1,0 +1,114 @@
+"""Lets the interfaces of a workspace be imported from source: `from my_interfaces.msg import Num`, nothing built."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping, Sequence
+from importlib.abc import InspectLoader, MetaPathFinder
+from importlib.machinery import ModuleSpec, PathFinder
+from importlib.util import spec_from_loader
+from pathlib import Path
+from types import ModuleType
+
+KINDS = ("msg", "srv", "action")
+
+
+def interface_folders() -> Mapping[str, Path]:
+    """The workspace's packages that define interfaces, with the folders in which `msg`, `srv`, `action` lie."""
+    from bot_console.runtime.workspace.discover import workspace
+
+    return {name: each.folder for name, each in workspace().packages.items() if each.has_interfaces}
+
+
+class InterfaceFinder(MetaPathFinder):
+    """Finds what the path does not have: interface packages, and in Python packages of that name the `msg` modules."""
+
+    def __init__(self) -> None:
+        self._modules: dict[str, ModuleType] = {}
+
+    def find_spec(
+        self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        """The spec of a generated module; None for every other name."""
+        top, *inside = fullname.split(".")
+        if top in sys.stdlib_module_names or len(inside) > 2 or (inside and inside[0] not in KINDS):
+            return None
+        spec = PathFinder.find_spec(fullname, path)
+        if spec is not None and spec.loader is not None:
+            return spec
+        folder = interface_folders().get(top)
+        if folder is None or not _exists(folder, inside):
+            return spec
+        return spec_from_loader(fullname, InterfaceLoader(folder, self._modules))
+
+
+def _exists(folder: Path, inside: Sequence[str]) -> bool:
+    if len(inside) == 2:
+        return _definition(folder, *inside) is not None
+    return not inside or next((folder / inside[0]).glob(f"*.{inside[0]}"), None) is not None
+
+
+def _definition(folder: Path, kind: str, module: str) -> Path | None:
+    from bot_console.runtime.rosidl.names import module_name
+
+    files = (folder / kind).glob(f"*.{kind}")
+    return next((each for each in files if module_name(each.stem) == module), None)
+
+
+class InterfaceLoader(InspectLoader):
+    """Generates a module when it is imported; all node processes get the same one, as they exchange its messages."""
+
+    def __init__(self, folder: Path, modules: dict[str, ModuleType]) -> None:
+        self._folder = folder
+        self._modules = modules
+        self._kept: ModuleSpec | None = None
+
+    def is_package(self, fullname: str) -> bool:
+        """Whether a name is a package: `my_interfaces` and `my_interfaces.msg` are."""
+        return fullname.count(".") < 2
+
+    def get_source(self, fullname: str) -> str:
+        """The Python source; raises `ImportError` that names file, line and fault of a definition."""
+        from bot_console.runtime.rosidl.emit import module, package_module
+        from bot_console.runtime.rosidl.parse import DefinitionError, parse
+
+        package, *inside = fullname.split(".")
+        if not inside:
+            return ""
+        try:
+            if len(inside) == 1:
+                return package_module(self._classes(inside[0]))
+            path = _definition(self._folder, *inside)
+            if path is None:
+                raise ImportError(f"no definition of {fullname}", name=fullname)
+            text = path.read_text(encoding="utf-8")
+            return module(parse(text, package, inside[0], path.stem, str(path)))
+        except (DefinitionError, OSError, UnicodeDecodeError) as error:
+            raise ImportError(str(error), name=fullname) from None
+
+    def _classes(self, kind: str) -> dict[str, str]:
+        """Names that a folder's module gives, with the modules that have them."""
+        from bot_console.runtime.rosidl.names import module_name
+        from bot_console.runtime.rosidl.parse import PARTS
+
+        found: dict[str, str] = {}
+        for path in sorted((self._folder / kind).glob(f"*.{kind}")):
+            module = module_name(path.stem)
+            found[path.stem] = module
+            if kind != "msg":
+                found.update({path.stem + suffix: module for suffix in PARTS[kind]})
+        return found
+
+    def create_module(self, spec: ModuleSpec) -> ModuleType | None:
+        """The module that another node process has imported already, or a new one."""
+        module = self._modules.get(spec.name)
+        self._kept = module.__spec__ if module is not None else None
+        return module
+
+    def exec_module(self, module: ModuleType) -> None:
+        """Run a new module; one that is there already stays as it is."""
+        if self._kept is not None:
+            module.__spec__ = self._kept
+            return
+        super().exec_module(module)
+        self._modules[module.__name__] = module
