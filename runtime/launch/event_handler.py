@@ -11,6 +11,11 @@ from launch.some_entities_type import SomeEntitiesType, check_entities
 class BaseEventHandler:
     """Decides whether it handles an event, and what entities come of it."""
 
+    kind_of_events: type[Any] | None = None
+    """The class of all events that may match; None: any."""
+    target_of_events: Any = None
+    """The action whose events alone may match; None: any."""
+
     def __init__(self, *, matcher: Callable[[Any], bool], handle_once: bool = False) -> None:
         self.__matcher = matcher
         self.__handle_once = handle_once

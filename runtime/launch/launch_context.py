@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import asyncio
 import os
-from collections import deque
 from collections.abc import Iterable
 from typing import Any
 
 import launch.logging
+from launch.event_queue import EventQueue
+from launch.handler_registry import HandlerRegistry
 
 
 class LaunchContext:
@@ -17,8 +18,8 @@ class LaunchContext:
     def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False) -> None:
         self.__argv = list(argv) if argv is not None else []
         self.noninteractive = noninteractive
-        self._event_queue: asyncio.Queue[Any] = asyncio.Queue()
-        self._event_handlers: deque[Any] = deque()
+        self._event_queue = EventQueue()
+        self._event_handlers = HandlerRegistry()
         self._completion_futures: list[asyncio.Future[None]] = []
         self.__globals: dict[str, Any] = {}
         self.__locals_stack: list[dict[str, Any]] = []
@@ -56,8 +57,6 @@ class LaunchContext:
         """Let the launch not be idle before a future is done."""
         self._completion_futures.append(future)
 
-    # Locals -------------------------------------------------------------------------------------------------------
-
     def _push_locals(self) -> None:
         self.__locals_stack.append(dict(self.__locals))
 
@@ -82,8 +81,6 @@ class LaunchContext:
     def extend_locals(self, extensions: dict[str, Any]) -> None:
         """Add to what entities see from here on."""
         self.__locals.update(extensions)
-
-    # Configurations and environment -------------------------------------------------------------------------------
 
     @property
     def launch_configurations(self) -> dict[str, Any]:
@@ -115,11 +112,9 @@ class LaunchContext:
     def _reset_environment(self) -> None:
         _replace_environment(self.__environment_reset)
 
-    # Events -------------------------------------------------------------------------------------------------------
-
     def register_event_handler(self, event_handler: Any, append: bool = False) -> None:
         """Let a handler be asked, before those that are there unless told otherwise."""
-        self._event_handlers.append(event_handler) if append else self._event_handlers.appendleft(event_handler)
+        self._event_handlers.add(event_handler, append=append)
 
     def unregister_event_handler(self, event_handler: Any) -> None:
         """Let a handler be asked no more; raises `ValueError` when it is not there."""
@@ -127,7 +122,7 @@ class LaunchContext:
 
     def would_handle_event(self, event: Any) -> bool:
         """Whether any handler matches."""
-        return any(each.matches(event) for each in tuple(self._event_handlers))
+        return bool(self._event_handlers.matching(event))
 
     def emit_event_sync(self, event: Any) -> None:
         """Put an event into the queue, from the loop's thread."""
@@ -137,7 +132,7 @@ class LaunchContext:
     async def emit_event(self, event: Any) -> None:
         """Put an event into the queue."""
         self.__logger.debug("emitting event: '%s'", event.name)
-        await self._event_queue.put(event)
+        self._event_queue.put_nowait(event)
 
     def perform_substitution(self, sub: Any) -> str:
         """The text of a substitution."""
@@ -153,7 +148,8 @@ class _Locals:
     def __getattr__(self, name: str) -> Any:
         values = self.__dict__["_values"]
         if name not in values:
-            raise AttributeError(f"context.locals does not contain attribute '{name}', it contains: [{', '.join(values)}]")
+            known = ", ".join(values)
+            raise AttributeError(f"context.locals does not contain attribute '{name}', it contains: [{known}]")
         return values[name]
 
 

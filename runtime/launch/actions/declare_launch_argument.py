@@ -1,0 +1,104 @@
+"""Declaring an argument of a launch file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import launch.logging
+from launch.action import Action
+from launch.frontend import expose_action
+from launch.substitution import Substitution
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+@expose_action("arg")
+class DeclareLaunchArgument(Action):
+    """Declares an argument: sets the configuration of its name to a default where nobody has set it."""
+
+    def __init__(
+        self,
+        name: str,
+        *,
+        default_value: Any = None,
+        description: str | None = None,
+        choices: Iterable[str] | None = None,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self.__name = name
+        self.__logger = launch.logging.get_logger(__name__)
+        self.__choices = None if choices is None else list(choices)
+        if self.__choices is not None:
+            self.__check_choices(default_value)
+        self.__default = None if default_value is None else normalize_to_list_of_substitutions(default_value)
+        self.__description = self.__described(description)
+        self._conditionally_included = False
+
+    @classmethod
+    def parse(cls, entity: Any, parser: Any) -> tuple[type[DeclareLaunchArgument], dict[str, Any]]:
+        """From XML or YAML."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["name"] = parser.escape_characters(entity.get_attr("name"))
+        default = entity.get_attr("default", optional=True)
+        if default is not None:
+            kwargs["default_value"] = parser.parse_substitution(default)
+        description = entity.get_attr("description", optional=True)
+        if description is not None:
+            kwargs["description"] = parser.escape_characters(description)
+        choices = entity.get_attr("choice", data_type=list, optional=True)
+        if choices:
+            kwargs["choices"] = [parser.escape_characters(each.get_attr("value")) for each in choices]
+            for each in choices:
+                each.assert_entity_completely_parsed()
+        return cls, kwargs
+
+    def __check_choices(self, default_value: Any) -> None:
+        problem = ""
+        if not self.__choices:
+            problem = "Provided choices arg is empty. Use None to ignore the choice list."
+        elif isinstance(default_value, str) and default_value not in self.__choices:
+            problem = f'Provided default_value "{default_value}" is not in provided choices "{self.__choices}".'
+        if problem:
+            self.__logger.error(problem)
+            raise RuntimeError(problem)
+
+    def __described(self, description: str | None) -> str:
+        if self.__choices is None:
+            return "no description given" if description is None else description
+        if description is None:
+            return f"One of: {self.__choices}"
+        dot = "" if description.endswith(".") else "."
+        return f"{description}{dot} Valid choices are: {self.__choices}"
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+        return self.__name
+
+    @property
+    def default_value(self) -> list[Substitution] | None:
+        """The default; None: it must be given."""
+        return self.__default
+
+    @property
+    def description(self) -> str:
+        """What it is for."""
+        return self.__description
+
+    @property
+    def choices(self) -> list[str] | None:
+        """The values that it may have; None: any."""
+        return self.__choices
+
+    def execute(self, context: Any) -> None:
+        """Set the default where it is needed; raises `RuntimeError` for a missing or wrong value."""
+        if self.name not in context.launch_configurations:
+            if self.default_value is None:
+                raise RuntimeError(f'Required launch argument "{self.name}" was not provided.')
+            context.launch_configurations[self.name] = perform_substitutions(context, self.default_value)
+        value = context.launch_configurations[self.name]
+        if self.__choices is not None and value not in self.__choices:
+            message = f'Argument "{self.name}" provided value "{value}" is not valid. Valid options are: {self.__choices}'
+            self.__logger.error(message)
+            raise RuntimeError(message)

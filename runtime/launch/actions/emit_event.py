@@ -1,0 +1,27 @@
+"""Emitting events."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.action import Action
+from launch.event import Event
+
+
+class EmitEvent(Action):
+    """Puts an event into the queue."""
+
+    def __init__(self, *, event: Event, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        if not isinstance(event, Event):
+            raise RuntimeError(f"EmitEvent() expected an event instance, got '{event}'.")
+        self.__event = event
+
+    @property
+    def event(self) -> Event:
+        """The event."""
+        return self.__event
+
+    def execute(self, context: Any) -> None:
+        """Emit it."""
+        context.emit_event_sync(self.__event)

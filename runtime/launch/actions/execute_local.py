@@ -1,0 +1,335 @@
+"""Running a process."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import traceback
+from collections.abc import Callable
+from typing import Any
+
+import launch.logging
+from launch.action import Action
+from launch.child import Child, start_node_child, start_os_child
+from launch.conditions import evaluate_condition_expression
+from launch.descriptions import Executable
+from launch.escalation import Escalation
+from launch.event_handlers import OnProcessExit, OnProcessIO, OnShutdown
+from launch.event_handlers.on_targeted_process import OnTargetedProcess
+from launch.events.process import (
+    ProcessExited,
+    ProcessStarted,
+    ProcessStderr,
+    ProcessStdout,
+    ShutdownProcess,
+    SignalProcess,
+)
+from launch.output_lines import OutputLines
+from launch.respawn import Respawn
+from launch.substitution import Substitution
+from launch.substitutions.launch_configuration import LaunchConfiguration
+from launch.utilities import create_future, normalize_to_list_of_substitutions, perform_substitutions
+from launch.utilities.type_utils import normalize_typed_substitution
+
+Program = Callable[[], object]
+
+
+class ExecuteLocal(Action):
+    """Runs an executable, shows what it prints, ends it with the launch, and starts it again where that is wanted."""
+
+    def __init__(
+        self,
+        *,
+        process_description: Executable,
+        shell: bool = False,
+        sigterm_timeout: Any = None,
+        sigkill_timeout: Any = None,
+        emulate_tty: bool = False,
+        output: Any = "log",
+        output_format: str = "[{this.process_description.final_name}] {line}",
+        cached_output: bool = False,
+        log_cmd: bool = False,
+        on_exit: Any = None,
+        respawn: Any = False,
+        respawn_delay: float | None = None,
+        respawn_max_retries: Any = -1,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self.__process_description = process_description
+        self.__shell = shell
+        self.__sigterm_timeout = normalize_to_list_of_substitutions(
+            LaunchConfiguration("sigterm_timeout", default="5") if sigterm_timeout is None else sigterm_timeout
+        )
+        self.__sigkill_timeout = normalize_to_list_of_substitutions(
+            LaunchConfiguration("sigkill_timeout", default="5") if sigkill_timeout is None else sigkill_timeout
+        )
+        self.__emulate_tty = emulate_tty
+        self.__output: Any = output
+        if not isinstance(output, dict):
+            self.__output = normalize_to_list_of_substitutions(os.environ.get("OVERRIDE_LAUNCH_PROCESS_OUTPUT", output))
+        self.__output_format = output_format
+        self.__cached_output = cached_output
+        self.__log_cmd = log_cmd
+        self.__on_exit = on_exit
+        self.__respawn = Respawn(normalize_typed_substitution(respawn, bool), respawn_delay, respawn_max_retries)
+        self.__cache: dict[int, list[bytes]] = {1: [], 2: []}
+        self.__lines: dict[int, OutputLines] = {}
+        self.__executed = False
+        self.__completed: asyncio.Future[None] | None = None
+        self.__shutdown: asyncio.Future[None] | None = None
+        self.__child: Child | None = None
+        self.__details: dict[str, Any] | None = None
+        self.__return_code: int | None = None
+        self.__escalation: Escalation | None = None
+
+    @property
+    def process_description(self) -> Executable:
+        """What is run."""
+        return self.__process_description
+
+    @property
+    def shell(self) -> bool:
+        """Whether a shell runs it."""
+        return self.__shell
+
+    @property
+    def emulate_tty(self) -> bool:
+        """Whether it prints to a terminal of its own."""
+        return self.__emulate_tty
+
+    @property
+    def sigterm_timeout(self) -> list[Substitution]:
+        """Seconds between SIGINT and SIGTERM."""
+        return self.__sigterm_timeout
+
+    @property
+    def sigkill_timeout(self) -> list[Substitution]:
+        """Seconds between SIGTERM and SIGKILL."""
+        return self.__sigkill_timeout
+
+    @property
+    def output(self) -> Any:
+        """Where its lines go."""
+        return self.__output
+
+    @property
+    def process_details(self) -> dict[str, Any] | None:
+        """Name, command, directory, environment and pid, since it was started."""
+        return self.__details
+
+    @property
+    def return_code(self) -> int | None:
+        """The exit code of its last run, None before that."""
+        return self.__return_code
+
+    @property
+    def on_exit(self) -> Any:
+        """What happens when it has ended."""
+        return self.__on_exit
+
+    def get_stdout(self) -> bytes:
+        """What it has printed; raises `RuntimeError` unless `cached_output` was asked for."""
+        return self.__cached(1)
+
+    def get_stderr(self) -> bytes:
+        """What it has printed as errors; raises `RuntimeError` unless `cached_output` was asked for."""
+        return self.__cached(2)
+
+    def __cached(self, stream: int) -> bytes:
+        if not self.__cached_output:
+            raise RuntimeError(f"cached_output must be true to be able to use get_std{'out' if stream == 1 else 'err'}")
+        return b"".join(self.__cache[stream])
+
+    def get_sub_entities(self) -> list[Any]:
+        """What happens when it has ended."""
+        if isinstance(self.__on_exit, (list, tuple)):
+            return list(self.__on_exit)
+        return [self.__on_exit] if isinstance(self.__on_exit, Action) else []
+
+    def get_asyncio_future(self) -> asyncio.Future[None] | None:
+        """Done when it has ended for good."""
+        return self.__completed
+
+    def prepare(self, context: Any) -> None:
+        """Evaluate the description."""
+        self.__process_description.prepare(context, self)
+
+    def in_process_program(self, command: list[str]) -> Program | None:
+        """What to run as a node process of this process; None: the command is a process of the system."""
+        if command and os.path.basename(command[0]) == "ros2" and not self.__shell:
+            from launch.ros2_commands import ros2_program
+
+            return ros2_program(command[1:])
+        return None
+
+    def os_command(self, command: list[str]) -> list[str]:
+        """The command as the system is given it."""
+        return command
+
+    def execute(self, context: Any) -> list[Any] | None:
+        """Start it as soon as the loop goes on."""
+        self.prepare(context)
+        name = self.__process_description.final_name
+        if self.__executed:
+            raise RuntimeError(f"ExecuteLocal action '{name}': executed more than once: {self.describe()}")
+        self.__executed = True
+        if context.is_shutdown:
+            return None
+        self.__logger = launch.logging.get_logger(name)
+        if not isinstance(self.__output, dict):
+            self.__output = perform_substitutions(context, self.__output)
+        loggers = launch.logging.get_output_loggers(name or "", self.__output)
+        self.__lines = {
+            fd: OutputLines(self, logger, self.__output_format) for fd, logger in zip((1, 2), loggers, strict=True)
+        }
+        self.__respawn.evaluate(context)
+        self.__completed = create_future(context.asyncio_loop)
+        self.__shutdown = create_future(context.asyncio_loop)
+        for handler in self.__handlers():
+            context.register_event_handler(handler)
+        context.asyncio_loop.create_task(self.__run(context))
+        return None
+
+    def __handlers(self) -> list[Any]:
+        return [
+            OnTargetedProcess(ShutdownProcess, self, lambda event, context: self._shutdown_process(context, True)),
+            OnTargetedProcess(SignalProcess, self, self.__on_signal),
+            OnProcessIO(target_action=self, on_stdin=self.__on_stdin, on_stdout=self.__on_text, on_stderr=self.__on_text),
+            OnShutdown(on_shutdown=self.__on_shutdown),
+            *([OnProcessExit(target_action=self, on_exit=self.__on_exit)] if self.__on_exit else []),
+            OnProcessExit(target_action=self, on_exit=self.__flush),
+        ]
+
+    def __on_text(self, event: Any) -> None:
+        fd = 1 if event.from_stdout else 2
+        if self.__cached_output:
+            self.__cache[fd].append(event.text)
+        self.__lines[fd].feed(event.text)
+
+    def __on_stdin(self, event: Any) -> None:
+        if self.__child is not None:
+            self.__child.write(event.text)
+
+    def __flush(self, event: Any, context: Any) -> None:
+        for lines in self.__lines.values():
+            lines.flush()
+
+    def __on_signal(self, event: Any, context: Any) -> None:
+        name = self.__process_description.final_name
+        if self.__child is None:
+            raise RuntimeError("Signal event received before execution.")
+        if self.__child.exited.done():
+            self.__logger.debug(f"signal '{event.signal_name}' not sent to '{name}' because it has already ended")
+            return
+        self.__logger.info(f"sending signal '{event.signal_name}' to process[{name}]")
+        try:
+            self.__child.send_signal(_kill_by_name(event.signal))
+        except ProcessLookupError:
+            self.__logger.debug(f"signal '{event.signal_name}' not sent to '{name}' because it has already ended")
+
+    def __on_shutdown(self, event: Any, context: Any) -> None:
+        self._shutdown_process(context, not event.due_to_sigint or context.noninteractive)
+
+    def _shutdown_process(self, context: Any, send_sigint: bool) -> None:
+        """Begin to end it, once; where the terminal has already sent SIGINT, none is sent."""
+        if self.__shutdown is None or self.__shutdown.done():
+            return
+        self.__shutdown.set_result(None)
+        child = self.__child
+        if child is None or child.exited.done():
+            return
+        self.__escalation = Escalation(self, context, self.__logger)
+        if send_sigint:
+            self.__escalation.interrupt()
+        elif not child.gets_signals_of_terminal:
+            child.send_signal(2)
+
+    async def __run(self, context: Any) -> None:
+        """Start it, and again while that is wanted."""
+        while not self.__over:
+            try:
+                code = await self.__run_once(context)
+            except Exception:  # the command cannot be started
+                text = traceback.format_exc()
+                self.__logger.error(f"exception occurred while executing process:\n{text}")
+                break
+            if code is None or not await self.__respawn.wanted(context, self.__shutdown):
+                break
+        if self.__completed is not None and not self.__completed.done():
+            self.__completed.set_result(None)
+
+    @property
+    def __over(self) -> bool:
+        return self.__shutdown is None or self.__shutdown.done()
+
+    async def __run_once(self, context: Any) -> int | None:
+        description = self.__process_description
+        command = description.final_cmd or []
+        details = {
+            "name": description.final_name,
+            "cmd": command,
+            "cwd": description.final_cwd,
+            "env": description.final_env,
+        }
+        if self.__log_cmd:
+            words = " ".join(each for each in command if each.strip())
+            custom = description.final_env is not None
+            self.__logger.info(f"process details: cmd='{words}', cwd='{description.final_cwd}', custom_env?={custom}")
+        child = await self.__start(context, command, details)
+        if child is None:
+            return None
+        code = await child.exited
+        self.__return_code = code
+        if self.__escalation is not None:
+            self.__escalation.cancel()
+        child.close()
+        if code == 0:
+            self.__logger.info(f"process has finished cleanly [pid {child.pid}]")
+        else:
+            words = " ".join(each for each in command if each.strip())
+            self.__logger.error(f"process has died [pid {child.pid}, exit code {code}, cmd '{words}'].")
+        context.emit_event_sync(ProcessExited(returncode=code, action=self, **(self.__details or {})))
+        return code
+
+    async def __start(self, context: Any, command: list[str], details: dict[str, Any]) -> Child:
+        self.__details = details
+
+        def output(fd: int, data: bytes) -> None:
+            kind = ProcessStdout if fd == 1 else ProcessStderr
+            context.emit_event_sync(kind(text=data, action=self, **details))
+
+        environment = dict(context.environment) if details["env"] is None else details["env"]
+        program = self.in_process_program(command)
+        if program is not None:
+            child: Child = start_node_child(
+                program, details["name"], argv=command, env=environment, cwd=details["cwd"], output=output
+            )
+        else:
+            child = await start_os_child(
+                self.os_command(command),
+                shell=self.__shell,
+                emulate_tty=self.__wants_tty(context),
+                env=environment,
+                cwd=details["cwd"],
+                output=output,
+            )
+        self.__child = child
+        details["pid"] = child.pid
+        self.__logger.info(f"process started with pid [{child.pid}]")
+        context.emit_event_sync(ProcessStarted(action=self, **details))
+        if self.__over:
+            self.__escalation = Escalation(self, context, self.__logger)
+            self.__escalation.interrupt()
+        return child
+
+    def __wants_tty(self, context: Any) -> bool:
+        if "emulate_tty" not in context.launch_configurations:
+            return self.__emulate_tty
+        expression = normalize_to_list_of_substitutions(context.launch_configurations["emulate_tty"])
+        return evaluate_condition_expression(context, expression)
+
+
+def _kill_by_name(signal_number: Any) -> Any:
+    """SIGKILL may be given by its name; other names are refused by the system call, as upstream has it."""
+    return 9 if signal_number == "SIGKILL" else signal_number

@@ -1,0 +1,69 @@
+"""Running a command."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from launch.actions.execute_local import ExecuteLocal
+from launch.descriptions import Executable
+from launch.frontend import expose_action
+from launch.substitution import Substitution
+
+
+@expose_action("executable")
+class ExecuteProcess(ExecuteLocal):
+    """Runs a command: a list of words, each of which may be pieced together from substitutions."""
+
+    def __init__(
+        self,
+        *,
+        cmd: Iterable[Any],
+        prefix: Any = None,
+        name: Any = None,
+        cwd: Any = None,
+        env: dict[Any, Any] | None = None,
+        additional_env: dict[Any, Any] | None = None,
+        **kwargs: Any,
+    ) -> None:
+        executable = Executable(
+            cmd=cmd, prefix=prefix, name=name, cwd=cwd, env=env, additional_env=additional_env
+        )
+        super().__init__(process_description=executable, **kwargs)
+
+    @classmethod
+    def parse(cls, entity: Any, parser: Any, ignore: Iterable[str] | None = None) -> tuple[Any, dict[str, Any]]:
+        """From XML or YAML."""
+        from launch.frontend.process_attributes import parse_process
+
+        _, kwargs = super().parse(entity, parser)
+        return cls, parse_process(entity, parser, kwargs, frozenset(ignore or ()))
+
+    @property
+    def name(self) -> Any:
+        """The label: without its number until it was prepared."""
+        description = self.process_description
+        return description.name if description.final_name is None else description.final_name
+
+    @property
+    def cmd(self) -> Any:
+        """The command: as substitutions until it was prepared."""
+        description = self.process_description
+        return description.cmd if description.final_cmd is None else description.final_cmd
+
+    @property
+    def cwd(self) -> list[Substitution] | str | None:
+        """The working directory: as substitutions until it was prepared."""
+        description = self.process_description
+        return description.cwd if description.final_cwd is None else description.final_cwd
+
+    @property
+    def env(self) -> Any:
+        """The environment: as substitutions until it was prepared."""
+        description = self.process_description
+        return description.env if description.final_env is None else description.final_env
+
+    @property
+    def additional_env(self) -> Any:
+        """What is added to the environment."""
+        return self.process_description.additional_env

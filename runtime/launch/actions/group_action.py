@@ -1,0 +1,77 @@
+"""Actions with a scope of their own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from launch.action import Action
+from launch.actions.push_environment import PopEnvironment, PushEnvironment, ResetEnvironment
+from launch.actions.push_launch_configurations import PopLaunchConfigurations, PushLaunchConfigurations
+from launch.actions.reset_launch_configurations import ResetLaunchConfigurations, parse_kept
+from launch.actions.set_launch_configuration import SetLaunchConfiguration
+from launch.frontend import expose_action
+
+
+@expose_action("group")
+class GroupAction(Action):
+    """Actions that share a condition, and by default a scope for configurations and environment."""
+
+    def __init__(
+        self,
+        actions: Iterable[Action],
+        *,
+        scoped: bool = True,
+        forwarding: bool = True,
+        launch_configurations: Mapping[Any, Any] | None = None,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self.__actions = actions
+        self.__scoped = scoped
+        self.__forwarding = forwarding
+        self.__configurations = {} if launch_configurations is None else launch_configurations
+        self.__to_return: list[Any] | None = None
+
+    @classmethod
+    def parse(cls, entity: Any, parser: Any) -> tuple[type[GroupAction], dict[str, Any]]:
+        """From XML or YAML."""
+        _, kwargs = super().parse(entity, parser)
+        for name in ("scoped", "forwarding"):
+            value = entity.get_attr(name, data_type=bool, optional=True)
+            if value is not None:
+                kwargs[name] = value
+        kept = parse_kept(entity, parser)
+        if kept:
+            kwargs["launch_configurations"] = kept
+        kwargs["actions"] = [parser.parse_action(each) for each in entity.children if each.type_name != "keep"]
+        return cls, kwargs
+
+    def get_sub_entities(self) -> list[Any]:
+        """The actions, with what makes the scope around them."""
+        if self.__to_return is None:
+            self.__to_return = self._with_scope(list(self.__actions))
+        return self.__to_return
+
+    def _with_scope(self, actions: list[Any]) -> list[Any]:
+        values = [SetLaunchConfiguration(name, value) for name, value in self.__configurations.items()]
+        if not self.__scoped:
+            return [*values, *actions]
+        begin: list[Any] = [PushLaunchConfigurations(), PushEnvironment()]
+        end = [PopEnvironment(), PopLaunchConfigurations()]
+        if self.__forwarding:
+            return [*begin, *values, *actions, *end]
+        begin += [ResetEnvironment(), ResetLaunchConfigurations(self.__configurations)]
+        return [*begin, *actions, *end]
+
+    def describe_sub_entities(self) -> list[Any]:
+        """The same."""
+        return [] if self.condition is not None else self.get_sub_entities()
+
+    def describe_conditional_sub_entities(self) -> list[tuple[str, list[Any]]]:
+        """The same, where there is a condition."""
+        return [("Conditionally included by GroupAction", self.get_sub_entities())] if self.condition else []
+
+    def execute(self, context: Any) -> list[Any]:
+        """Visit the actions."""
+        return self.get_sub_entities()

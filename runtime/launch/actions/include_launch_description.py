@@ -1,0 +1,99 @@
+"""Including a launch file."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from typing import Any
+
+import launch.logging
+from launch.action import Action
+from launch.actions.set_launch_configuration import SetLaunchConfiguration
+from launch.frontend import expose_action
+from launch.launch_description_source import LaunchDescriptionSource
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+Pair = tuple[Any, Any]
+
+
+@expose_action("include")
+class IncludeLaunchDescription(Action):
+    """Visits another launch file, in the same scope: its configurations are seen afterwards."""
+
+    def __init__(
+        self, launch_description_source: Any, *, launch_arguments: Iterable[Pair] | None = None, **kwargs: Any
+    ) -> None:
+        from launch.launch_description_sources import AnyLaunchDescriptionSource
+
+        super().__init__(**kwargs)
+        if not isinstance(launch_description_source, LaunchDescriptionSource):
+            launch_description_source = AnyLaunchDescriptionSource(launch_description_source)
+        self.__source = launch_description_source
+        self.__arguments = () if launch_arguments is None else tuple(launch_arguments)
+        self.__logger = launch.logging.get_logger(__name__)
+
+    @classmethod
+    def parse(cls, entity: Any, parser: Any) -> tuple[type[IncludeLaunchDescription], dict[str, Any]]:
+        """From XML or YAML."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["launch_description_source"] = parser.parse_substitution(entity.get_attr("file"))
+        arguments = []
+        for name in ("arg", "let"):
+            for each in entity.get_attr(name, data_type=list, optional=True) or ():
+                pair = (each.get_attr("name"), each.get_attr("value"))
+                arguments.append(tuple(parser.parse_substitution(part) for part in pair))
+                each.assert_entity_completely_parsed()
+        if arguments:
+            kwargs["launch_arguments"] = arguments
+        return cls, kwargs
+
+    @property
+    def launch_description_source(self) -> LaunchDescriptionSource:
+        """Where the launch file is."""
+        return self.__source
+
+    @property
+    def launch_arguments(self) -> tuple[Pair, ...]:
+        """Names and values of the arguments."""
+        return self.__arguments
+
+    def describe(self) -> str:
+        """A short text for people."""
+        return f"IncludeLaunchDescription({self.__source.location})"
+
+    def describe_sub_entities(self) -> list[Any]:
+        """The description, where it can be read without a context."""
+        description = self.__source.try_get_launch_description_without_context()
+        return [] if description is None else [description]
+
+    def get_sub_entities(self) -> list[Any]:
+        """The same."""
+        return self.describe_sub_entities()
+
+    def execute(self, context: Any) -> list[Any]:
+        """Read the file, check its required arguments, and visit it."""
+        description = self.__source.get_launch_description(context)
+        self._set_locals(context)
+        given = self._given_names(context)
+        for argument, above in description.get_launch_arguments_with_include_launch_description_actions():
+            if argument._conditionally_included or argument.default_value is not None:
+                continue
+            names = [*given]
+            for include in above:
+                names += include._given_names(context)
+            if argument.name not in names:
+                raise RuntimeError(
+                    f"Included launch description missing required argument '{argument.name}' "
+                    f"(description: '{argument.description}'), given: [{', '.join(names)}]"
+                )
+        return [*(SetLaunchConfiguration(name, value) for name, value in self.__arguments), description]
+
+    def _given_names(self, context: Any) -> list[str]:
+        return [
+            perform_substitutions(context, normalize_to_list_of_substitutions(name)) for name, _ in self.__arguments
+        ]
+
+    def _set_locals(self, context: Any) -> None:
+        path = os.path.abspath(self.__source.location)
+        context.extend_locals({"current_launch_file_path": path})
+        context.extend_locals({"current_launch_file_directory": os.path.dirname(path)})

@@ -1,0 +1,37 @@
+"""Saying something."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import launch.logging
+from launch.action import Action
+from launch.frontend import expose_action
+from launch.substitution import Substitution
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+@expose_action("log")
+class LogInfo(Action):
+    """Logs a text."""
+
+    def __init__(self, *, msg: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__msg = normalize_to_list_of_substitutions(msg)
+        self.__logger = launch.logging.get_logger("launch.user")
+
+    @classmethod
+    def parse(cls, entity: Any, parser: Any) -> tuple[type[LogInfo], dict[str, Any]]:
+        """From XML or YAML."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["msg"] = parser.parse_substitution(entity.get_attr("message"))
+        return cls, kwargs
+
+    @property
+    def msg(self) -> list[Substitution]:
+        """The text."""
+        return self.__msg
+
+    def execute(self, context: Any) -> None:
+        """Log it."""
+        self.__logger.info("%s", perform_substitutions(context, self.__msg))

@@ -1,0 +1,46 @@
+"""Running a coroutine."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Coroutine, Iterable
+from typing import Any
+
+from launch.action import Action
+from launch.event_handlers import OnShutdown
+
+
+class OpaqueCoroutine(Action):
+    """Runs a coroutine beside the launch, which waits for it; the end of the launch cancels it."""
+
+    def __init__(
+        self,
+        *,
+        coroutine: Callable[..., Coroutine[Any, Any, Any]],
+        args: Iterable[Any] | None = None,
+        kwargs: dict[str, Any] | None = None,
+        ignore_context: bool = False,
+        **left_over_kwargs: Any,
+    ) -> None:
+        super().__init__(**left_over_kwargs)
+        if not asyncio.iscoroutinefunction(coroutine):
+            raise TypeError(f"OpaqueCoroutine expected a coroutine function for 'coroutine', got '{type(coroutine)}'")
+        self.__coroutine = coroutine
+        self.__args = list(args or ())
+        self.__kwargs = kwargs or {}
+        self.__ignore_context = ignore_context
+        self.__future: asyncio.Future[Any] | None = None
+
+    def get_asyncio_future(self) -> asyncio.Future[Any] | None:
+        """Done when the coroutine is."""
+        return self.__future
+
+    def execute(self, context: Any) -> None:
+        """Start it."""
+        args = self.__args if self.__ignore_context else [context, *self.__args]
+        self.__future = context.asyncio_loop.create_task(self.__coroutine(*args, **self.__kwargs))
+        context.register_event_handler(OnShutdown(on_shutdown=self.__cancel))
+
+    def __cancel(self, event: Any, context: Any) -> None:
+        if self.__future is not None:
+            self.__future.cancel()

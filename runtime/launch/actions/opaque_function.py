@@ -1,0 +1,29 @@
+"""Calling Python."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from launch.action import Action
+
+
+class OpaqueFunction(Action):
+    """Calls a function with the context; what it gives is visited."""
+
+    def __init__(
+        self,
+        *,
+        function: Callable[..., Any],
+        args: Iterable[Any] | None = None,
+        kwargs: dict[str, Any] | None = None,
+        **left_over_kwargs: Any,
+    ) -> None:
+        super().__init__(**left_over_kwargs)
+        self.__function = function
+        self.__args = () if args is None else args
+        self.__kwargs = {} if kwargs is None else kwargs
+
+    def execute(self, context: Any) -> Any:
+        """Call it."""
+        return self.__function(context, *self.__args, **self.__kwargs)

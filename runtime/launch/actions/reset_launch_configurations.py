@@ -1,0 +1,47 @@
+"""Clearing the launch configurations."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from launch.action import Action
+from launch.frontend import expose_action
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+@expose_action("reset")
+class ResetLaunchConfigurations(Action):
+    """Clears all launch configurations but those given, whose values are evaluated before."""
+
+    def __init__(self, launch_configurations: Mapping[Any, Any] | None = None, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__kept = {} if launch_configurations is None else launch_configurations
+
+    @classmethod
+    def parse(cls, entity: Any, parser: Any) -> tuple[type[ResetLaunchConfigurations], dict[str, Any]]:
+        """From XML or YAML."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["launch_configurations"] = parse_kept(entity, parser)
+        return cls, kwargs
+
+    def execute(self, context: Any) -> None:
+        """Clear them."""
+        kept = {
+            perform_substitutions(context, normalize_to_list_of_substitutions(name)): perform_substitutions(
+                context, normalize_to_list_of_substitutions(value)
+            )
+            for name, value in self.__kept.items()
+        }
+        context.launch_configurations.clear()
+        context.launch_configurations.update(kept)
+
+
+def parse_kept(entity: Any, parser: Any) -> dict[Any, Any]:
+    """Names and values of `keep` elements."""
+    kept = {}
+    for each in entity.get_attr("keep", data_type=list, optional=True) or ():
+        name = tuple(parser.parse_substitution(each.get_attr("name")))
+        kept[name] = parser.parse_substitution(each.get_attr("value"))
+        each.assert_entity_completely_parsed()
+    return kept

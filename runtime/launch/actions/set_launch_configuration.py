@@ -1,0 +1,43 @@
+"""Setting a launch configuration."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.action import Action
+from launch.frontend import expose_action
+from launch.substitution import Substitution
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+@expose_action("let")
+class SetLaunchConfiguration(Action):
+    """Sets a launch configuration from here on."""
+
+    def __init__(self, name: Any, value: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__name = normalize_to_list_of_substitutions(name)
+        self.__value = normalize_to_list_of_substitutions(value)
+
+    @classmethod
+    def parse(cls, entity: Any, parser: Any) -> tuple[type[SetLaunchConfiguration], dict[str, Any]]:
+        """From XML or YAML."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
+        kwargs["value"] = parser.parse_substitution(entity.get_attr("value"))
+        return cls, kwargs
+
+    @property
+    def name(self) -> list[Substitution]:
+        """Its name."""
+        return self.__name
+
+    @property
+    def value(self) -> list[Substitution]:
+        """Its value."""
+        return self.__value
+
+    def execute(self, context: Any) -> None:
+        """Set it."""
+        name = perform_substitutions(context, self.__name)
+        context.launch_configurations[name] = perform_substitutions(context, self.__value)

@@ -1,0 +1,41 @@
+"""Ending the launch."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import launch.logging
+from launch.actions.emit_event import EmitEvent
+from launch.events import Shutdown as ShutdownEvent
+from launch.events.process import ProcessExited
+from launch.frontend import expose_action
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+@expose_action("shutdown")
+class Shutdown(EmitEvent):
+    """Ends the launch; as an answer to the end of a process it says that the process was required."""
+
+    def __init__(self, *, reason: Any = "reason not given", **kwargs: Any) -> None:
+        super().__init__(event=ShutdownEvent(reason=reason if isinstance(reason, str) else ""), **kwargs)
+        self.__reason = normalize_to_list_of_substitutions(reason)
+
+    @classmethod
+    def parse(cls, entity: Any, parser: Any) -> tuple[type[Shutdown], dict[str, Any]]:
+        """From XML or YAML."""
+        from launch.action import Action
+
+        _, kwargs = Action.parse.__func__(cls, entity, parser)  # type: ignore[attr-defined]
+        reason = entity.get_attr("reason", optional=True)
+        if reason:
+            kwargs["reason"] = parser.parse_substitution(reason)
+        return cls, kwargs
+
+    def execute(self, context: Any) -> None:
+        """End it."""
+        event = context.get_locals_as_dict().get("event")
+        if isinstance(event, ProcessExited):
+            launch.logging.get_logger("launch").info(
+                f"process[{event.process_name}] was required: shutting down launched system"
+            )
+        context.emit_event_sync(ShutdownEvent(reason=perform_substitutions(context, self.__reason)))

@@ -1,0 +1,114 @@
+"""Actions after a time."""
+
+from __future__ import annotations
+
+import asyncio
+import warnings
+from collections.abc import Iterable
+from typing import Any
+
+from launch.action import Action
+from launch.event_handler import EventHandler
+from launch.event_handlers import OnShutdown
+from launch.events import TimerEvent
+from launch.frontend import expose_action
+from launch.utilities import create_future
+from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
+
+
+@expose_action("timer")
+class TimerAction(Action):
+    """Visits actions after a period (s); with the locals of now and the configurations of then."""
+
+    def __init__(
+        self, *, period: Any, actions: Iterable[Action], cancel_on_shutdown: Any = True, **kwargs: Any
+    ) -> None:
+        super().__init__(**kwargs)
+        if isinstance(period, str):
+            warnings.warn(
+                "The parameter 'period' must be a float or substitution, "
+                "passing a string literal was deprecated in Galactic",
+                stacklevel=2,
+            )
+        self.__period = normalize_typed_substitution(period, float)
+        self.__actions = actions
+        self.__cancel_on_shutdown = normalize_typed_substitution(cancel_on_shutdown, bool)
+        self.__locals: dict[str, Any] = {}
+        self.__canceled = False
+        self._completed_future: asyncio.Future[None] | None = None
+        self._handle: asyncio.TimerHandle | None = None
+
+    @classmethod
+    def parse(cls, entity: Any, parser: Any) -> tuple[type[TimerAction], dict[str, Any]]:
+        """From XML or YAML."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["period"] = parser.parse_if_substitutions(entity.get_attr("period", data_type=float, can_be_str=True))
+        kwargs["actions"] = [parser.parse_action(each) for each in entity.children]
+        return cls, kwargs
+
+    @property
+    def period(self) -> Any:
+        """The period (s)."""
+        return self.__period
+
+    @property
+    def actions(self) -> Iterable[Action]:
+        """The actions."""
+        return self.__actions
+
+    def describe(self) -> str:
+        """A short text for people."""
+        return f"TimerAction(period={self.__period}, actions=<actions>)"
+
+    def describe_conditional_sub_entities(self) -> list[tuple[str, list[Any]]]:
+        """The actions."""
+        return [(f"after {self.__period} seconds", list(self.__actions))]
+
+    def get_asyncio_future(self) -> asyncio.Future[None] | None:
+        """Done when the actions were visited, or never will be."""
+        return self._completed_future
+
+    def execute(self, context: Any) -> None:
+        """Start to wait."""
+        self.__locals = dict(context.get_locals_as_dict())
+        period = perform_typed_substitution(context, self.__period, float)
+        self._completed_future = create_future(context.asyncio_loop)
+        if self.__canceled:
+            self._completed_future.set_result(None)
+            return
+        self._handler = EventHandler(
+            matcher=lambda event: isinstance(event, TimerEvent) and event.timer_action is self,
+            entities=None,
+        )
+        self._handler.kind_of_events = TimerEvent
+        self._handler.handle = self._handle_fired  # type: ignore[method-assign]
+        context.register_event_handler(self._handler)
+        if perform_typed_substitution(context, self.__cancel_on_shutdown, bool):
+            context.register_event_handler(OnShutdown(on_shutdown=lambda event, context: self.cancel()))
+        self._wait(context, max(0.0, period))
+
+    def _wait(self, context: Any, period: float) -> None:
+        """Emit the timer's event after a period (s)."""
+        event = TimerEvent(timer_action=self)
+        self._handle = context.asyncio_loop.call_later(period, context.emit_event_sync, event)
+
+    def _handle_fired(self, event: Any, context: Any) -> list[Any]:
+        if self._completed_future is None or self._completed_future.done():
+            return []
+        context.unregister_event_handler(self._handler)
+        self._completed_future.set_result(None)
+        context.extend_locals(self.__locals)
+        return list(self.__actions)
+
+    def handle(self, context: Any) -> Any:
+        """The actions, in the locals of when the timer was started."""
+        context.extend_locals(self.__locals)
+        return self.__actions
+
+    def cancel(self) -> None:
+        """Visit no actions any more."""
+        self.__canceled = True
+        if self._handle is not None:
+            self._handle.cancel()
+        if self._completed_future is not None and not self._completed_future.done():
+            self._completed_future.set_result(None)

@@ -1,0 +1,26 @@
+"""Unsetting a launch configuration."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.action import Action
+from launch.substitution import Substitution
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+class UnsetLaunchConfiguration(Action):
+    """Unsets a launch configuration, if it is set."""
+
+    def __init__(self, name: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__name = normalize_to_list_of_substitutions(name)
+
+    @property
+    def name(self) -> list[Substitution]:
+        """Its name."""
+        return self.__name
+
+    def execute(self, context: Any) -> None:
+        """Unset it."""
+        context.launch_configurations.pop(perform_substitutions(context, self.__name), None)

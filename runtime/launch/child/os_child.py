@@ -1,0 +1,118 @@
+"""A process of the system as a child of a launch."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import subprocess
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from launch.child.child import Output
+
+DRAIN_S = 0.2
+"""How long (s) output may still come after the end: a grandchild can hold the pipes open for ever."""
+
+
+class OsChild(asyncio.SubprocessProtocol):
+    """A process of the system, its output by pipes or by terminals of its own."""
+
+    gets_signals_of_terminal = True
+
+    def __init__(self, output: Output, loop: asyncio.AbstractEventLoop) -> None:
+        self._output = output
+        self._loop = loop
+        self.exited: asyncio.Future[int] = loop.create_future()
+        self.terminals: list[asyncio.ReadTransport] = []
+        self.open_streams = {1, 2}
+        self._code: int | None = None
+        self.pid = 0
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """It runs."""
+        assert isinstance(transport, asyncio.SubprocessTransport)
+        self._transport = transport
+        self.pid = transport.get_pid()
+
+    def pipe_data_received(self, fd: int, data: bytes) -> None:
+        """It has printed."""
+        self._output(fd, bytes(data))
+
+    def pipe_connection_lost(self, fd: int, exc: Exception | None) -> None:
+        """It prints no more."""
+        self.open_streams.discard(fd)
+        self._finish_if_drained()
+
+    def process_exited(self) -> None:
+        """It has ended."""
+        self._code = self._transport.get_returncode()
+        self._finish_if_drained()
+        if not self.exited.done():
+            self._loop.call_later(DRAIN_S, self._finish)
+
+    def _finish_if_drained(self) -> None:
+        if self._code is not None and not self.open_streams:
+            self._finish()
+
+    def _finish(self) -> None:
+        if not self.exited.done():
+            self.exited.set_result(self._code or 0)
+
+    def send_signal(self, signum: int) -> None:
+        """Deliver a signal."""
+        self._transport.send_signal(signum)
+
+    def write(self, data: bytes) -> None:
+        """Hand bytes to its standard input."""
+        pipe: Any = self._transport.get_pipe_transport(0)
+        if pipe is not None:
+            pipe.write(data)
+
+    def close(self) -> None:
+        """Close its pipes and terminals."""
+        self._transport.close()
+        for terminal in self.terminals:
+            terminal.close()
+
+
+async def start_os_child(
+    command: Sequence[str],
+    *,
+    shell: bool,
+    emulate_tty: bool,
+    env: Mapping[str, str],
+    cwd: str | None,
+    output: Output,
+) -> OsChild:
+    """Run a command; raises what starting it raises, above all `OSError`."""
+    loop = asyncio.get_running_loop()
+    child = OsChild(output, loop)
+    if not emulate_tty or os.name == "nt":
+        await _start(loop, child, command, shell, env=env, cwd=cwd)
+        return child
+    from launch.child.terminals import open_terminals
+
+    ends = open_terminals()
+    try:
+        await _start(loop, child, command, shell, env=env, cwd=cwd, stdout=ends[0].child_end, stderr=ends[1].child_end)
+    except BaseException:
+        for end in ends:
+            os.close(end.own_end)
+        raise
+    finally:
+        for end in ends:
+            os.close(end.child_end)
+    for fd, end in zip((1, 2), ends, strict=True):
+        child.terminals.append(await end.connect(loop, child, fd))
+    return child
+
+
+async def _start(
+    loop: asyncio.AbstractEventLoop, child: OsChild, command: Sequence[str], shell: bool, **options: Any
+) -> None:
+    options.setdefault("stdout", subprocess.PIPE)
+    options.setdefault("stderr", subprocess.PIPE)
+    if shell:
+        await loop.subprocess_shell(lambda: child, " ".join(command), stdin=subprocess.PIPE, **options)
+    else:
+        await loop.subprocess_exec(lambda: child, *command, stdin=subprocess.PIPE, **options)

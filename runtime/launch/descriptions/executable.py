@@ -1,0 +1,135 @@
+"""A program with its arguments, environment and working directory."""
+
+from __future__ import annotations
+
+import itertools
+import os
+import re
+import shlex
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from launch.substitution import Substitution
+from launch.substitutions.launch_configuration import LaunchConfiguration
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+_numbers = itertools.count(1)
+
+
+class Executable:
+    """A program to run; its final command and label are known when it was prepared."""
+
+    def __init__(
+        self,
+        *,
+        cmd: Iterable[Any],
+        prefix: Any = None,
+        name: Any = None,
+        cwd: Any = None,
+        env: Mapping[Any, Any] | None = None,
+        additional_env: Mapping[Any, Any] | None = None,
+        arguments: Iterable[Any] | None = None,
+    ) -> None:
+        self.__cmd = [normalize_to_list_of_substitutions(each) for each in cmd]
+        self.__cmd += [normalize_to_list_of_substitutions(each) for each in arguments or ()]
+        self.__own_prefix = prefix is not None
+        self.__prefix = normalize_to_list_of_substitutions(
+            LaunchConfiguration("launch-prefix", default="") if prefix is None else prefix
+        )
+        self.__prefix_filter = normalize_to_list_of_substitutions(LaunchConfiguration("launch-prefix-filter", default=""))
+        self.__name = name if name is None else normalize_to_list_of_substitutions(name)
+        self.__cwd = cwd if cwd is None else normalize_to_list_of_substitutions(cwd)
+        self.__env = _pairs(env)
+        self.__additional_env = _pairs(additional_env)
+        self.__final_cmd: list[str] | None = None
+        self.__final_cwd: str | None = None
+        self.__final_env: dict[str, str] | None = None
+        self.__final_name: str | None = None
+        self.__words_of_prefix: list[str] = []
+
+    @property
+    def name(self) -> list[Substitution] | None:
+        """The label without its number."""
+        return self.__name
+
+    @property
+    def prefix(self) -> list[Substitution]:
+        """What goes before the command."""
+        return self.__prefix
+
+    @property
+    def cmd(self) -> list[list[Substitution]]:
+        """The command, each word a list of substitutions."""
+        return self.__cmd
+
+    @property
+    def cwd(self) -> list[Substitution] | None:
+        """The working directory."""
+        return self.__cwd
+
+    @property
+    def env(self) -> list[tuple[list[Substitution], list[Substitution]]] | None:
+        """The whole environment."""
+        return self.__env
+
+    @property
+    def additional_env(self) -> list[tuple[list[Substitution], list[Substitution]]] | None:
+        """What is added to the environment."""
+        return self.__additional_env
+
+    @property
+    def final_name(self) -> str | None:
+        """The label, as `talker-1`."""
+        return self.__final_name
+
+    @property
+    def final_cmd(self) -> list[str] | None:
+        """The command line."""
+        return self.__final_cmd
+
+    @property
+    def final_cwd(self) -> str | None:
+        """The working directory; None: that of the launch."""
+        return self.__final_cwd
+
+    @property
+    def final_env(self) -> dict[str, str] | None:
+        """The environment; None: that of the launch."""
+        return self.__final_env
+
+    @property
+    def words_of_prefix(self) -> list[str]:
+        """How the final command begins where a prefix was put before it."""
+        return self.__words_of_prefix
+
+    def prepare(self, context: Any, action: Any) -> None:
+        """Evaluate everything, and take the next number for the label."""
+        cmd = [perform_substitutions(context, each) for each in self.__cmd]
+        name = os.path.basename(cmd[0]) if self.__name is None else perform_substitutions(context, self.__name)
+        self.__words_of_prefix = self._prefix_for(context, cmd)
+        self.__final_cmd = [*self.__words_of_prefix, *cmd]
+        self.__final_name = f"{name}-{next(_numbers)}"
+        self.__final_cwd = None if self.__cwd is None else perform_substitutions(context, self.__cwd)
+        self.__final_env = self._environment(context)
+
+    def _prefix_for(self, context: Any, cmd: list[str]) -> list[str]:
+        words = shlex.split(perform_substitutions(context, self.__prefix))
+        pattern = perform_substitutions(context, self.__prefix_filter)
+        if words and not self.__own_prefix and pattern and not re.match(pattern, os.path.basename(cmd[0])):
+            return []
+        return words
+
+    def _environment(self, context: Any) -> dict[str, str] | None:
+        if self.__env is None and self.__additional_env is None:
+            return None
+        found = dict(context.environment) if self.__env is None else {}
+        for name, value in [*(self.__env or ()), *(self.__additional_env or ())]:
+            found[perform_substitutions(context, name)] = perform_substitutions(context, value)
+        return found
+
+
+def _pairs(values: Mapping[Any, Any] | None) -> list[tuple[list[Substitution], list[Substitution]]] | None:
+    if values is None:
+        return None
+    normalize = normalize_to_list_of_substitutions
+    return [(normalize(name), normalize(value)) for name, value in values.items()]

@@ -1,0 +1,95 @@
+"""Handlers of the events of one action, of some, or of all."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from launch.event_handler import BaseEventHandler
+from launch.launch_description_entity import LaunchDescriptionEntity
+
+
+class OnActionEventBase(BaseEventHandler):
+    """Visits entities, or what a callable gives, when an event of an action comes."""
+
+    def __init__(
+        self,
+        *,
+        action_matcher: Any,
+        on_event: Any,
+        target_event_cls: type[Any],
+        target_action_cls: type[Any],
+        handle_once: bool = False,
+        **kwargs: Any,
+    ) -> None:
+        if action_matcher is not None and not (isinstance(action_matcher, target_action_cls) or callable(action_matcher)):
+            raise TypeError(f"action_matcher must be an '{target_action_cls.__name__}' instance or a callable")
+        self.__target_event_cls = target_event_cls
+        self.__action_matcher = action_matcher
+        self.kind_of_events = target_event_cls
+        self.target_of_events = action_matcher if isinstance(action_matcher, target_action_cls) else None
+        self.__entities: list[LaunchDescriptionEntity] | None = None
+        self.__callback: Callable[..., Any] | None = None
+        if callable(on_event) and not isinstance(on_event, LaunchDescriptionEntity):
+            self.__callback = on_event
+        else:
+            self.__entities = _checked(on_event)
+        super().__init__(matcher=self._matches, handle_once=handle_once, **kwargs)
+
+    def _matches(self, event: Any) -> bool:
+        if not isinstance(event, self.__target_event_cls):
+            return False
+        wanted = self.__action_matcher
+        if wanted is None or event.action is wanted:
+            return True
+        return self.target_of_events is None and bool(wanted(event.action))
+
+    def handle(self, event: Any, context: Any) -> Any:
+        """The entities, or what the callable gives."""
+        super().handle(event, context)
+        if self.__entities is not None:
+            return self.__entities
+        assert self.__callback is not None
+        return self._call(self.__callback, event, context)
+
+    def _call(self, callback: Callable[..., Any], event: Any, context: Any) -> Any:
+        return callback(event, context)
+
+    def describe(self) -> tuple[str, list[Any]]:
+        """A text and the entities."""
+        if self.__entities is not None:
+            return super().describe()[0], list(self.__entities)
+        action = repr(self.__callback)
+        text = f"{type(self).__name__}(matcher='{self.matcher_description}', handler={action})"
+        return text, []
+
+    @property
+    def handler_description(self) -> str:
+        """What it does."""
+        return f"{self.__callback}" if self.__callback is not None else "<actions>"
+
+    @property
+    def matcher_description(self) -> str:
+        """What it waits for."""
+        name = self.__target_event_cls.__name__
+        if self.__action_matcher is None:
+            return f"event == {name}"
+        return f"event == {name} and event.action == {self.__action_matcher!r}"
+
+
+def _checked(on_event: Any) -> list[LaunchDescriptionEntity]:
+    if isinstance(on_event, LaunchDescriptionEntity):
+        return [on_event]
+    if not isinstance(on_event, Iterable):
+        raise TypeError(
+            f"on_event with type '{type(on_event)}' not allowed: expected a launch entity, an iterable of them, "
+            "or a callable"
+        )
+    entities = list(on_event)
+    for each in entities:
+        if not isinstance(each, LaunchDescriptionEntity):
+            raise TypeError(
+                "expected all items in 'on_event' iterable to be of type "
+                f"'LaunchDescriptionEntity' but got '{type(each)}'"
+            )
+    return entities

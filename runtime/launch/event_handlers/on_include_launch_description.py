@@ -1,0 +1,28 @@
+"""A launch description shall run."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.event_handler import BaseEventHandler
+from launch.events.include_launch_description import IncludeLaunchDescription
+from launch.utilities import is_a_subclass
+
+
+class OnIncludeLaunchDescription(BaseEventHandler):
+    """Visits the description that shall run."""
+
+    kind_of_events = IncludeLaunchDescription
+
+    def __init__(self, **kwargs: Any) -> None:
+        super().__init__(matcher=lambda event: is_a_subclass(event, IncludeLaunchDescription), **kwargs)
+
+    def handle(self, event: Any, context: Any) -> Any:
+        """The description."""
+        super().handle(event, context)
+        return event.launch_description
+
+    @property
+    def matcher_description(self) -> str:
+        """What it waits for."""
+        return "event issubclass of launch.events.IncludeLaunchDescription"

@@ -1,0 +1,42 @@
+"""A process has printed: what then."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from launch.event_handlers.on_action_event_base import OnActionEventBase
+from launch.events.process import ProcessIO
+
+
+class OnProcessIO(OnActionEventBase):
+    """A process has printed: what then; each callable gets the event."""
+
+    def __init__(
+        self,
+        *,
+        target_action: Any = None,
+        on_stdin: Callable[[Any], Any] | None = None,
+        on_stdout: Callable[[Any], Any] | None = None,
+        on_stderr: Callable[[Any], Any] | None = None,
+        **kwargs: Any,
+    ) -> None:
+        from launch.actions.execute_local import ExecuteLocal
+
+        def on_io(event: Any, context: Any) -> Any:
+            for is_it, callback in (
+                (event.from_stdout, on_stdout),
+                (event.from_stderr, on_stderr),
+                (event.from_stdin, on_stdin),
+            ):
+                if is_it and callback is not None:
+                    return callback(event)
+            return None
+
+        super().__init__(
+            action_matcher=target_action,
+            on_event=on_io,
+            target_event_cls=ProcessIO,
+            target_action_cls=ExecuteLocal,
+            **kwargs,
+        )

@@ -1,0 +1,37 @@
+"""The launch ends: what then."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.event_handler import BaseEventHandler
+from launch.events.shutdown import Shutdown
+from launch.launch_description_entity import LaunchDescriptionEntity
+from launch.utilities import is_a_subclass
+
+
+class OnShutdown(BaseEventHandler):
+    """The launch ends: entities, or a callable `(event, context)` that may give some."""
+
+    kind_of_events = Shutdown
+
+    def __init__(self, *, on_shutdown: Any, **kwargs: Any) -> None:
+        super().__init__(matcher=lambda event: is_a_subclass(event, Shutdown), **kwargs)
+        self.__on_shutdown = on_shutdown
+
+    def handle(self, event: Any, context: Any) -> Any:
+        """The entities."""
+        super().handle(event, context)
+        if callable(self.__on_shutdown) and not isinstance(self.__on_shutdown, LaunchDescriptionEntity):
+            return self.__on_shutdown(event, context)
+        return self.__on_shutdown
+
+    @property
+    def handler_description(self) -> str:
+        """What it does."""
+        return f"{self.__on_shutdown}"
+
+    @property
+    def matcher_description(self) -> str:
+        """What it waits for."""
+        return "event issubclass of launch.events.Shutdown"

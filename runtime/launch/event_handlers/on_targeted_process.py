@@ -1,0 +1,23 @@
+"""Handlers of events that are meant for a process."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from launch.event_handler import BaseEventHandler
+from launch.events.process import ProcessTargetedEvent
+
+
+class OnTargetedProcess(BaseEventHandler):
+    """Calls back when an event's own predicate chooses the action."""
+
+    def __init__(self, kind: type[ProcessTargetedEvent], action: Any, callback: Callable[[Any, Any], Any]) -> None:
+        self.kind_of_events = kind
+        self._callback = callback
+        super().__init__(matcher=lambda event: isinstance(event, kind) and event.process_matcher(action))
+
+    def handle(self, event: Any, context: Any) -> Any:
+        """What the callback gives."""
+        super().handle(event, context)
+        return self._callback(event, context)

@@ -1,0 +1,202 @@
+"""Runs launch descriptions."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+import traceback
+from collections.abc import Iterable
+from typing import Any
+
+import launch.logging
+from launch.event_handlers import OnIncludeLaunchDescription, OnShutdown
+from launch.events import IncludeLaunchDescription, Shutdown
+from launch.launch_context import LaunchContext
+from launch.pending_entities import PendingEntities
+from launch.user_interrupt import UserInterrupt
+from launch.utilities import visit_all_entities_and_collect_futures
+
+
+class LaunchService:
+    """Visits launch descriptions and handles events until nothing is left to do. May run in any thread."""
+
+    def __init__(
+        self, *, argv: Iterable[str] | None = None, noninteractive: bool = False, debug: bool = False
+    ) -> None:
+        self.__argv = list(argv) if argv is not None else []
+        self.__debug = debug
+        if debug:
+            import logging
+
+            launch.logging.launch_config.level = logging.DEBUG
+        self.__logger = launch.logging.get_logger("launch")
+        self.__context = LaunchContext(argv=self.__argv, noninteractive=noninteractive)
+        self.__context.register_event_handler(OnIncludeLaunchDescription())
+        self.__context.register_event_handler(OnShutdown(on_shutdown=self.__on_shutdown))
+        self.__pending = PendingEntities()
+        self.__running = threading.Lock()
+        self.__shutting_down = False
+        self.__return_code = 0
+        self.__loop: asyncio.AbstractEventLoop | None = None
+        self.__task: asyncio.Task[int] | None = None
+        self.__guard = threading.Lock()
+        self.__stop_wanted: str | None = None
+
+    @property
+    def context(self) -> LaunchContext:
+        """The context of what runs."""
+        return self.__context
+
+    @property
+    def event_loop(self) -> asyncio.AbstractEventLoop | None:
+        """The loop that it runs in, None while it does not run."""
+        return self.__loop
+
+    @property
+    def task(self) -> asyncio.Task[int] | None:
+        """The task that it runs as, None while it does not run."""
+        return self.__task
+
+    def include_launch_description(self, launch_description: Any) -> None:
+        """Let a description run; before the service runs, or while it does."""
+        self.emit_event(IncludeLaunchDescription(launch_description))
+
+    def emit_event(self, event: Any) -> None:
+        """Put an event into the queue, from any thread."""
+        with self.__guard:
+            loop = self.__loop
+            if loop is not None and loop is not _running_loop():
+                loop.call_soon_threadsafe(self.__context.emit_event_sync, event)
+                return
+        self.__context.emit_event_sync(event)
+
+    def run(self, *, shutdown_when_idle: bool = True) -> int:
+        """Run in a loop of its own until the end; 1 when any exception came up to here, else 0."""
+        loop = asyncio.new_event_loop()
+        loop.set_debug(self.__debug)
+        try:
+            return loop.run_until_complete(self.run_async(shutdown_when_idle=shutdown_when_idle))
+        finally:
+            loop.run_until_complete(loop.shutdown_asyncgens())
+            loop.close()
+
+    async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
+        """Run in the loop that awaits this; raises `RuntimeError` when it runs already."""
+        if not self.__running.acquire(blocking=False):
+            raise RuntimeError("LaunchService cannot be run multiple times concurrently.")
+        try:
+            return await self.__run(shutdown_when_idle)
+        finally:
+            with self.__guard:
+                self.__loop = self.__task = None
+            self.__context._set_asyncio_loop(None)
+            self.__running.release()
+
+    async def __run(self, shutdown_when_idle: bool) -> int:
+        loop = asyncio.get_running_loop()
+        with self.__guard:
+            self.__loop = loop
+        self.__task = asyncio.current_task()
+        self.__context._set_asyncio_loop(loop)
+        self.__context._set_is_shutdown(False)
+        self.__shutting_down = False
+        self.__return_code = 0
+        self.__context._event_queue.on_event = self.__pending.wake
+        if self.__stop_wanted is not None:
+            self._shutdown(reason=self.__stop_wanted, due_to_sigint=False)
+        with UserInterrupt(self.__interrupted):
+            while not (self.__shutting_down and self.__is_idle()):
+                if shutdown_when_idle and not self.__shutting_down and self.__is_idle():
+                    self._shutdown(reason="idle", due_to_sigint=False)
+                await self.__step()
+        return self.__return_code
+
+    async def __step(self) -> None:
+        """Handle the next event, or wait until there is one or an entity is done."""
+        try:
+            self.__pending.raise_failures()
+            if not self.__context._event_queue.empty():
+                self.__handle(self.__context._event_queue.get_nowait())
+                await asyncio.sleep(0)
+            elif not self.__is_idle() or not self.__shutting_down:
+                await self.__pending.changed()
+        except asyncio.CancelledError:
+            self._shutdown(reason="run task was canceled", due_to_sigint=False)
+            self.__return_code = 1
+        except Exception as error:  # launch files and handlers are the user's code
+            self.__caught(error)
+
+    def __caught(self, error: Exception) -> None:
+        self.__logger.debug(traceback.format_exc())
+        message = f"Caught exception in launch (see debug for traceback): {error}"
+        self.__logger.error(message)
+        self._shutdown(reason=message, due_to_sigint=False)
+        self.__return_code = 1
+
+    def __is_idle(self) -> bool:
+        futures = self.__context._completion_futures
+        futures[:] = [each for each in futures if not each.done()]
+        return not self.__pending and not futures and self.__context._event_queue.empty()
+
+    def __handle(self, event: Any) -> None:
+        self.__logger.debug("processing event: '%s'", event)
+        for handler in self.__context._event_handlers.matching(event):
+            if handler not in self.__context._event_handlers:
+                continue
+            self.__context._push_locals()
+            try:
+                self.__visit(handler.handle(event, self.__context))
+            finally:
+                self.__context._pop_locals()
+
+    def __visit(self, entities: Any) -> None:
+        if entities is None:
+            return
+        for entity in entities if isinstance(entities, Iterable) else (entities,):
+            if entity is None:
+                continue
+            if not hasattr(entity, "visit"):
+                raise RuntimeError(
+                    f"expected a LaunchDescriptionEntity from event_handler, got '{entity}'"
+                )
+            for _, future in visit_all_entities_and_collect_futures(entity, self.__context):
+                self.__pending.add(future)
+
+    def __on_shutdown(self, event: Any, context: Any) -> None:
+        self.__shutting_down = True
+        context._set_is_shutdown(True)
+
+    def __interrupted(self, again: bool) -> None:
+        text = "user interrupted with ctrl-c (SIGINT)"
+        if again:
+            self.__logger.warning(f"{text} again, ignoring...")
+            return
+        self.__logger.warning(text)
+        self._shutdown(reason="ctrl-c (SIGINT)", due_to_sigint=True)
+
+    def _shutdown(self, *, reason: str, due_to_sigint: bool) -> None:
+        if self.__shutting_down:
+            return
+        self.__shutting_down = True
+        self.__context._set_is_shutdown(True)
+        self.__context.emit_event_sync(Shutdown(reason=reason, due_to_sigint=due_to_sigint))
+
+    def shutdown(self, force_sync: bool = False) -> None:
+        """End what runs, from any thread; before it runs, it ends as soon as it does."""
+        reason = "LaunchService.shutdown() called"
+        with self.__guard:
+            loop = self.__loop
+            if loop is None:
+                self.__stop_wanted = reason
+            elif loop is not _running_loop():
+                loop.call_soon_threadsafe(lambda: self._shutdown(reason=reason, due_to_sigint=False))
+                return
+        if loop is not None:
+            self._shutdown(reason=reason, due_to_sigint=False)
+
+
+def _running_loop() -> asyncio.AbstractEventLoop | None:
+    try:
+        return asyncio.get_running_loop()
+    except RuntimeError:
+        return None

@@ -1,0 +1,32 @@
+"""What a process prints, as lines for its loggers."""
+
+from __future__ import annotations
+
+import codecs
+from typing import Any
+
+
+class OutputLines:
+    """Collects the text of one stream and logs each line when it is complete."""
+
+    def __init__(self, action: Any, logger: Any, output_format: str) -> None:
+        self._action = action
+        self._logger = logger
+        self._format = output_format
+        self._decode = codecs.getincrementaldecoder("utf-8")(errors="replace").decode
+        self._unfinished = ""
+
+    def feed(self, data: bytes) -> None:
+        """Take bytes."""
+        *lines, self._unfinished = (self._unfinished + self._decode(data)).split("\n")
+        for line in lines:
+            self._log(line)
+
+    def flush(self) -> None:
+        """Log the last line even though it has no end."""
+        rest, self._unfinished = self._unfinished, ""
+        if rest:
+            self._log(rest)
+
+    def _log(self, line: str) -> None:
+        self._logger.info(self._format.format(line=line, this=self._action))

@@ -1,0 +1,33 @@
+"""Ctrl-C while a launch runs."""
+
+from __future__ import annotations
+
+import asyncio
+import signal
+import threading
+from collections.abc import Callable
+from typing import Any
+
+
+class UserInterrupt:
+    """Calls back in the loop for each SIGINT, with whether it is not the first. Off the main thread there is none."""
+
+    def __init__(self, callback: Callable[[bool], None]) -> None:
+        self._callback = callback
+        self._before: Any = None
+        self._count = 0
+
+    def __enter__(self) -> UserInterrupt:
+        self._loop = asyncio.get_running_loop()
+        self._active = threading.current_thread() is threading.main_thread()
+        if self._active:
+            self._before = signal.signal(signal.SIGINT, self._caught)
+        return self
+
+    def __exit__(self, *_details: object) -> None:
+        if self._active:
+            signal.signal(signal.SIGINT, self._before)
+
+    def _caught(self, _signum: int, _frame: Any) -> None:
+        self._count += 1
+        self._loop.call_soon_threadsafe(self._callback, self._count > 1)
