@@ -46,7 +46,8 @@ def _lines(text: str, package: str, depth: int, all_comments: bool, comments: bo
     found: list[str] = []
     for line in text.splitlines():
         bare = line.split("#")[0].rstrip()
-        if not comments:
+        # Upstream does not take a `#` without any text for a comment.
+        if not comments and line.strip() != "#":
             if not bare.strip():
                 continue
             line = bare

@@ -11,13 +11,6 @@ from bot_console.runtime.rosidl.parse import parse
 from bot_console.runtime.rosidl.write import written
 
 FOLDER = Path(__file__).resolve().parent / "definitions"
-DEFAULTS = {
-    ("geometry_msgs/Quaternion", "w"): "1.0",
-    ("rcl_interfaces/ParameterDescriptor", "read_only"): "False",
-    ("rcl_interfaces/ParameterDescriptor", "dynamic_typing"): "False",
-}
-"""Defaults that the type store does not keep."""
-
 EMPTY = "structure_needs_at_least_one_member"
 LEFT_OUT = ("actionlib_msgs", "rosbag2_interfaces", "rmw_dds_common")
 
@@ -46,7 +39,7 @@ def _from_store() -> Iterator[Interface]:
         package, _, name = full_name.partition("/msg/")
         if package in LEFT_OUT:
             continue
-        rows = [_field(f"{package}/{name}", *each) for each in fields if each[0] != EMPTY]
+        rows = [_field(*each) for each in fields if each[0] != EMPTY]
         yield Interface(package, "msg", name, [Definition(name, rows, [_constant(*each) for each in constants])])
 
 
@@ -55,7 +48,7 @@ def _constant(name: str, kind: str, value: Any) -> Constant:
     return Constant(name, literal, kind)
 
 
-def _field(owner: str, name: str, description: Any) -> Field:
+def _field(name: str, description: Any) -> Field:
     shape, inside = description
     if shape.name == "BASE":
         kind = _single(inside)
@@ -66,7 +59,7 @@ def _field(owner: str, name: str, description: Any) -> Field:
         item = _single(inner) if inner_shape.name == "BASE" else Type(inner.replace("/msg/", "/"))
         sequence = shape.name == "SEQUENCE"
         kind = Type(item.item, sequence, count if sequence else 0, 0 if sequence else count, item.limit)
-    return Field(name, kind, DEFAULTS.get((owner, name)))
+    return Field(name, kind)
 
 
 def _single(base: tuple[str, int]) -> Type:
