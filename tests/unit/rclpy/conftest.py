@@ -1,0 +1,78 @@
+"""A context of its own for each test, with what nodes and executors a test makes in it."""
+
+from __future__ import annotations
+
+import itertools
+import time
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+import pytest
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+
+LONG = 20.0
+"""How long (s) a test waits for what it expects, before it fails."""
+
+_domains = itertools.count(1000)
+
+
+class Ros:
+    """Nodes of one domain, served by the test itself."""
+
+    def __init__(self) -> None:
+        self.domain = next(_domains)
+        self.context: Any = None
+        self._executor: Any = None
+
+    def init(self, *words: str) -> Context:
+        """Begin, with the words after `--ros-args`."""
+        self.context = Context()
+        self.context.init(["test", "--ros-args", *words], domain_id=self.domain)
+        self._executor = SingleThreadedExecutor(context=self.context)
+        return self.context
+
+    def node(self, name: str = "n", args: Sequence[str] = (), **options: Any) -> Node:
+        """A node that `spin` serves; `args` count only if the context has not begun."""
+        if self.context is None:
+            self.init(*args)
+        node = Node(name, context=self.context, **options)
+        self._executor.add_node(node)
+        return node
+
+    def spin(self, until: Callable[[], bool]) -> None:
+        """Serve all nodes until something is so."""
+        deadline = time.monotonic() + LONG
+        while not until():
+            assert time.monotonic() < deadline, "what the test waits for did not happen"
+            self._executor.spin_once(timeout_sec=LONG)
+
+    def settle(self) -> None:
+        """Serve what is there to be served now."""
+        for _ in range(50):
+            self._executor.spin_once(timeout_sec=0)
+
+    def ask(self, node: Node, service: Any, name: str, **fields: Any) -> Any:
+        """The response of a service."""
+        client = node.create_client(service, name)
+        future = client.call_async(service.Request(**fields))
+        self.spin(future.done)
+        return future.result()
+
+    def end(self) -> None:
+        """Let go of everything."""
+        if self.context is None:
+            return
+        for node in self._executor.get_nodes():
+            node.destroy_node()
+        self._executor.shutdown()
+        self.context.try_shutdown()
+
+
+@pytest.fixture
+def ros() -> Iterator[Ros]:
+    """Nodes and their context."""
+    made = Ros()
+    yield made
+    made.end()
