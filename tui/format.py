@@ -7,6 +7,9 @@ import unicodedata
 
 from bot_console.tui.console.model import Kind, ParameterInfo, Range, Severity, Value
 
+WIDE_MARK = "\ufe0f"
+"""Asks for a symbol in colour; terminals disagree whether that makes it one cell wide or two."""
+
 LETTERS = {
     Severity.UNSET: " ",
     Severity.DEBUG: "D",
@@ -112,7 +115,8 @@ def _parse_array(text: str, kind: Kind) -> Value:
 
 
 def harmless(text: str) -> str:
-    """A text with control characters and bidirectional marks shown as what they are, so that none acts on the screen."""
+    """A text with control characters and bidirectional marks made visible, so that none acts on the screen."""
+    text = text.replace(WIDE_MARK, "")
     if text.isprintable():
         return text
     return "".join(each if each.isprintable() or each == " " else _visible(each) for each in text)

@@ -1,7 +1,7 @@
 """The terminal's speed, and the only file that knows it.
 
 A frame is followed by a question to the terminal (`CSI 6n`, where is the cursor). While two of these are unanswered no
-further frame is composed, so that what changes meanwhile merges into one frame: a slow link shows fewer frames instead of
+further frame is composed, so that what changes meanwhile merges into one frame: a slow link shows fewer frames, not
 late ones, and a stalled one never blocks the event loop. This hangs on private parts of Textual 8.2 and is left out for
 other versions and for terminals that never answer.
 """
@@ -9,6 +9,7 @@ other versions and for terminals that never answer.
 from __future__ import annotations
 
 import time
+from collections import deque
 from importlib.metadata import version
 from typing import Any
 
@@ -19,6 +20,10 @@ IN_FLIGHT = 2
 PATIENCE = 2.0
 """Seconds after which an answer is no longer waited for."""
 
+RECENT = 5.0
+"""Seconds for which merged frames count as news."""
+NOTICEABLE = 10
+
 SUPPORTED = version("textual").startswith("8.2.")
 
 
@@ -28,8 +33,7 @@ class AnswerGate:
     def __init__(self) -> None:
         self._asked: list[float] = []
         self._answered_ever = False
-        self.held_back = 0
-        """Frames that were merged into later ones."""
+        self._merged: deque[float] = deque(maxlen=100)
 
     def open(self) -> bool:
         """Whether a frame may be drawn now."""
@@ -46,6 +50,17 @@ class AnswerGate:
         self._answered_ever = True
         if self._asked:
             self._asked.pop(0)
+
+    def merged(self) -> None:
+        """A frame was merged into a later one."""
+        self._merged.append(time.monotonic())
+
+    @property
+    def held_back(self) -> int:
+        """Frames merged in the last seconds, at most 100; 0 while there are so few that nobody would notice."""
+        since = time.monotonic() - RECENT
+        count = sum(each >= since for each in self._merged)
+        return count if count >= NOTICEABLE else 0
 
     @property
     def useless(self) -> bool:
@@ -75,6 +90,6 @@ class GatedScreen(Screen[None]):
             self._asking = False
         if self._asking and not self.app.is_headless and not self._gate.open():
             # The timer goes on ticking, so the dirty widgets are drawn as soon as the terminal has answered.
-            self._gate.held_back += 1
+            self._gate.merged()
             return
         super()._on_timer_update()

@@ -45,7 +45,7 @@ def status_text(snapshot: ConsoleSnapshot, held_back: int = 0) -> str:
     if snapshot.launch.problem:
         parts.append(snapshot.launch.problem)
     if held_back:
-        parts.append(f"slow link: {held_back} frames merged")
+        parts.append(f"slow link: {held_back} frames merged in 5 s")
     return "  ".join(each for each in parts if each)
 
 
