@@ -8,6 +8,7 @@ import warnings
 from pathlib import Path
 
 from ament_index_python.resources import get_resources, get_search_paths
+from bot_console.runtime.rosidl.texts import PREFIX, standard_packages
 from bot_console.runtime.workspace.discover import workspace
 
 NAME = re.compile(r"^[a-zA-Z0-9][a-zA-Z0-9_-]*$")
@@ -18,10 +19,15 @@ class PackageNotFoundError(KeyError):
 
 
 def get_packages_with_prefixes() -> dict[str, str]:
-    """Names of all packages with their prefixes; a source package's prefix is its folder."""
+    """Names of all packages with their prefixes; a source package's prefix is its folder.
+
+    The interface packages that come along stand behind those of the user.
+    """
     found = get_resources("packages")
     for name, package in workspace().packages.items():
         found.setdefault(name, str(package.folder))
+    for name in standard_packages():
+        found.setdefault(name, str(PREFIX))
     return found
 
 
@@ -43,7 +49,8 @@ def get_package_share_directory(package_name: str, print_warning: bool = True) -
         if print_warning and not os.path.exists(path):
             warnings.warn(f"Share directory for {package_name} ({path}) does not exist.", stacklevel=2)
         return path
-    return str(workspace().share(package_name))
+    share = workspace().share(package_name)
+    return str(share) if share is not None else os.path.join(prefix, "share", package_name)
 
 
 def get_package_share_path(package_name: str, print_warning: bool = True) -> Path:

@@ -8,6 +8,8 @@ import types
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
+PREFIX = "ament-prefix"
+"""Where the definition files lie as installed packages have them; no name that could be imported."""
 
 
 def main() -> None:
@@ -26,7 +28,9 @@ def main() -> None:
         folder.mkdir(parents=True, exist_ok=True)
         file = module_name(each.name)
         (folder / f"{file}.py").write_text(module(each), encoding="utf-8")
-        (folder / f"{each.name}.{each.kind}").write_text(text, encoding="utf-8")
+        share = fresh / PREFIX / "share" / each.package / each.kind
+        share.mkdir(parents=True, exist_ok=True)
+        (share / f"{each.name}.{each.kind}").write_text(text, encoding="utf-8")
         names = folders.setdefault(folder, {})
         names[each.name] = file
         if each.kind != "msg":

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-GENERATED = Path(__file__).resolve().parent / "generated"
+PREFIX = Path(__file__).resolve().parent / "generated" / "ament-prefix"
+"""The prefix in which the standard packages are installed, in ament's sense; their definitions lie below `share`."""
+
 KINDS = ("msg", "srv", "action")
 Folders = Callable[[], Mapping[str, Path]]
 _sources: list[Folders] = []
@@ -19,15 +21,19 @@ def add_source(folders: Folders) -> None:
 
 def package_folder(package: str) -> Path | None:
     """The folder in which a package's `msg`, `srv` and `action` lie; None for an unknown package."""
-    if (GENERATED / package).is_dir():
-        return GENERATED / package
+    if (PREFIX / "share" / package).is_dir():
+        return PREFIX / "share" / package
     return next((found[package] for each in _sources if package in (found := each())), None)
+
+
+def standard_packages() -> Sequence[str]:
+    """Names of the packages that come along."""
+    return sorted(each.name for each in (PREFIX / "share").iterdir())
 
 
 def known_packages() -> Sequence[str]:
     """Names of all packages that define interfaces, sorted."""
-    standard = (each.name for each in GENERATED.iterdir() if each.is_dir() and not each.name.startswith("_"))
-    return sorted({*standard, *(name for each in _sources for name in each())})
+    return sorted({*standard_packages(), *(name for each in _sources for name in each())})
 
 
 def interface_names(package: str) -> Sequence[str]:
