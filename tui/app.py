@@ -81,9 +81,15 @@ class BotConsoleApp(App[None]):
         self._lay_out()
         self.pull()
         if self._refresh_hz > 0:
-            self.set_interval(1.0 / self._refresh_hz, self.pull)
+            self.set_interval(1.0 / self._refresh_hz, self._beat)
         if self._on_first_frame is not None:
             self.call_after_refresh(self._on_first_frame)
+
+    def _beat(self) -> None:
+        self.pull()
+        with self.batch_update():
+            for pane in self.panes():
+                pane.tick()
 
     def pull(self) -> None:
         """Take the newest snapshot and let the visible panes draw what is new."""

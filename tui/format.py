@@ -20,6 +20,11 @@ LETTERS = {
 }
 
 
+def counted(number: int, word: str) -> str:
+    """A number and a word, in the plural where it belongs."""
+    return f"{number} {word}{'' if number == 1 else 's'}"
+
+
 def value_text(value: Value) -> str:
     """A parameter's value as YAML writes it on one line."""
     if value is None:

@@ -31,6 +31,9 @@ class Pane(Container):
         """Draw what is new in the snapshot; compare parts by identity and do nothing where they are the same."""
         raise NotImplementedError
 
+    def tick(self) -> None:
+        """Ten times a second, also while hidden: what does not come with a snapshot, such as samples and time-outs."""
+
     def focus_target(self) -> None:
         """Take the keyboard: focus the part of the pane that the keys are for."""
         self.query("*").filter(":can-focus").first().focus()

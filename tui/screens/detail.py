@@ -3,31 +3,23 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Iterable
 
 from bot_console.tui.console.model import LogRecord
 from bot_console.tui.format import harmless
+from bot_console.tui.screens.overlay import Overlay
+from rich.console import RenderableType
 from rich.text import Text
-from textual.app import ComposeResult
-from textual.containers import VerticalScroll
-from textual.screen import ModalScreen
-from textual.widgets import Static
 
 
-class DetailScreen(ModalScreen[None]):
+class DetailScreen(Overlay):
     """Everything that is known of one log line."""
 
-    BINDINGS = [("escape,enter,q", "dismiss", "Close")]
-    DEFAULT_CSS = """
-    DetailScreen { align: center middle; }
-    DetailScreen VerticalScroll { width: 90%; max-width: 110; height: auto; max-height: 80%; background: $panel;
-                                  border: round $primary; padding: 0 1; }
-    """
-
     def __init__(self, record: LogRecord) -> None:
-        super().__init__()
+        super().__init__("Message")
         self._record = record
 
-    def compose(self) -> ComposeResult:
+    def content(self) -> Iterable[RenderableType]:
         """The facts, then the text."""
         record = self._record
         seconds, rest = divmod(record.stamp, 10**9)
@@ -37,7 +29,4 @@ class DetailScreen(ModalScreen[None]):
         if record.file:
             text.append(f"{harmless(record.file)}:{record.line} in {harmless(record.function)}\n", "not bold dim")
         text.append("\n" + "\n".join(harmless(line) for line in record.text.splitlines()), "not bold")
-        with VerticalScroll() as box:
-            box.border_title = "Message"
-            box.border_subtitle = "esc closes"
-            yield Static(text)
+        yield text

@@ -2,42 +2,35 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from typing import ClassVar
+
 from bot_console.tui.keymap import TABLE, Key
+from bot_console.tui.screens.overlay import Overlay
+from rich.console import RenderableType
 from rich.table import Table
 from rich.text import Text
-from textual.app import ComposeResult
-from textual.containers import VerticalScroll
-from textual.screen import ModalScreen
-from textual.widgets import Static
+from textual.binding import Binding, BindingType
 
 
-class HelpScreen(ModalScreen[None]):
+class HelpScreen(Overlay):
     """What a pane is for, and its keys, then those that work everywhere."""
 
-    BINDINGS = [("escape,q,question_mark,f1", "dismiss", "Close")]
-    DEFAULT_CSS = """
-    HelpScreen { align: center middle; }
-    HelpScreen VerticalScroll { width: 90%; max-width: 90; height: auto; max-height: 90%; background: $panel;
-                                border: round $primary; padding: 0 1; }
-    """
+    BINDINGS: ClassVar[list[BindingType]] = [Binding("question_mark,f1", "dismiss", "Close")]
 
     def __init__(self, scope: str, title: str, text: str) -> None:
-        super().__init__()
+        super().__init__(title or "Help")
         self._scope = scope
-        self._title = title
         self._text = text
 
-    def compose(self) -> ComposeResult:
+    def content(self) -> Iterable[RenderableType]:
         """The text, then two tables of keys."""
-        with VerticalScroll() as box:
-            box.border_title = self._title or "Help"
-            box.border_subtitle = "esc closes"
-            if self._text:
-                yield Static(Text(self._text + "\n", "dim"))
-            if self._scope in TABLE:
-                yield Static(_keys(TABLE[self._scope]))
-            yield Static(Text("\nEverywhere", "bold"))
-            yield Static(_keys((*TABLE["app"], *TABLE["list"])))
+        if self._text:
+            yield Text(self._text + "\n", "dim")
+        if self._scope in TABLE:
+            yield _keys(TABLE[self._scope])
+        yield Text("\nEverywhere", "bold")
+        yield _keys((*TABLE["app"], *TABLE["list"]))
 
 
 def _keys(rows: tuple[Key, ...]) -> Table:

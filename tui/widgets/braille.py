@@ -40,9 +40,13 @@ class BrailleCanvas:
         """Set the dots of a picture of the canvas's size."""
         self._dots |= dots
 
+    def codes(self) -> npt.NDArray[np.uint8]:
+        """The dots of each cell as bits, by row and column of cells."""
+        cells = self._dots.reshape(self.height, 4, self.width, 2)
+        return (cells * BITS[None, :, None, :]).sum(axis=(1, 3)).astype(np.uint8)
+
     def rows(self) -> list[str]:
         """The picture as lines of text; empty cells are blanks, which cost one byte and not three."""
-        cells = self._dots.reshape(self.height, 4, self.width, 2)
-        codes = (cells * BITS[None, :, None, :]).sum(axis=(1, 3)).astype(np.uint32)
+        codes = self.codes().astype(np.uint32)
         letters = np.where(codes == 0, 0x20, 0x2800 + codes)
         return ["".join(map(chr, row)) for row in letters.tolist()]

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from textual.app import ComposeResult
 from textual.containers import Horizontal
 from textual.message import Message
+from textual.suggester import SuggestFromList
 from textual.widgets import Input, Label
 
 
@@ -49,13 +50,26 @@ class Prompt(Horizontal):
         yield Input(id="prompt-input", select_on_focus=True)
         yield Label("", markup=False, classes="wrong", id="prompt-wrong")
 
-    def open(self, purpose: str, label: str, text: str = "", check: Callable[[str], str] | None = None) -> None:
-        """Ask; `check` says in words what is wrong with a text, empty when nothing is."""
+    def open(
+        self,
+        purpose: str,
+        label: str,
+        text: str = "",
+        check: Callable[[str], str] | None = None,
+        suggestions: Sequence[str] = (),
+    ) -> None:
+        """Ask; `check` says in words what is wrong with a text, empty when nothing is.
+
+        The first of the `suggestions` that begins as the text does is shown dim; the right arrow key takes it.
+        """
         self._purpose = purpose
         self._check = check or (lambda text: "")
         self.query_one("#prompt-label", Label).update(label)
         field = self.query_one("#prompt-input", Input)
+        field.suggester = SuggestFromList(suggestions, case_sensitive=False) if suggestions else None
+        field.select_on_focus = not suggestions
         field.value = text
+        field.cursor_position = len(text)
         self._complain(text)
         self.add_class("open")
         field.focus()

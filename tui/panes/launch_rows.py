@@ -1,0 +1,122 @@
+"""The tree of processes: launch files, groups, processes."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+
+from bot_console.tui.console.model import LaunchInfo, ProcessInfo, ProcessState
+from bot_console.tui.format import harmless
+from bot_console.tui.widgets.row_list import RowList
+from rich.segment import Segment
+from rich.style import Style
+
+STATES = {
+    ProcessState.STARTING: ("◌", "dim"),
+    ProcessState.RUNNING: ("●", "good"),
+    ProcessState.STOPPING: ("◐", "warn"),
+    ProcessState.EXITED: ("○", "dim"),
+    ProcessState.CRASHED: ("✗", "error"),
+    ProcessState.ABANDONED: ("⚠", "warn"),
+}
+
+
+@dataclass(frozen=True)
+class Row:
+    """A group by its path, or a process."""
+
+    group: tuple[str, ...]
+    process: ProcessInfo | None = None
+    count: int = 0
+    running: int = 0
+    folded: bool = False
+
+    @property
+    def depth(self) -> int:
+        """How far it is indented."""
+        return len(self.group) - (0 if self.process else 1)
+
+
+def rows(info: LaunchInfo, folded: Collection[tuple[str, ...]] = ()) -> list[Row]:
+    """The tree, groups in the order of their first process; a launch file without processes stands alone."""
+    found: list[Row] = []
+    seen: set[tuple[str, ...]] = set()
+    by_group: dict[tuple[str, ...], list[ProcessInfo]] = {}
+    for process in info.processes:
+        for depth in range(1, len(process.group) + 1):
+            by_group.setdefault(process.group[:depth], []).append(process)
+    for process in _together(info.processes):
+        for depth in range(1, len(process.group) + 1):
+            group = process.group[:depth]
+            if group not in seen and not _inside(group[:-1], folded):
+                inside = by_group[group]
+                running = sum(each.state is ProcessState.RUNNING for each in inside)
+                found.append(Row(group, None, len(inside), running, group in folded))
+            seen.add(group)
+        if not _inside(process.group, folded):
+            found.append(Row(process.group, process))
+    return found
+
+
+def _together(processes: Sequence[ProcessInfo]) -> list[ProcessInfo]:
+    """Processes sorted so that each group stands together, in the order in which groups first appear."""
+    first: dict[tuple[str, ...], int] = {}
+    for at, process in enumerate(processes):
+        for depth in range(len(process.group) + 1):
+            first.setdefault(process.group[:depth], at)
+    keys = {each.key: [first[each.group[:depth]] for depth in range(1, len(each.group) + 1)] for each in processes}
+    return sorted(processes, key=lambda each: keys[each.key])
+
+
+def _inside(group: tuple[str, ...], folded: Collection[tuple[str, ...]]) -> bool:
+    return any(group[:depth] in folded for depth in range(1, len(group) + 1))
+
+
+class ProcessRows(RowList):
+    """The rows of the tree."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.rows: list[Row] = []
+
+    @property
+    def current(self) -> Row | None:
+        """The row at the cursor."""
+        return self.rows[self.cursor] if self.cursor < len(self.rows) else None
+
+    def row_count(self) -> int:
+        """How many rows there are."""
+        return len(self.rows)
+
+    def _style(self, name: str) -> Style:
+        return self.get_component_rich_style(f"row-list--{name}", partial=True)
+
+    def row(self, index: int, width: int) -> list[Segment]:
+        """A group, or state, name, pid, restarts and last exit of a process."""
+        row = self.rows[index]
+        indent = "  " * row.depth
+        if row.process is None:
+            arrow = "▸" if row.folded else "▾"
+            summary = f"  {row.running} of {row.count} running"
+            return [
+                Segment(f"{indent}{arrow} {harmless(row.group[-1])}", self._style("head")),
+                Segment(summary, self._style("warn" if row.running < row.count else "dim")),
+            ]
+        return self._process(row.process, indent, width)
+
+    def _process(self, process: ProcessInfo, indent: str, width: int) -> list[Segment]:
+        glyph, style = STATES[process.state]
+        names = max(14, min(36, width // 3))
+        name = f"{indent}{glyph} {harmless(process.label)}"[: names - 1].ljust(names)
+        columns = [f"{process.state.value:<10}", f"{process.pid or '':>8}"]
+        columns.append(f"{f'↻{process.restarts}' if process.restarts else '':>5}")
+        columns.append("" if process.exit_code is None else f"  exit {process.exit_code}")
+        if process.cpu is not None and width >= 60:
+            columns.append(f"  {process.cpu:.0%} CPU")
+        nodes = "  " + " ".join(process.nodes) if width >= 90 and process.nodes else ""
+        if process.problem:
+            return [Segment(name + "".join(columns) + "  ", self._style(style)),
+                    Segment(harmless(process.problem), self._style(style))]  # fmt: skip
+        plain = None if process.state is ProcessState.RUNNING else self._style(style)
+        head = [Segment(name[: len(indent) + 1], self._style(style)), Segment(name[len(indent) + 1 :], plain)]
+        return [*head, Segment("".join(columns), plain), Segment(harmless(nodes), self._style("dim"))]

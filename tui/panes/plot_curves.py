@@ -1,0 +1,95 @@
+"""The curves of a plot: their samples so far, and what of them is seen in a time window."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+from bot_console.tui.console.protocol import Console
+
+Array = npt.NDArray[np.float64]
+MOST = 20_000
+"""Samples of one curve that are kept."""
+
+
+def _empty() -> Array:
+    return np.zeros(0)
+
+
+@dataclass
+class Curve:
+    """A plotted path and its samples; `problem` says why none come."""
+
+    path: str
+    colour: int = 0
+    times: Array = field(default_factory=_empty)
+    values: Array = field(default_factory=_empty)
+    cursor: int = 0
+    problem: str = ""
+
+    @property
+    def steps(self) -> bool:
+        """Whether the value holds until the next sample, as a parameter's does."""
+        return ":" in self.path
+
+    @property
+    def latest(self) -> float | None:
+        """The newest value."""
+        return float(self.values[-1]) if len(self.values) else None
+
+    def take_in(self, console: Console) -> bool:
+        """Fetch new samples; whether there were any."""
+        samples = console.samples(self.path, self.cursor)
+        changed = self.problem != samples.problem or samples.cursor != self.cursor
+        self.cursor, self.problem = samples.cursor, samples.problem
+        if len(samples.times):
+            self.times = np.concatenate([self.times, np.asarray(samples.times, float)])[-MOST:]
+            self.values = np.concatenate([self.values, np.asarray(samples.values, float)])[-MOST:]
+        return changed
+
+    def clear(self) -> None:
+        """Forget the samples, but for the newest value of a parameter, which still holds."""
+        keep = 1 if self.steps else 0
+        self.times = self.times[len(self.times) - min(keep, len(self.times)) :]
+        self.values = self.values[len(self.values) - min(keep, len(self.values)) :]
+
+    def between(self, start: float, end: float) -> tuple[Array, Array]:
+        """The polyline from `start` to `end` (s): samples inside, one more on either side; NaN breaks it."""
+        times, values = self.times, np.where(np.isfinite(self.values), self.values, np.nan)
+        if self.steps and len(times):
+            times, values = _held(times, values, end)
+        first = max(0, int(np.searchsorted(times, start)) - 1)
+        last = int(np.searchsorted(times, end, side="right")) + 1
+        return times[first:last], values[first:last]
+
+
+def _held(times: Array, values: Array, end: float) -> tuple[Array, Array]:
+    """Steps: each value holds until the next one, the last one until the end."""
+    moments = np.repeat(times, 2)[1:]
+    held = np.repeat(values, 2)[:-1]
+    return np.append(moments, max(end, float(times[-1]))), np.append(held, values[-1])
+
+
+@dataclass(frozen=True)
+class Reach:
+    """The lowest and highest value of each column of dots; NaN where there is nothing."""
+
+    low: Array
+    high: Array
+
+
+def reach(times: Array, values: Array, start: float, end: float, columns: int) -> Reach:
+    """Reduce a polyline to what each column of dots has to show, so that drawing costs the same for any length."""
+    low, high = np.full(columns, np.nan), np.full(columns, np.nan)
+    if len(times) == 0 or end <= start:
+        return Reach(low, high)
+    borders = np.linspace(start, end, columns + 1)
+    at = np.interp(borders, times, values, left=np.nan, right=np.nan)
+    low, high = np.fmin(at[:-1], at[1:]), np.fmax(at[:-1], at[1:])
+    inside = (times >= start) & (times <= end) & np.isfinite(values)
+    column = np.minimum(((times[inside] - start) / (end - start) * columns).astype(np.int64), columns - 1)
+    if len(column):
+        np.fmin.at(low, column, values[inside])
+        np.fmax.at(high, column, values[inside])
+    return Reach(low, high)

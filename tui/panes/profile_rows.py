@@ -1,0 +1,122 @@
+"""The two lists of the profiles pane: the profiles, and what one of them would change."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from bot_console.tui.console.model import Profile, ProfileDifference, SetOutcome, Value
+from bot_console.tui.format import harmless, value_text
+from bot_console.tui.widgets.row_list import RowList
+from rich.segment import Segment
+from rich.style import Style
+
+NAMES = 26
+VALUES = 12
+SAFETY = ("enable_safety",)
+"""Parameters of which a change to false is asked about."""
+
+
+class ProfileRows(RowList):
+    """The profiles by name; a dot marks the one applied last."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.profiles: Sequence[Profile] = ()
+        self.active = ""
+
+    @property
+    def current(self) -> Profile | None:
+        """The profile at the cursor."""
+        return self.profiles[self.cursor] if self.cursor < len(self.profiles) else None
+
+    def row_count(self) -> int:
+        """How many profiles there are."""
+        return len(self.profiles)
+
+    def row(self, index: int, width: int) -> list[Segment]:
+        """Mark, name, title or problem."""
+        profile = self.profiles[index]
+        mark = "●" if profile.name == self.active else " "
+        name = f"{mark} {harmless(profile.name)}"
+        style = self.get_component_rich_style("row-list--warn" if profile.problem else "row-list--dim", partial=True)
+        return [Segment(name[:22].ljust(min(16, width))), Segment(harmless(profile.problem or profile.title), style)]
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A line of the differences: a node, or one value of it; `outcome` is what became of it when it was applied."""
+
+    node: str
+    difference: ProfileDifference | None = None
+    outcome: SetOutcome | None = None
+
+
+class DifferenceRows(RowList):
+    """What a profile would change, by node."""
+
+    can_focus = False
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.entries: Sequence[Entry] = ()
+
+    def show(self, entries: Sequence[Entry]) -> None:
+        """Show these lines from the top."""
+        if entries != self.entries:
+            self.entries = entries
+            self.rows_changed()
+
+    def row_count(self) -> int:
+        """How many lines there are."""
+        return len(self.entries)
+
+    def _style(self, name: str) -> Style:
+        return self.get_component_rich_style(f"row-list--{name}", partial=True)
+
+    def row(self, index: int, width: int) -> list[Segment]:
+        """A node, or `name  now → then` with what is to be said about it."""
+        entry = self.entries[index]
+        change = entry.difference
+        if change is None:
+            return [Segment(harmless(entry.node), self._style("head"))]
+        names = min(NAMES, max(12, width // 3))
+        now = harmless(value_text(change.now))[:VALUES] if change.now is not None else "?"
+        then = harmless(value_text(change.then))
+        note, style = _note(entry, change)
+        return [
+            Segment(f"  {harmless(change.name)}"[: names - 1].ljust(names)),
+            Segment(f"{now:>{VALUES}} → ", self._style("dim")),
+            Segment(then[: VALUES * 2].ljust(VALUES), self._style("strong")),
+            Segment(f"  {note}", self._style(style)),
+        ]
+
+
+def _note(entry: Entry, change: ProfileDifference) -> tuple[str, str]:
+    outcome = entry.outcome
+    if outcome is not None:
+        return ("✓ taken", "good") if outcome.accepted else (f"✗ {harmless(outcome.reason)}", "error")
+    if change.refusal:
+        return f"✗ would be refused: {harmless(change.refusal)}", "error"
+    if turns_safety_off(change):
+        return "⚠ turns safety off", "warn"
+    return ("needs a world reset", "dim") if change.needs_reset else ("", "dim")
+
+
+def turns_safety_off(change: ProfileDifference) -> bool:
+    """Whether a difference takes a protection away."""
+    return change.name in SAFETY and change.then is False
+
+
+def entries(
+    differences: Sequence[ProfileDifference], outcomes: Mapping[tuple[str, str], SetOutcome]
+) -> tuple[Entry, ...]:
+    """The lines, each node once and its values below it."""
+    found: list[Entry] = []
+    node: Value = None
+    for each in sorted(differences, key=lambda one: (one.node, one.name)):
+        if each.node != node:
+            node = each.node
+            found.append(Entry(each.node))
+        found.append(Entry(each.node, each, outcomes.get((each.node, each.name))))
+    return tuple(found)

@@ -1,0 +1,85 @@
+"""The steering pane as lines of text. Pure."""
+
+from __future__ import annotations
+
+from bot_console.tui.console.model import DriveInfo
+from bot_console.tui.format import harmless
+from bot_console.tui.panes.steering_state import Steering
+from bot_console.tui.widgets.picture import Line
+
+BAR = 10
+WORDS = 9
+
+
+def lines(state: Steering, drive: DriveInfo, left: float, width: int, height: int) -> list[Line]:
+    """Switch, dead-man time, sliders, and what became of the command; the least important lines go first."""
+    top = [_switch(state, drive, width)]
+    sliders = [
+        _slider("linear", state.linear, state.greatest[0], "m/s", width),
+        _slider("angular", -state.angular, state.greatest[1], "rad/s", width, turned=True),
+    ]
+    chain = _chain(drive)
+    deadman = _deadman(state, left)
+    compact: list[Line] = [*top, *sliders, deadman, *chain]
+    roomy: list[Line] = [*top, (), *sliders, (), deadman, (), *chain]
+    full: list[Line] = [*roomy, (), *_keys(width)]
+    return next((each for each in (full, roomy) if len(each) <= height), compact)[:height]
+
+
+def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
+    topic = harmless(drive.topic) or "no robot listens for commands"
+    if drive.stopped:
+        return ((" ALL STOP ", "error"), (" the robot is held; ! lets it go", ""))
+    if state.armed:
+        return ((" ● ARMED ", "warn"), (f" keys drive  {topic}", "dim"))
+    return ((" ○ disarmed ", "dim"), (" enter arms  " if width >= 34 else " ", "strong"), (topic, "dim"))
+
+
+def _slider(word: str, value: float, greatest: float, unit: str, width: int, *, turned: bool = False) -> Line:
+    """A slider with its ends; an angular one shows left turns on the left, as they are felt."""
+    shown = -value if turned else value
+    ends = ("left", "right") if turned else (f"{-greatest:+.1f}", f"{greatest:+.1f}")
+    room = max(11, min(61, width - WORDS - 2 * 6 - 16)) | 1
+    place = round((value / greatest + 1) / 2 * (room - 1)) if greatest > 0 else room // 2
+    track = list("─" * room)
+    track[room // 2] = "┼"
+    track[max(0, min(place, room - 1))] = "●"
+    before, after = "".join(track[:place]), "".join(track[place + 1 :])
+    style = "accent" if shown else "dim"
+    return (
+        (f" {word:<{WORDS}}", ""), (f"{ends[0]:>5} ├{before}", "dim"), ("●", style), (f"{after}┤ {ends[1]:<5}", "dim"),
+        (f"{shown:+7.2f} {unit}", "strong" if shown else ""),
+    )  # fmt: skip
+
+
+def _deadman(state: Steering, left: float) -> Line:
+    if state.expired:
+        return ((f" no key for {state.deadman:g} s: stopped", "warn"),)
+    full = round(left * BAR)
+    moving = bool(state.linear or state.angular)
+    bar = "▰" * full + "▱" * (BAR - full) if state.armed and moving else "▱" * BAR
+    return ((f" {'dead-man':<{WORDS}}", ""), (f"{bar} ", "warn" if moving and left < 0.35 else "dim"),
+            (f"stops {state.deadman:g} s after the last key", "dim"))  # fmt: skip
+
+
+def _chain(drive: DriveInfo) -> list[Line]:
+    """Asked, limited, final, actual: what became of the command on its way."""
+    rows: list[Line] = []
+    stages = (("asked", drive.asked), ("limited", drive.limited), ("final", drive.final), ("actual", drive.actual))
+    for word, velocity in stages:
+        text = f"{velocity[0]:+7.2f} m/s {velocity[1]:+7.2f} rad/s" if velocity else "      unknown"
+        why = f"  by {harmless(drive.limited_by)}" if word == "limited" and drive.limited_by else ""
+        if velocity is not None or word in ("final", "actual"):
+            rows.append(((f" {word:<{WORDS}}", "dim"), (text, "" if velocity else "dim"), (why, "warn")))
+    return rows
+
+
+def _keys(width: int) -> list[Line]:
+    rows = (
+        ("w s ↑ ↓", "faster, slower"),
+        ("a d ← →", "turn left, right"),
+        ("Shift", "ten steps at once"),
+        ("x  z", "zero speed, zero turn"),
+        ("space", "stop"),
+    )
+    return [((f" {keys:<{WORDS}}", "accent"), (text, "dim")) for keys, text in rows] if width >= 30 else []

@@ -1,0 +1,32 @@
+"""Facts about one thing: lines under headings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from bot_console.tui.format import harmless
+from bot_console.tui.screens.overlay import Overlay
+from rich.console import RenderableType
+from rich.text import Text
+
+Section = tuple[str, Sequence[str]]
+"""A heading and its lines."""
+
+
+class FactsScreen(Overlay):
+    """Sections one below the other; an empty one is left out."""
+
+    def __init__(self, title: str, sections: Sequence[Section]) -> None:
+        super().__init__(harmless(title))
+        self._sections = sections
+
+    def content(self) -> Iterable[RenderableType]:
+        """The sections."""
+        text = Text()
+        for heading, lines in self._sections:
+            if lines:
+                text.append(("\n" if text else "") + heading + "\n", "bold")
+                for line in lines:
+                    text.append(f"  {harmless(line)}\n")
+        text.rstrip()
+        yield text

@@ -1,0 +1,112 @@
+"""The arguments of a launch file as a form: defaults filled in, choices as a list."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import ClassVar
+
+from bot_console.tui.console.model import LaunchArgument
+from bot_console.tui.format import harmless
+from textual.app import ComposeResult
+from textual.binding import Binding, BindingType
+from textual.containers import Vertical, VerticalScroll
+from textual.screen import ModalScreen
+from textual.suggester import SuggestFromList
+from textual.widgets import Input, Static
+
+
+class ArgumentsScreen(ModalScreen["Mapping[str, str] | None"]):
+    """The values that differ from their defaults, or None when nothing shall be launched."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [
+        Binding("escape", "give_up", "Close"),
+        Binding("down,tab", "step(1)", "Next", show=False, priority=True),
+        Binding("up,shift+tab", "step(-1)", "Previous", show=False, priority=True),
+        Binding("ctrl+n", "choice(1)", "Next choice", show=False, priority=True),
+        Binding("pagedown", "choice(1)", "Next choice", show=False, priority=True),
+        Binding("pageup", "choice(-1)", "Previous choice", show=False, priority=True),
+        Binding("ctrl+q,ctrl+c", "app.quit", "Quit", show=False, priority=True),
+    ]
+    DEFAULT_CSS = """
+    ArgumentsScreen { align: center middle; }
+    ArgumentsScreen #form { width: 90%; max-width: 100; height: auto; max-height: 90%; background: $panel;
+                            border: round $primary; padding: 0 1; }
+    ArgumentsScreen VerticalScroll { height: auto; max-height: 100%; scrollbar-size-vertical: 1; }
+    ArgumentsScreen .argument { height: auto; margin-bottom: 1; }
+    ArgumentsScreen .name { text-style: bold; height: 1; }
+    ArgumentsScreen .about { color: $text-muted; height: auto; }
+    ArgumentsScreen Input { border: none; height: 1; padding: 0 1; background: $surface; }
+    ArgumentsScreen Input:focus { border: none; background: $block-cursor-background; }
+    ArgumentsScreen #wrong { color: $warning; height: auto; }
+    """
+
+    def __init__(self, path: str, arguments: Sequence[LaunchArgument]) -> None:
+        super().__init__()
+        self._path = path
+        self._arguments = arguments
+
+    def compose(self) -> ComposeResult:
+        """Name, value and description of each argument."""
+        with Vertical(id="form") as box:
+            box.border_title = "Launch " + harmless(Path(self._path).name).replace("[", r"\[")
+            box.border_subtitle = "↑↓ move · enter launches · esc closes"
+            with VerticalScroll(can_focus=False):
+                for each in self._arguments:
+                    with Vertical(classes="argument"):
+                        yield Static(harmless(each.name), classes="name", markup=False)
+                        suggester = SuggestFromList(each.choices) if each.choices else None
+                        yield Input(each.default or "", suggester=suggester, select_on_focus=True)
+                        yield Static(self._about(each), classes="about", markup=False)
+            yield Static("", id="wrong", markup=False)
+
+    @staticmethod
+    def _about(argument: LaunchArgument) -> str:
+        parts = [harmless(argument.description)]
+        parts.append("required" if argument.default is None else "")
+        choices = " ".join(harmless(each) for each in argument.choices)
+        parts.append(f"one of: {choices} (page up, page down)" if choices else "")
+        return " · ".join(each for each in parts if each)
+
+    def on_mount(self) -> None:
+        """Begin at the first argument that has to be given."""
+        fields = list(self.query(Input))
+        needed = (at for at, each in enumerate(self._arguments) if each.default is None)
+        fields[next(needed, 0)].focus()
+
+    def _at(self) -> int:
+        fields = list(self.query(Input))
+        return fields.index(self.focused) if isinstance(self.focused, Input) else 0
+
+    def action_step(self, step: int) -> None:
+        """The next argument, or the one before."""
+        fields = list(self.query(Input))
+        fields[(self._at() + step) % len(fields)].focus()
+
+    def action_choice(self, step: int) -> None:
+        """The next of the values that the launch file allows."""
+        argument, field = self._arguments[self._at()], list(self.query(Input))[self._at()]
+        if argument.choices:
+            now = argument.choices.index(field.value) if field.value in argument.choices else -step
+            field.value = argument.choices[(now + step) % len(argument.choices)]
+
+    def on_input_submitted(self, event: Input.Submitted) -> None:
+        """Launch, when everything that is needed is there."""
+        event.stop()
+        values = {each.name: field.value for each, field in zip(self._arguments, self.query(Input), strict=True)}
+        wrong = [
+            f"{each.name} has to be given" for each in self._arguments if each.default is None and not values[each.name]
+        ]
+        wrong += [
+            f"{each.name} must be one of {', '.join(each.choices)}"
+            for each in self._arguments
+            if each.choices and values[each.name] not in each.choices
+        ]
+        if wrong:
+            self.query_one("#wrong", Static).update(harmless("; ".join(wrong)))
+            return
+        self.dismiss({each.name: values[each.name] for each in self._arguments if values[each.name] != each.default})
+
+    def action_give_up(self) -> None:
+        """Launch nothing."""
+        self.dismiss(None)

@@ -1,0 +1,67 @@
+"""Lines of styled text that are drawn anew only where they differ from what was shown."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import ClassVar, TypeAlias
+
+from rich.segment import Segment
+from textual.geometry import Region
+from textual.strip import Strip
+from textual.widget import Widget
+
+Piece: TypeAlias = "tuple[str, str]"
+"""Text and the name of its style, one of `Picture.STYLES`; empty for the plain one."""
+
+Line: TypeAlias = "tuple[Piece, ...]"
+
+
+class Picture(Widget):
+    """Shows lines; `Picture.STYLES` are the names that pieces may use."""
+
+    STYLES: ClassVar[tuple[str, ...]] = (
+        "dim", "strong", "good", "warn", "error", "accent", "cursor",
+        "curve-0", "curve-1", "curve-2", "curve-3", "curve-4", "curve-5",
+    )  # fmt: skip
+    DEFAULT_CSS = """
+    Picture { height: 1fr; background: $surface; color: $text; }
+    .picture--dim { color: $text-muted; }
+    .picture--strong { text-style: bold; }
+    .picture--good { color: $success; }
+    .picture--warn { color: $warning; }
+    .picture--error { color: $error; }
+    .picture--accent { color: $primary; }
+    .picture--cursor { color: $block-cursor-foreground; background: $block-cursor-background; text-style: bold; }
+    .picture--curve-0 { color: #6cb6ff; }
+    .picture--curve-1 { color: #e0a458; }
+    .picture--curve-2 { color: #57ab9a; }
+    .picture--curve-3 { color: #dcbdfb; }
+    .picture--curve-4 { color: #f47067; }
+    .picture--curve-5 { color: #c6d166; }
+    """
+    COMPONENT_CLASSES: ClassVar[set[str]] = {f"picture--{each}" for each in STYLES}
+
+    def __init__(self, *, id: str | None = None) -> None:
+        super().__init__(id=id)
+        self.lines: Sequence[Line] = ()
+
+    def set_lines(self, lines: Sequence[Line]) -> None:
+        """Show these lines."""
+        old, self.lines = self.lines, lines
+        width = self.size.width
+        if len(old) != len(lines):
+            self.refresh()
+            return
+        changed = [Region(0, y, width, 1) for y, (a, b) in enumerate(zip(old, lines, strict=True)) if a != b]
+        if changed:
+            self.refresh(*changed)
+
+    def render_line(self, y: int) -> Strip:
+        """One line."""
+        base = self.rich_style
+        pieces = self.lines[y] if y < len(self.lines) else ()
+        segments = [
+            Segment(text, base + self.get_component_rich_style(f"picture--{name}", partial=True) if name else base)
+            for text, name in pieces
+        ]
+        return Strip(segments).adjust_cell_length(self.size.width, base)
