@@ -185,6 +185,10 @@ class RosConsole:
         """New samples of a series."""
         return self._node.plots.samples(path, after) if self._node else Samples((), (), after)
 
+    def plot_time(self, stamp: int | None = None) -> float:
+        """Where a moment lies on the time axis of all series."""
+        return self._node.plots.axis_time(stamp) if self._node else 0.0
+
     def plottable(self) -> Sequence[str]:
         """Paths that can be plotted."""
         node = self._node

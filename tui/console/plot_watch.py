@@ -32,11 +32,16 @@ class PlotWatch:
     def __init__(self, node: Node) -> None:
         self._node = node
         self._start = time.monotonic()
+        self._started_at = time.time_ns()
         self._watched: dict[str, _Watched] = {}
 
     def now(self) -> float:
         """Seconds since the console's start, the time axis of all series."""
         return time.monotonic() - self._start
+
+    def axis_time(self, stamp: int | None) -> float:
+        """Where a moment (ns since the epoch; None is now) lies on that axis."""
+        return self.now() if stamp is None else (stamp - self._started_at) / 1e9
 
     def watch(self, path: str, graph: GraphInfo, trees: Mapping[str, ParameterTree]) -> Answer:
         """Begin to collect a path, or say why it cannot be plotted."""
@@ -98,7 +103,10 @@ class PlotWatch:
     def samples(self, path: str, after: int) -> Samples:
         """New samples; nothing for a path that is not watched."""
         watched = self._watched.get(path)
-        return watched.series.after(after) if watched else Samples((), (), after)
+        if watched is None:
+            return Samples((), (), after)
+        new = watched.series.after(after)
+        return Samples(new.times, new.values, new.cursor, watched.problem)
 
     def plottable(self, graph: GraphInfo, trees: Mapping[str, ParameterTree]) -> Sequence[str]:
         """Every path to a number: fields of the graph's topics, and parameters."""

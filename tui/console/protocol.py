@@ -33,6 +33,8 @@ class Samples:
     values: Sequence[float]
     cursor: int
     """Give this back to receive only what came after."""
+    problem: str = ""
+    """Why no samples come, for instance that an array is empty; empty when all is well."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,6 +102,10 @@ class Console(Protocol):
         """Samples of a watched series from cursor `after` on."""
         ...
 
+    def plot_time(self, stamp: int | None = None) -> float:
+        """Where a moment (ns since the epoch; None is now) lies on the time axis of all series, in s."""
+        ...
+
     def plottable(self) -> Sequence[str]:
         """Paths that `watch` takes, for completion."""
         ...
@@ -149,7 +155,10 @@ class Launcher(Protocol):
         ...
 
     def arguments(self, path: str) -> Sequence[LaunchArgument]:
-        """The arguments a launch file declares; raises `ValueError` with the file and line when it cannot be read."""
+        """The arguments a launch file declares; raises `ValueError` with the file and line when it cannot be read.
+
+        A launch file is a program that may take its time, so this one method may be called from any thread.
+        """
         ...
 
     def files(self) -> Sequence[str]:
