@@ -73,7 +73,7 @@ class ClockSource(Protocol):
 class _RealWakeup:
     """A wakeup on the machine's own clock; one lock per wait, so that a waiter costs no condition variable."""
 
-    __slots__ = ("_set", "_waiters")
+    __slots__ = ("__weakref__", "_set", "_waiters")
 
     def __init__(self) -> None:
         self._set = False

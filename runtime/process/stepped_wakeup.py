@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 class SteppedWakeup:
     """As `threading.Event`, for threads that hand the baton on while they wait."""
 
-    __slots__ = ("_baton", "flag", "waiters")
+    __slots__ = ("__weakref__", "_baton", "flag", "waiters")
 
     def __init__(self, baton: Baton) -> None:
         self._baton = baton

@@ -1,0 +1,107 @@
+"""Every command recorded on real ROS 2 gives the same output and exit code here, asked of the same system."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+from systems import Program, System, system
+
+ORACLE = Path(os.environ.get("BOT_CONSOLE_ORACLE", ""), "cli")
+COURSE = Path(os.environ.get("BOT_CONSOLE_COURSE", "")).absolute()
+SETTLE = 1.0
+"""How long (s) the programs of a system run before the first command."""
+
+Row = dict[str, Any]
+
+
+def rows() -> list[Row]:
+    """All that were recorded, file by file; none where there are no records."""
+    if not (os.environ.get("BOT_CONSOLE_ORACLE") and os.environ.get("BOT_CONSOLE_COURSE")):
+        return []
+    return [row for file in sorted(ORACLE.glob("*.json")) for row in json.loads(file.read_text("utf-8"))]
+
+
+def filled(words: Sequence[str], folder: Path) -> list[str]:
+    """A recorded command with the folders of this run."""
+    return [word.replace("{dir}", str(folder)).replace("{course}", str(COURSE)) for word in words]
+
+
+def play(row: Row, running: System, folder: Path) -> Program:
+    """Start the row's system, ask what was asked before, then ask the row itself."""
+    for name, text in row["files"].items():
+        (folder / name).write_text(text, "utf-8")
+    for words in row["system"]:
+        start(running, filled(words, folder))
+    running.run(SETTLE if row["system"] else 0.0)
+    for words in row["before"]:
+        program = start(running, filled(words, folder))
+        if program.process.wait(5.0) is None:
+            running.finish(program, 0.0)
+    return running.finish(start(running, filled(row["argv"], folder)), row["stop_after_s"])
+
+
+def start(running: System, words: Sequence[str]) -> Program:
+    """Start a program, or a command, by its words."""
+    return running.python(*words[1:]) if words[0] == "python" else running.ros2(*words[1:])
+
+
+LIBRARY_FRAME = re.compile(r'^  File "(?!<course>|<string>", line 1, in <module>).*", line .*, in .*\n(?:    .*\n)*', re.M)
+MARKS = re.compile(r"^    [ ]*[\^~]+\n", re.M)
+
+
+def normal(text: str, folder: Path) -> str:
+    """What may differ from run to run, and the frames of tracebacks that lie in libraries, taken out."""
+    text = re.sub(r"\[\d{10}\.\d{9}\]", "[<time>]", text)
+    text = text.replace(str(COURSE), "<course>").replace(str(folder), "<dir>")
+    text = re.sub(r"File \"(nodes/)", r'File "<course>/\1', text)
+    text = re.sub(r"(_ros2cli_(?:daemon_)?)\d+(?:_[0-9a-f]+)?", r"\1<id>", text)
+    text = re.sub(r"'[^' ]*/share/", "'<prefix>/share/", text)
+    text = re.sub(r"searching: \[.*?\]", "searching: [<prefixes>]", text)
+    text = re.sub(r"(min: |max: |std dev: )[\d.]+s", r"\1<n>s", text)
+    text = re.sub(r"window: \d+", "window: <n>", text)
+    text = re.sub(r"average rate: (?:9\.[5-9]|10\.[0-4])\d*", "average rate: ~10", text)
+    if "Traceback (most recent call last):" in text:
+        text = LIBRARY_FRAME.sub("", text)
+        syntax_error = "SyntaxError" in text
+        text = text if syntax_error else _without_marks(text)
+    return text
+
+
+def _without_marks(text: str) -> str:
+    """Without the marks that newer interpreters put below a traceback's lines; those of YAML's errors stay."""
+    head, at, tail = text.rpartition("\n  File ")
+    return MARKS.sub("", head + at) + (_without_marks_in_frame(tail) if at else tail)
+
+
+def _without_marks_in_frame(frame: str) -> str:
+    lines = frame.splitlines(keepends=True)
+    return "".join(line for at, line in enumerate(lines) if at != 2 or not MARKS.fullmatch(line))
+
+
+def usage_of_other_interpreter(row: Row) -> bool:
+    """Whether a row is argparse's own text, whose form changes with Python."""
+    text = row["stdout"] + row["stderr"]
+    return text.startswith("usage: ") and sys.version_info[:2] != (3, 11)
+
+
+@pytest.mark.parametrize("row", rows(), ids=lambda row: row["id"])
+def test_command(row: Row, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    if usage_of_other_interpreter(row):
+        pytest.skip("recorded with the argparse of Python 3.11")
+    monkeypatch.chdir(COURSE)
+    with system() as running:
+        program = play(row, running, tmp_path)
+    seen = (normal(program.stdout, tmp_path), normal(program.stderr, tmp_path), program.exit)
+    assert seen == (normal(row["stdout"], tmp_path), normal(row["stderr"], tmp_path), row["exit"])
+
+
+@pytest.mark.skipif(bool(rows()), reason="there are records")
+def test_records_are_there() -> None:
+    pytest.skip("BOT_CONSOLE_ORACLE and BOT_CONSOLE_COURSE name no records")

@@ -1,0 +1,102 @@
+"""Systems of node processes in stepped time: programs that run, commands that are asked meanwhile, and what they print."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any
+
+from bot_console.runtime.process import NodeProcess, SteppedTime, file_program, stepped
+
+LONG = 120.0
+"""How long (virtual s) a command may take that is to end by itself."""
+
+
+@dataclass
+class Program:
+    """A running or ended program with its output."""
+
+    process: NodeProcess
+    output: list[tuple[str, str]] = field(default_factory=list)
+
+    @property
+    def stdout(self) -> str:
+        """All that it wrote there."""
+        return "".join(text for stream, text in self.output if stream == "stdout")
+
+    @property
+    def stderr(self) -> str:
+        """All that it wrote there."""
+        return "".join(text for stream, text in self.output if stream == "stderr")
+
+    @property
+    def exit(self) -> int | None:
+        """Its exit code; None while it runs."""
+        return self.process.exit_code
+
+
+class System:
+    """Node processes of one stepped run."""
+
+    def __init__(self, clock: SteppedTime) -> None:
+        self.clock = clock
+
+    def start(self, name: str, target: Callable[[], object], argv: Sequence[str]) -> Program:
+        """Start a program; nothing of it runs before time does."""
+        program = Program(NodeProcess(name, self.clock))
+        program.process.start(
+            target,
+            argv=argv,
+            env={**os.environ, "COLUMNS": "80"},
+            stdout=lambda text: program.output.append(("stdout", text)),
+            stderr=lambda text: program.output.append(("stderr", text)),
+        )
+        return program
+
+    def python(self, *words: str) -> Program:
+        """Start `python FILE ...` or `python -c TEXT`."""
+        if words[0] == "-c":
+            return self.start("python", lambda: _run_text(words[1]), ["-c", *words[2:]])
+        return self.start("python", file_program(words[0]), words)
+
+    def ros2(self, *words: str) -> Program:
+        """Start `ros2 ...`."""
+        return self.start("ros2", lambda: _run_ros2(words), ["ros2", *words])
+
+    def ask(self, *words: str, stop_after: float | None = None) -> Program:
+        """Run `ros2 ...` to its end, or interrupt it after so many s."""
+        return self.finish(self.ros2(*words), stop_after)
+
+    def finish(self, program: Program, stop_after: float | None = None) -> Program:
+        """Let time go on until a program has ended, or interrupt it after so many s."""
+        if stop_after is not None:
+            self.run(stop_after)
+            program.process.interrupt()
+        assert program.process.wait(LONG) is not None, f"it does not end; it is at {program.process.line()}"
+        return program
+
+    def run(self, seconds: float) -> None:
+        """Let so much time (s) go by."""
+        self.clock.run_for(seconds)
+
+
+@contextmanager
+def system() -> Iterator[System]:
+    """A system whose programs are ended with the block."""
+    with stepped() as clock:
+        yield System(clock)
+
+
+def _run_text(text: str) -> None:
+    names: dict[str, Any] = {"__name__": "__main__"}
+    sys.path.insert(0, "")
+    exec(compile(text, "<string>", "exec"), names)
+
+
+def _run_ros2(words: Sequence[str]) -> None:
+    from ros2cli import main
+
+    sys.exit(main(words))
