@@ -1,0 +1,318 @@
+"""Setting parameters: the order of callbacks, refusals, exceptions, nesting, events."""
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from rcl_interfaces.msg import ParameterDescriptor, ParameterEvent, SetParametersResult
+from rclpy.exceptions import ParameterNotDeclaredException
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import qos_profile_parameter_events
+
+Log = list[Any]
+
+
+def given(name: str, value: Any) -> Parameter:
+    return Parameter(name, value=value)
+
+
+def yes(parameters: Any) -> SetParametersResult:
+    return SetParametersResult(successful=True, reason="never seen")
+
+
+def no(reason: str) -> Callable[[Any], SetParametersResult]:
+    return lambda parameters: SetParametersResult(successful=False, reason=reason)
+
+
+def node_of(ros: Any) -> Node:
+    node = ros.node()
+    node.declare_parameters("", [("a", 0), ("b", 1), ("c", 2)])
+    return node
+
+
+def values(node: Node) -> list[Any]:
+    return [node.get_parameter(name).value for name in "abc"]
+
+
+def trace(node: Node, log: Log, label: str = "") -> None:
+    """Note every call of one callback of each kind, with the values that the node has then."""
+
+    def note(stage: str, answer: Callable[[Any], Any]) -> Callable[[Any], Any]:
+        def callback(parameters: Any) -> Any:
+            log.append((stage + label, [(each.name, each.value) for each in parameters], values(node)))
+            return answer(parameters)
+
+        return callback
+
+    node.add_pre_set_parameters_callback(note("pre", lambda parameters: parameters))
+    node.add_on_set_parameters_callback(note("on", yes))
+    node.add_post_set_parameters_callback(note("post", lambda parameters: None))
+
+
+def test_stages_and_the_values_that_they_see(ros: Any) -> None:
+    node, log = node_of(ros), []
+    trace(node, log)
+    assert node.set_parameters([given("a", 5)]) == [SetParametersResult(successful=True)]
+    new = [("a", 5)]
+    assert log == [("pre", new, [0, 1, 2]), ("on", new, [0, 1, 2]), ("post", new, [5, 1, 2])]
+
+
+def test_one_by_one_and_all_at_once(ros: Any) -> None:
+    node, log = node_of(ros), []
+    trace(node, log)
+    node.set_parameters([given("a", 5), given("b", 6)])
+    assert [(stage, len(parameters)) for stage, parameters, _ in log] == [("pre", 1), ("on", 1), ("post", 1)] * 2
+    log.clear()
+    node.set_parameters_atomically([given("a", 7), given("b", 8)])
+    assert [(stage, len(parameters)) for stage, parameters, _ in log] == [("pre", 2), ("on", 2), ("post", 2)]
+
+
+def test_the_last_added_runs_first_and_a_refusal_ends_it(ros: Any) -> None:
+    node, log = node_of(ros), []
+    trace(node, log, "1")
+    trace(node, log, "2")
+    node.set_parameters_atomically([given("a", 5)])
+    assert [stage for stage, *_ in log] == ["pre2", "pre1", "on2", "on1", "post2", "post1"]
+    log.clear()
+    node.add_on_set_parameters_callback(no("too fast"))
+    [result] = node.set_parameters([given("a", 6)])
+    assert (result.successful, result.reason) == (False, "too fast")
+    assert [stage for stage, *_ in log] == ["pre2", "pre1"]
+    assert values(node) == [5, 1, 2]
+
+
+def test_one_of_three_is_refused(ros: Any) -> None:
+    node = node_of(ros)
+    refuse = no("not b")
+    node.add_on_set_parameters_callback(lambda ps: refuse(ps) if any(p.name == "b" for p in ps) else yes(ps))
+    wanted = [given("a", 5), given("b", 6), given("c", 7)]
+    assert [each.successful for each in node.set_parameters(wanted)] == [True, False, True]
+    assert values(node) == [5, 1, 7]
+    assert node.set_parameters_atomically([given("a", 8), given("b", 8)]).reason == "not b"
+    assert values(node) == [5, 1, 7]
+
+
+def test_the_refusing_object_is_returned_as_it_is(ros: Any) -> None:
+    class Answer:
+        successful = False
+
+    node, answer = node_of(ros), Answer()
+    node.add_on_set_parameters_callback(lambda parameters: answer)  # type: ignore[arg-type]
+    assert node.set_parameters([given("a", 5)]) == [answer]
+
+
+def test_lists_and_parameters_are_passed_uncopied(ros: Any) -> None:
+    node, seen = node_of(ros), []
+
+    def extend(parameters: Any) -> Any:
+        seen.append(parameters)
+        parameters.append(given("b", 9))
+        return yes(parameters)
+
+    node.add_on_set_parameters_callback(extend)
+    wanted = given("a", 5)
+    node.set_parameters([wanted])
+    assert values(node) == [5, 9, 2]
+    assert node.get_parameter("a") is wanted is seen[0][0]
+    node.remove_on_set_parameters_callback(extend)
+    node.add_on_set_parameters_callback(lambda parameters: yes(parameters.pop()))
+    assert node.set_parameters_atomically([given("a", 7), given("b", 7)]).successful
+    assert values(node) == [7, 9, 2]
+
+
+def test_pre_set_callbacks_change_the_list(ros: Any) -> None:
+    node, log = node_of(ros), []
+    node.add_pre_set_parameters_callback(lambda ps: [given(p.name, min(p.value, 3)) for p in ps])
+    trace(node, log)
+    node.set_parameters([given("a", 5)])
+    assert values(node)[0] == 3
+    assert log[1][:2] == ("on", [("a", 5), ("a", 3)])
+
+
+def test_a_pre_set_callback_empties_the_list(ros: Any) -> None:
+    node = node_of(ros)
+    node.add_pre_set_parameters_callback(lambda parameters: [])
+    reason = (
+        "parameter list cannot be empty, this might be due to pre_set_parameters_callback "
+        "modifying the original parameters list."
+    )
+    assert node.set_parameters([given("a", 5)])[0].reason == reason
+    assert node.set_parameters_atomically([]).reason == reason
+
+
+def test_checks_come_after_pre_set_and_before_on_set(ros: Any) -> None:
+    node, log = node_of(ros), []
+    trace(node, log)
+    assert "Wrong parameter type" in node.set_parameters([given("a", "x")])[0].reason
+    with pytest.raises(ParameterNotDeclaredException):
+        node.set_parameters([given("b", 6), given("zz", 1), given("c", 7)])
+    assert [stage for stage, *_ in log] == ["pre", "pre", "on", "post", "pre"]
+    assert values(node) == [0, 6, 2]
+
+
+def test_declaring_calls_on_set_and_post_set_for_each(ros: Any) -> None:
+    node, log = node_of(ros), []
+    trace(node, log)
+    node.declare_parameters("", [("x", 1), ("y", Parameter.Type.INTEGER)])
+    assert [(stage, parameters) for stage, parameters, _ in log] == [
+        ("on", [("x", 1)]),
+        ("post", [("x", 1)]),
+        ("on", [("y", None)]),
+        ("post", [("y", None)]),
+    ]
+    log.clear()
+    node.undeclare_parameter("x")
+    assert not log
+
+
+def test_exceptions_reach_the_caller(ros: Any) -> None:
+    node = node_of(ros)
+
+    def fail(parameters: Any) -> Any:
+        raise RuntimeError("fails")
+
+    node.add_post_set_parameters_callback(fail)
+    with pytest.raises(RuntimeError, match="fails"):
+        node.set_parameters([given("a", 5)])
+    assert values(node)[0] == 5
+    node.add_on_set_parameters_callback(fail)
+    with pytest.raises(RuntimeError, match="fails"):
+        node.set_parameters([given("a", 6)])
+    assert values(node)[0] == 5
+    node.remove_on_set_parameters_callback(fail)
+    node.add_on_set_parameters_callback(lambda parameters: None)  # type: ignore[arg-type,return-value]
+    with pytest.raises(AttributeError, match="'NoneType' object has no attribute 'successful'"):
+        node.set_parameters([given("a", 7)])
+
+
+def test_setting_within_a_callback_comes_first(ros: Any) -> None:
+    node, log = node_of(ros), []
+
+    def nested(parameters: Any) -> Any:
+        if (parameters[0].name, parameters[0].value) == ("a", 5):
+            node.set_parameters([given("b", 50), given("a", 99)])
+            log.append(values(node))
+        return yes(parameters)
+
+    node.add_on_set_parameters_callback(nested)
+    node.set_parameters([given("a", 5)])
+    assert log == [[99, 50, 2]]
+    assert values(node) == [5, 50, 2]
+
+
+def test_what_was_set_within_a_refused_change_stays(ros: Any) -> None:
+    node = node_of(ros)
+    refuse = no("outer")
+
+    def nested(parameters: Any) -> Any:
+        if parameters[0].name == "b":
+            return yes(parameters)
+        node.set_parameters([given("b", 50)])
+        return refuse(parameters)
+
+    node.add_on_set_parameters_callback(nested)
+    assert node.set_parameters([given("a", 5)])[0].reason == "outer"
+    assert values(node) == [0, 50, 2]
+
+
+def test_adding_twice_and_removing(ros: Any) -> None:
+    node, log = node_of(ros), []
+
+    def note(parameters: Any) -> Any:
+        log.append("called")
+        return yes(parameters)
+
+    node.add_on_set_parameters_callback(note)
+    node.add_on_set_parameters_callback(note)
+    node.set_parameters([given("a", 1)])
+    node.remove_on_set_parameters_callback(note)
+    node.set_parameters([given("a", 2)])
+    assert log == ["called"] * 3
+    for kind in ("pre", "on", "post"):
+        with pytest.raises(ValueError, match="not in list"):
+            getattr(node, f"remove_{kind}_set_parameters_callback")(print)
+
+
+def test_a_callback_that_removes_itself_skips_the_next(ros: Any) -> None:
+    node, log = node_of(ros), []
+
+    def once(parameters: Any) -> Any:
+        log.append("once")
+        node.remove_on_set_parameters_callback(once)
+        return yes(parameters)
+
+    trace(node, log)
+    node.add_on_set_parameters_callback(once)
+    node.set_parameters([given("a", 1)])
+    assert [each if isinstance(each, str) else each[0] for each in log] == ["pre", "once", "post"]
+
+
+class Listener:
+    """What `/parameter_events` says of a node."""
+
+    def __init__(self, ros: Any) -> None:
+        self.events: list[ParameterEvent] = []
+        self.ros = ros
+        watcher = ros.node("watcher")
+        watcher.create_subscription(
+            ParameterEvent, "/parameter_events", self.events.append, qos_profile_parameter_events
+        )
+
+    def heard(self) -> list[Any]:
+        """Node, new, changed and deleted of each event since the last time."""
+        self.ros.settle()
+        found = [
+            (each.node, *([(p.name, p.value.type) for p in group] for group in _groups(each))) for each in self.events
+        ]
+        self.events.clear()
+        return found
+
+
+def _groups(event: ParameterEvent) -> tuple[Any, Any, Any]:
+    return event.new_parameters, event.changed_parameters, event.deleted_parameters
+
+
+def test_events(ros: Any) -> None:
+    listener = Listener(ros)
+    node = ros.node("n", namespace="/ns")
+    name = "/ns/n"
+    assert listener.heard() == [
+        (name, [("use_sim_time", 1)], [], []),
+        (name, [("start_type_description_service", 1)], [], []),
+    ]
+    dynamic = ParameterDescriptor(dynamic_typing=True)
+    node.declare_parameters("", [("a", 1), ("e", Parameter.Type.DOUBLE), ("d", "x", dynamic)])
+    assert listener.heard() == [(name, [("a", 2)], [], []), (name, [("e", 0)], [], []), (name, [("d", 4)], [], [])]
+    node.set_parameters([given("a", 1), given("a", "refused"), given("e", 2.5), given("e", 2.5)])
+    changed = (name, [], [("a", 2)], []), (name, [("e", 3)], [], []), (name, [], [("e", 3)], [])
+    assert listener.heard() == [*changed]
+    node.set_parameters_atomically([given("a", 2), given("d", None)])
+    assert listener.heard() == [(name, [], [("a", 2)], [("d", 0)])]
+    node.undeclare_parameter("a")
+    assert listener.heard() == []
+    node.set_parameters_atomically([])
+    assert listener.heard() == [(name, [], [], [])]
+
+
+def test_deleting_what_is_not_there(ros: Any) -> None:
+    listener = Listener(ros)
+    node = ros.node(allow_undeclared_parameters=True)
+    listener.heard()
+    assert node.set_parameters([given("a", None), given("a", None)]) == [SetParametersResult(successful=True)] * 2
+    assert listener.heard() == [("/n", [], [], [("a", 0)])] * 2
+
+
+def test_the_stamp_is_the_time_of_the_node(ros: Any) -> None:
+    listener = Listener(ros)
+    node = ros.node(parameter_overrides=[given("use_sim_time", True)])
+    listener.heard()
+    node.declare_parameter("a", 1)
+    ros.settle()
+    assert [(each.stamp.sec, each.stamp.nanosec) for each in listener.events] == [(0, 0)]
+
+
+def test_what_an_event_cannot_carry_is_told_to_the_caller(ros: Any) -> None:
+    node = node_of(ros)
+    with pytest.raises(TypeError, match="integer_value"):
+        node.set_parameters([given("a", 2**63)])
