@@ -13,20 +13,13 @@ from bot_console.tui.console.model import (
     Change,
     ChangeSource,
     ConsoleSnapshot,
-    DriveInfo,
-    GridMap,
-    Kind,
+    LaunchArgument,
     LogFilter,
     LogRecord,
-    ParameterInfo,
-    ParameterTree,
-    Pose,
     ProfileDifference,
-    Range,
     SetOutcome,
     Severity,
     Value,
-    WorldInfo,
 )
 from bot_console.tui.console.protocol import Answer, Samples
 from bot_console.tui.console.values import refusal
@@ -49,6 +42,11 @@ class FakeConsole:
         self.current = snapshot or ConsoleSnapshot()
         self.asked: list[tuple[Any, ...]] = []
         self.refusals: dict[tuple[str, str], str] = {}
+        self.series: dict[str, tuple[list[float], list[float]]] = {}
+        self.unplottable: dict[str, str] = {}
+        self.journal: list[Change] = []
+        self.differences: dict[str, tuple[ProfileDifference, ...]] = {}
+        self.now = 60.0
 
     def change(self, **parts: Any) -> None:
         """Replace parts of the snapshot."""
@@ -73,7 +71,7 @@ class FakeConsole:
         self.change(logs=self.logs.state)
 
     def changes(self, after: int = 0) -> Sequence[Change]:
-        return ()
+        return tuple(self.journal)
 
     def set_parameters(
         self,
@@ -107,16 +105,22 @@ class FakeConsole:
         return done(Answer(False, "nothing to redo"))
 
     def watch(self, path: str) -> Answer:
-        return Answer(True, path)
+        self.asked.append(("watch", path))
+        why = self.unplottable.get(path, "" if path in self.series else f"there is no topic {path}")
+        return Answer(not why, why or path)
 
     def unwatch(self, path: str) -> None:
         self.asked.append(("unwatch", path))
 
     def samples(self, path: str, after: int = 0) -> Samples:
-        return Samples((), (), after)
+        times, values = self.series.get(path, ([], []))
+        return Samples(times[after:], values[after:], len(times))
+
+    def plot_time(self, stamp: int | None = None) -> float:
+        return self.now if stamp is None else self.now + (stamp - START) / 1e9
 
     def plottable(self) -> Sequence[str]:
-        return ()
+        return sorted(self.series)
 
     def drive(self, linear: float, angular: float) -> None:
         self.asked.append(("drive", linear, angular))
@@ -133,10 +137,17 @@ class FakeConsole:
         return done(Answer(True))
 
     def profile_differences(self, name: str) -> Sequence[ProfileDifference]:
-        return ()
+        return self.differences.get(name, ())
 
     def apply_profile(self, name: str, *, reset_world: bool = False) -> Future[tuple[SetOutcome, ...]]:
-        return done(())
+        self.asked.append(("apply", name, reset_world))
+        self.change(active_profile=name)
+        return done(
+            tuple(
+                SetOutcome(each.node, each.name, each.then, not each.refusal, each.refusal)
+                for each in self.differences.get(name, ())
+            )
+        )
 
     def save_parameters(self, path: str, nodes: Sequence[str] = ()) -> Answer:
         self.asked.append(("save", path))
@@ -150,59 +161,39 @@ class FakeConsole:
         self.asked.append(("close",))
 
 
-def parameter(name: str, value: Value, kind: Kind, description: str = "", limits: Range | None = None) -> ParameterInfo:
-    """A parameter of the navigator."""
-    return ParameterInfo("/robot_navigator", name, kind, value, description, range=limits, default=value)
+class FakeLauncher:
+    """A launcher that remembers what it was asked."""
 
+    def __init__(self, arguments: Sequence[LaunchArgument] = (), files: Sequence[str] = ()) -> None:
+        self.asked: list[tuple[Any, ...]] = []
+        self.declared = arguments
+        self.known = files
+        self.broken = ""
 
-def live() -> FakeConsole:
-    """A robot that drives, with parameters, log lines and a map."""
-    navigator = (
-        parameter("max_speed", 1.0, Kind.DOUBLE, "Maximum linear velocity (m/s)", Range(0.1, 5.0)),
-        parameter("safety_distance", 0.5, Kind.DOUBLE, "Minimum obstacle clearance (m)", Range(0.1, 2.0)),
-        parameter("detection_threshold", 100, Kind.INTEGER, "Sensor detection sensitivity", Range(0, 255)),
-        parameter("turn_rate", 1.0, Kind.DOUBLE, "Maximum angular velocity (rad/s)", Range(0.1, 3.0)),
-        parameter("enable_safety", True, Kind.BOOL, "Enable/disable safety features"),
-        parameter("robot_name", "IntelligentRobot", Kind.STRING, "Robot identifier"),
-        parameter("use_sim_time", False, Kind.BOOL),
-    )
-    simulator = tuple(
-        replace(each, node="/simulator")
-        for each in (
-            parameter("lidar.beams", 360, Kind.INTEGER, "Beams of one scan", Range(1, 3600)),
-            parameter("lidar.noise", 0.01, Kind.DOUBLE, "Standard deviation of a range (m)", Range(0.0, 1.0)),
-            parameter("seed", 1, Kind.INTEGER, "Seed of everything random"),
-        )
-    )
-    trees = {
-        "/robot_navigator": ParameterTree("/robot_navigator", navigator),
-        "/simulator": ParameterTree("/simulator", simulator),
-    }
-    console = FakeConsole(ConsoleSnapshot(parameters=MappingProxyType(trees), world=world(), drive=driving()))
-    lines = (
-        (Severity.INFO, "robot_navigator", "IntelligentRobot initialized!"),
-        (Severity.INFO, "robot_navigator", "Max Speed: 1.0 m/s"),
-        (Severity.WARN, "robot_navigator", "Obstacle at 0.42m - Turning!"),
-        (Severity.ERROR, "safety_monitor", "Speed must be 0.1-5.0, got 10.0"),
-        (Severity.DEBUG, "simulator", "step 1200"),
-    )
-    for number, (severity, node, text) in enumerate(lines):
-        console.say(severity, node, text, START + number * 250_000_000)
-    return console
+    def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
+        self.asked.append(("launch", path, dict(arguments)))
+        return done(Answer(True))
 
+    def arguments(self, path: str) -> Sequence[LaunchArgument]:
+        if self.broken:
+            raise ValueError(self.broken)
+        return self.declared
 
-def driving() -> DriveInfo:
-    """A robot that goes straight on."""
-    return DriveInfo("/cmd_vel", final=(1.0, 0.0), actual=(0.98, 0.0))
+    def files(self) -> Sequence[str]:
+        return self.known
 
+    def start(self, key: str) -> Future[Answer]:
+        return self._asked("start", key)
 
-def world() -> WorldInfo:
-    """A room of 10 by 6 m with a robot in it."""
-    width, height = 100, 60
-    rows = [bytes([100] * width)]
-    rows += [bytes([100] + [0] * (width - 2) + [100])] * (height - 2)
-    rows.append(rows[0])
-    grid = GridMap(width, height, 0.1, Pose(), b"".join(rows))
-    hits = tuple((9.8, 1.0 + 0.1 * step) for step in range(40))
-    trail = tuple((2.0 + 0.1 * step, 3.0) for step in range(30))
-    return WorldInfo(grid, Pose(5.0, 3.0, 0.0), "/ground_truth", trail, hits, None, 0.98, 0.0, 4.8)
+    def stop(self, key: str) -> Future[Answer]:
+        return self._asked("stop", key)
+
+    def kill(self, key: str) -> Future[Answer]:
+        return self._asked("kill", key)
+
+    def restart(self, key: str) -> Future[Answer]:
+        return self._asked("restart", key)
+
+    def _asked(self, verb: str, key: str) -> Future[Answer]:
+        self.asked.append((verb, key))
+        return done(Answer(True))

@@ -1,0 +1,244 @@
+"""Sample systems for tests of what is drawn: an empty one, a robot that drives, one with faults, and a hostile one."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from types import MappingProxyType
+
+from bot_console.tui.console.model import (
+    Capabilities,
+    Change,
+    ChangeSource,
+    ConsoleSnapshot,
+    DriveInfo,
+    Endpoint,
+    GraphInfo,
+    GridMap,
+    JournalState,
+    Kind,
+    LaunchArgument,
+    LaunchEvent,
+    LaunchInfo,
+    NodeInfo,
+    ParameterInfo,
+    ParameterTree,
+    Pose,
+    ProcessInfo,
+    ProcessState,
+    Profile,
+    ProfileDifference,
+    Range,
+    Severity,
+    Value,
+    WorldInfo,
+)
+from fakes import START, FakeConsole, FakeLauncher
+
+SPEED, LIMIT, NEAREST = "/odom/twist.twist.linear.x", "/robot_navigator:max_speed", "/telemetry/nearest_obstacle/data"
+BELL = "\x1b[2J\x07evil[red]\u202etxt"
+"""A text that clears the screen, rings, colours and turns around, where it is let through."""
+
+
+def parameter(name: str, value: Value, kind: Kind, description: str = "", limits: Range | None = None) -> ParameterInfo:
+    """A parameter of the navigator."""
+    return ParameterInfo("/robot_navigator", name, kind, value, description, range=limits, default=value)
+
+
+def navigator() -> ParameterTree:
+    """The navigator's parameters; one differs from its default, one cannot be set."""
+    found = [
+        parameter("max_speed", 1.0, Kind.DOUBLE, "Maximum linear velocity (m/s)", Range(0.1, 5.0)),
+        parameter("safety_distance", 0.5, Kind.DOUBLE, "Minimum obstacle clearance (m)", Range(0.1, 2.0)),
+        parameter("detection_threshold", 100, Kind.INTEGER, "Sensor detection sensitivity", Range(0, 255)),
+        parameter("turn_rate", 1.0, Kind.DOUBLE, "Maximum angular velocity (rad/s)", Range(0.1, 3.0)),
+        parameter("enable_safety", True, Kind.BOOL, "Enable/disable safety features"),
+        parameter("robot_name", "IntelligentRobot", Kind.STRING, "Robot identifier"),
+        parameter("use_sim_time", False, Kind.BOOL),
+    ]
+    found[1] = replace(found[1], value=0.8)
+    return ParameterTree("/robot_navigator", tuple(found))
+
+
+def simulator() -> ParameterTree:
+    """The simulator's parameters."""
+    found = (
+        parameter("lidar.beams", 360, Kind.INTEGER, "Beams of one scan", Range(1, 3600)),
+        parameter("lidar.noise", 0.01, Kind.DOUBLE, "Standard deviation of a range (m)", Range(0.0, 1.0)),
+        replace(parameter("seed", 1, Kind.INTEGER, "Seed of everything random, used at reset"), read_only=True),
+    )
+    return ParameterTree("/simulator", tuple(replace(each, node="/simulator") for each in found))
+
+
+SCAN, ODOM, TWIST, FLOAT = "sensor_msgs/msg/LaserScan", "nav_msgs/msg/Odometry", "geometry_msgs/msg/Twist", "std_msgs/msg/Float64"
+LINKS: tuple[tuple[str, str, str, tuple[str, ...]], ...] = (
+    ("/simulator", "/scan_raw", SCAN, ("/sensor_handler",)),
+    ("/sensor_handler", "/scan", SCAN, ("/robot_navigator", "/safety_monitor", "/telemetry_publisher")),
+    ("/simulator", "/odom", ODOM, ("/robot_navigator", "/motion_controller", "/telemetry_publisher")),
+    ("/robot_navigator", "/cmd_vel_desired", TWIST, ("/motion_controller",)),
+    ("/motion_controller", "/cmd_vel_nav", TWIST, ("/safety_monitor",)),
+    ("", "/cmd_vel_teleop", TWIST, ("/safety_monitor",)),
+    ("/safety_monitor", "/cmd_vel", TWIST, ("/simulator",)),
+    ("/telemetry_publisher", "/telemetry/speed", FLOAT, ()),
+    ("/telemetry_publisher", "/telemetry/nearest_obstacle", FLOAT, ()),
+)
+TOOLS = (Endpoint("/parameter_events", ("rcl_interfaces/msg/ParameterEvent",)), Endpoint("/rosout", ("rcl_interfaces/msg/Log",)))
+NODES = ("/motion_controller", "/robot_navigator", "/safety_monitor", "/sensor_handler", "/simulator", "/telemetry_publisher")
+
+
+def graph() -> GraphInfo:
+    """The robot system as nodes and topics."""
+    nodes = tuple(_node(name) for name in NODES)
+    topics = tuple(Endpoint(topic, (kind,)) for _, topic, kind, _ in LINKS) + TOOLS
+    return GraphInfo(nodes, tuple(sorted(topics, key=lambda each: each.name)))
+
+
+def _node(name: str) -> NodeInfo:
+    qos = "reliable volatile 10"
+    publishers = tuple(Endpoint(topic, (kind,), qos) for source, topic, kind, _ in LINKS if source == name)
+    subscriptions = tuple(Endpoint(topic, (kind,), qos) for _, topic, kind, ends in LINKS if name in ends)
+    services = (Endpoint(f"{name}/set_parameters", ("rcl_interfaces/srv/SetParameters",)),)
+    return NodeInfo(name, publishers + TOOLS, subscriptions, services)
+
+
+def world() -> WorldInfo:
+    """A room of 10 by 6 m with a robot in it."""
+    width, height = 100, 60
+    rows = [bytes([100] * width)]
+    rows += [bytes([100] + [0] * (width - 2) + [100])] * (height - 2)
+    rows.append(rows[0])
+    grid = GridMap(width, height, 0.1, Pose(), b"".join(rows))
+    hits = tuple((9.8, 1.0 + 0.1 * step) for step in range(40))
+    trail = tuple((2.0 + 0.1 * step, 3.0) for step in range(30))
+    return WorldInfo(grid, Pose(5.0, 3.0, 0.0), "/ground_truth", trail, hits, None, 0.98, 0.0, 4.8)
+
+
+def driving() -> DriveInfo:
+    """A robot that is slowed down near an obstacle."""
+    return DriveInfo("/cmd_vel_teleop", asked=(1.0, 0.2), limited=(0.6, 0.2), final=(0.6, 0.2), actual=(0.58, 0.19),
+                     limited_by="warning_distance of /safety_monitor")  # fmt: skip
+
+
+def launched() -> LaunchInfo:
+    """One launch file with a group in it; one process has crashed."""
+    top = ("robot_system.launch.py",)
+    names = ("sensor_handler", "safety_monitor", "motion_controller", "telemetry_publisher", "robot_navigator")
+    processes = [ProcessInfo(f"{each}@{at}", f"{each}-{at + 1}", ProcessState.RUNNING, 4100 + at, (f"/{each}",), top)
+                 for at, each in enumerate(names)]  # fmt: skip
+    processes[3] = replace(processes[3], state=ProcessState.CRASHED, pid=None, exit_code=1, restarts=2,
+                           problem="ended with exit code 1; its last lines are in the log")  # fmt: skip
+    inside = (*top, "simulation")
+    processes.insert(0, ProcessInfo("simulator@9", "simulator-6", ProcessState.RUNNING, 4109, ("/simulator",), inside, cpu=0.12))
+    texts = ("launch robot_system.launch.py", "simulator-6 started, pid 4109", "robot_navigator-5 started, pid 4104",
+             "telemetry_publisher-4 ended, exit code 1")  # fmt: skip
+    events = tuple(LaunchEvent(at, START + at * 10**9, text, Severity.ERROR if "ended" in text else Severity.INFO)
+                   for at, text in enumerate(texts))  # fmt: skip
+    return LaunchInfo(("robot_system.launch.py",), tuple(processes), events)
+
+
+def profiles() -> tuple[Profile, ...]:
+    """Three profiles, one of which cannot be used."""
+    values = MappingProxyType({("/robot_navigator", "max_speed"): 2.0})
+    return (
+        Profile("indoor", "/opt/profiles/indoor.yaml", "Indoor: low speed, high safety.", values, "indoor"),
+        Profile("competition", "/opt/profiles/competition.yaml", "Competition: fast, little margin.", values, "competition"),
+        Profile("broken", "/opt/profiles/broken.yaml", problem="'ros_parameters' should be 'ros__parameters', with two underscores"),
+    )
+
+
+def differences() -> tuple[ProfileDifference, ...]:
+    """What the competition profile changes; one value would be refused."""
+    return (
+        ProfileDifference("/robot_navigator", "max_speed", 1.0, 3.0),
+        ProfileDifference("/robot_navigator", "enable_safety", True, False),
+        ProfileDifference("/robot_navigator", "turn_rate", 1.0, 9.0, "Parameter turn_rate must be within 0.1 and 3.0"),
+        ProfileDifference("/simulator", "world", "indoor", "competition", needs_reset=True),
+    )
+
+
+def arguments() -> tuple[LaunchArgument, ...]:
+    """Arguments of a launch file: with choices, with a default, and required."""
+    return (
+        LaunchArgument("profile", "Environment: settings and world", "indoor", ("indoor", "outdoor", "warehouse")),
+        LaunchArgument("seed", "Seed of the simulator", "1"),
+        LaunchArgument("robot", "Name of the robot"),
+    )
+
+
+def _wave(rate: float, seconds: float) -> tuple[list[float], list[float]]:
+    times = [60.0 - seconds + at / rate for at in range(int(seconds * rate))]
+    return times, [0.6 + 0.35 * math.sin(each / 2.2) + 0.05 * math.sin(each * 5) for each in times]
+
+
+def live(parts: tuple[str, ...] = ()) -> tuple[FakeConsole, FakeLauncher]:
+    """A robot that drives, with everything there is to show."""
+    trees = {each.node: each for each in (navigator(), simulator())}
+    console = FakeConsole(
+        ConsoleSnapshot(
+            parameters=MappingProxyType(trees), world=world(), drive=driving(), graph=graph(), launch=launched(),
+            profiles=profiles(), active_profile="indoor", journal=JournalState(0, 2),
+        )
+    )  # fmt: skip
+    console.series[SPEED] = _wave(20, 45)
+    console.series[LIMIT] = ([16.0, 48.0], [0.7, 1.0])
+    times, values = _wave(5, 45)
+    console.series[NEAREST] = (times, [3 * each for each in values])
+    console.journal = [
+        Change(0, START - 12 * 10**9, "/robot_navigator", "max_speed", 0.7, 1.0, ChangeSource.EDIT),
+        Change(1, START - 5 * 10**9, "/robot_navigator", "max_speed", 1.0, 10.0, ChangeSource.EDIT, False, "too fast"),
+    ]
+    console.differences["competition"] = differences()
+    lines = (
+        (Severity.INFO, "robot_navigator", "IntelligentRobot initialized!"),
+        (Severity.INFO, "robot_navigator", "Max Speed: 1.0 m/s"),
+        (Severity.WARN, "robot_navigator", "Obstacle at 0.42m - Turning!"),
+        (Severity.ERROR, "safety_monitor", "Speed must be 0.1-5.0, got 10.0"),
+        (Severity.DEBUG, "simulator", "step 1200"),
+    )
+    for number, (severity, node, text) in enumerate(lines):
+        console.say(severity, node, text, START + number * 250_000_000)
+    files = ("/opt/launch/robot_system.launch.py", "/opt/launch/single_robot.launch.py", "/opt/launch/multi_node_system.launch.py")
+    return console, FakeLauncher(arguments(), files)
+
+
+def empty() -> tuple[FakeConsole, FakeLauncher]:
+    """A system without anything in it."""
+    return FakeConsole(), FakeLauncher()
+
+
+def faulty() -> tuple[FakeConsole, FakeLauncher]:
+    """The console's link has ended; what was known stays, a launch file could not be run, and one node is silent."""
+    console, launcher = live()
+    trees = dict(console.current.parameters)
+    trees["/silent"] = ParameterTree("/silent", (), "does not answer on its parameter services")
+    launch = replace(console.current.launch, problem="/opt/launch/broken.launch.py, line 12: invalid syntax")
+    console.change(
+        problem="the console's link to ROS has ended: Context is not valid (executors.py:120)",
+        parameters=MappingProxyType(trees),
+        launch=launch,
+        drive=replace(driving(), stopped=True),
+        capabilities=Capabilities(world="this system has no world"),
+        world=WorldInfo(),
+    )
+    console.series[SPEED] = (console.series[SPEED][0], [math.nan] * len(console.series[SPEED][0]))
+    return console, launcher
+
+
+def hostile() -> tuple[FakeConsole, FakeLauncher]:
+    """Every text that can come from outside carries control characters, markup and marks that turn text around."""
+    console, launcher = live()
+    evil = ParameterTree(f"/{BELL}", (ParameterInfo(f"/{BELL}", BELL, Kind.STRING, BELL, BELL, constraints=BELL),), BELL)
+    node = NodeInfo(f"/{BELL}", (Endpoint(f"/out{BELL}", (BELL,), BELL),), (Endpoint(f"/in{BELL}", (BELL,)),))
+    process = ProcessInfo("k", BELL, ProcessState.CRASHED, None, (BELL,), (BELL,), problem=BELL)
+    console.say(Severity.FATAL, BELL, BELL)
+    console.change(
+        parameters=MappingProxyType({**console.current.parameters, evil.node: evil}),
+        graph=GraphInfo((*console.current.graph.nodes, node), console.current.graph.topics),
+        launch=LaunchInfo((BELL,), (process,), (LaunchEvent(0, START, BELL),)),
+        profiles=(Profile(BELL, BELL, BELL, world=BELL),),
+        active_profile=BELL,
+        drive=replace(driving(), topic=BELL, limited_by=BELL),
+    )
+    console.differences[BELL] = (ProfileDifference(BELL, BELL, BELL, BELL, BELL),)
+    console.series[f"/{BELL}"] = ([1.0, 2.0], [1.0, 2.0])
+    return console, FakeLauncher((LaunchArgument(BELL, BELL, BELL, (BELL,)),), (BELL,))
