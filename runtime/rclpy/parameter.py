@@ -102,10 +102,12 @@ def get_parameter_value(string_value: str) -> ParameterValue:
     """The value that a text means in YAML 1.1, as `ros2 param set` takes it; raises `yaml.YAMLError`."""
     import yaml
     from rcl_interfaces.msg import ParameterValue
+    from yaml.parser import ParserError
 
+    value: Any
     try:
         value = yaml.safe_load(string_value)
-    except yaml.parser.ParserError:
+    except ParserError:
         value = string_value
     if value is None:
         value = string_value

@@ -71,7 +71,8 @@ class ParameterTable:
         """Take the values of a parameter file; raises `ParameterYamlError`."""
         from bot_console.runtime.rmw.parameter_file import read_parameter_file
 
-        read_parameter_file(path, self)
+        # The checker knows this class under two names, by its path and by its package.
+        read_parameter_file(path, self)  # pyright: ignore[reportArgumentType]
 
     def add_value(self, key: str, name: str, text: str) -> None:
         """Take the value of one parameter as `-p` writes it; raises `ParameterYamlError`."""

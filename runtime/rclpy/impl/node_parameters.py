@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rcl_interfaces.msg import ListParametersResult, ParameterDescriptor, ParameterValue
 from rclpy.exceptions import (
@@ -23,6 +23,12 @@ from rclpy.parameter import PARAMETER_SEPARATOR_STRING, Parameter
 
 class NodeParameters(ParameterSetting):
     """Methods of `Node` that declare and read parameters."""
+
+    if TYPE_CHECKING:
+
+        def get_fully_qualified_name(self) -> str:
+            """What `Node` itself has."""
+            ...
 
     def _init_parameters(
         self,

@@ -17,7 +17,8 @@ EMPTIED = (
 )
 NOT_SET = Parameter.Type.NOT_SET
 
-Setter = Callable[[Sequence[Parameter]], Any]
+Setter = Callable[[Any], Any]
+"""A callback; it gets the list of parameters, or whatever sequence the caller has given."""
 
 
 def _refused(reason: str) -> SetParametersResult:
@@ -37,6 +38,7 @@ class ParameterSetting:
     _parameter_event_publisher: Any
     _clock: Any
     _event_node_name: str
+    _use: Callable[[], None]
 
     def set_parameters(self, parameter_list: Sequence[Parameter]) -> list[SetParametersResult]:
         """Set parameters one after the other; returns one result for each.
@@ -87,6 +89,7 @@ class ParameterSetting:
             result = callback(parameters)
             if not result.successful:
                 return result
+        self._use()  # the event names the node, and a destroyed one refuses that before anything is stored
         event = self._store(parameters, descriptors, keep_not_set)
         self._parameter_event_publisher.publish(event)
         for callback in self._post_set_parameters_callbacks:

@@ -23,16 +23,16 @@ FIELDS = {
 LIST_FIELDS = frozenset((BYTE_ARRAY, BOOL_ARRAY, INTEGER_ARRAY, DOUBLE_ARRAY, STRING_ARRAY))
 
 # bool is an int, therefore it comes first.
-_SCALARS = ((bool, BOOL), (int, INTEGER), (float, DOUBLE), (str, STRING))
-_ELEMENTS = (
+_SCALARS: tuple[tuple[Any, int], ...] = ((bool, BOOL), (int, INTEGER), (float, DOUBLE), (str, STRING))
+_ELEMENTS: tuple[tuple[Any, int], ...] = (
     (bytes, BYTE_ARRAY),
     (bool, BOOL_ARRAY),
     (int, INTEGER_ARRAY),
     (float, DOUBLE_ARRAY),
     (str, STRING_ARRAY),
 )
-_SCALAR_CLASSES = {code: kind for kind, code in _SCALARS}
-_ELEMENT_CLASSES = {code: kind for kind, code in _ELEMENTS}
+_SCALAR_CLASSES: dict[int, Any] = {code: kind for kind, code in _SCALARS}
+_ELEMENT_CLASSES: dict[int, Any] = {code: kind for kind, code in _ELEMENTS}
 _NUMERIC_LISTS = frozenset((INTEGER_ARRAY, DOUBLE_ARRAY))
 
 
