@@ -20,7 +20,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.rosidl.conversion import (
-    to_bool as _to_bool, to_fixed as _to_fixed, to_float as _to_float, to_int as _to_int,
+    FieldTypeError as _FieldTypeError, to_bool as _to_bool, to_fixed as _to_fixed, to_float as _to_float, to_int as _to_int,
     to_list as _to_list, to_message as _to_message, to_messages as _to_messages, to_ndarray as _to_ndarray,
     to_octet as _to_octet, to_str as _to_str, too_long as _too_long, zeros as _zeros,
 )
@@ -86,8 +86,8 @@ def _constructor(definition: Definition, known: dict[str, str]) -> Iterator[str]
     )
     yield ") -> None:"
     yield "    self._check_fields = _checks = _checks_asked_for() if check_fields is None else check_fields"
-    yield "    if _checks and _other:"
-    yield "        raise AssertionError('Invalid arguments passed to constructor: ' + ', '.join(sorted(_other)))"
+    yield "    if _other:"
+    yield "        self._unknown(_other)"
     for field in definition.fields:
         yield from ("    " + line for line in _initial(field, known))
 

@@ -23,10 +23,27 @@ def copy_lines(definition: Definition, module_of: dict[str, str]) -> list[str]:
     """The body of `_copy_(self)`; `module_of` gives the name by which a nested class is known in the module."""
     lines = [f"new = _new({definition.name})", "new._check_fields = False"]
     singles = [each for each in definition.fields if each.type.text == "float"]
+    nested = [each for each in definition.fields if not (each.type.primitive or each.type.sequence or each.type.size)]
     for field in definition.fields:
-        if field not in singles:
-            lines += _field(field, module_of)
-    return lines + _singles(singles) + ["return new"]
+        if field not in singles and field not in nested:
+            lines += _many(field, module_of) if field.type.sequence or field.type.size else _single(field)
+    return lines + _nested(nested, module_of) + _singles(singles) + ["return new"]
+
+
+def _nested(fields: Sequence[Field], module_of: dict[str, str]) -> list[str]:
+    """All single nested messages; a fault inside one is looked for again, by the slow way that knows its path."""
+    if not fields:
+        return []
+    lines = ["try:"]
+    for field in fields:
+        name, cls = field.name, module_of[field.type.item]
+        lines += [
+            f"    value = self._{name}",
+            f"    new._{name} = value._copy_() if value.__class__ is {cls} else _to_message(self, '{name}', {cls})",
+        ]
+    lines += ["except _FieldTypeError:"]
+    lines += [f"    _to_message(self, '{each.name}', {module_of[each.type.item]})" for each in fields]
+    return [*lines, "    raise"]
 
 
 def _singles(fields: Sequence[Field]) -> list[str]:
@@ -42,17 +59,9 @@ def _singles(fields: Sequence[Field]) -> list[str]:
     return [*lines, f"{targets}{comma} = _array('f', ({values},))"]
 
 
-def _field(field: Field, module_of: dict[str, str]) -> list[str]:
+def _single(field: Field) -> list[str]:
     kind, name = field.type, field.name
     own = f"self._{name}"
-    if kind.sequence or kind.size:
-        return _many(field, module_of)
-    if not kind.primitive:
-        cls = module_of[kind.item]
-        return [
-            f"value = {own}",
-            f"new._{name} = value._copy_() if value.__class__ is {cls} else _to_message(self, '{name}', {cls})",
-        ]
     if kind.item in INTEGERS:
         low, high = LIMITS[kind.item]
         return [

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
+import warnings
 from array import array
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, ClassVar
 
 from bot_console.runtime.rosidl.slot_types import SlotTypes
@@ -36,6 +37,13 @@ class Message:
         from bot_console.runtime.rosidl.checks import check
 
         return check(type(self), field, value)
+
+    def _unknown(self, names: Iterable[str]) -> None:
+        """Refuse unknown keywords by `AssertionError` with checks on; else ignore them as Jazzy does, but say so."""
+        text = ", ".join(sorted(names))
+        if self._check_fields:
+            raise AssertionError(f"Invalid arguments passed to constructor: {text}")
+        warnings.warn(f"{type(self).__name__} has no field named {text}: the value is ignored", stacklevel=3)
 
     def __repr__(self) -> str:
         package, kind = type(self).__module__.split(".")[:2]

@@ -1,0 +1,82 @@
+"""CDR: what is written is read again, and is what rosbags writes."""
+
+from __future__ import annotations
+
+import importlib
+from typing import Any
+
+import pytest
+from bot_console.runtime.rosidl.cdr import deserialize, serialize
+from bot_console.runtime.rosidl.cdr_read import CdrError
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+NAMES = (
+    "std_msgs/msg/Empty",
+    "std_msgs/msg/String",
+    "std_msgs/msg/ByteMultiArray",
+    "std_msgs/msg/UInt8MultiArray",
+    "geometry_msgs/msg/TwistStamped",
+    "geometry_msgs/msg/PoseWithCovarianceStamped",
+    "sensor_msgs/msg/LaserScan",
+    "sensor_msgs/msg/Imu",
+    "sensor_msgs/msg/BatteryState",
+    "sensor_msgs/msg/JointState",
+    "sensor_msgs/msg/PointCloud2",
+    "nav_msgs/msg/OccupancyGrid",
+    "tf2_msgs/msg/TFMessage",
+    "rcl_interfaces/msg/ParameterEvent",
+    "rcl_interfaces/msg/ParameterDescriptor",
+    "trajectory_msgs/msg/JointTrajectory",
+    "visualization_msgs/msg/Marker",
+    "diagnostic_msgs/msg/DiagnosticArray",
+    "unique_identifier_msgs/msg/UUID",
+)
+LIMITS = settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))
+
+
+def class_of(name: str) -> Any:
+    package, kind, short = name.split("/")
+    return getattr(importlib.import_module(f"{package}.{kind}"), short)
+
+
+@pytest.mark.parametrize("name", [*NAMES, "example_interfaces/msg/WString"])
+@given(data=st.data())
+@LIMITS
+def test_what_is_written_is_read_again(name: str, data: Any, messages: Any) -> None:
+    message = data.draw(messages.of(class_of(name)))
+    written = serialize(message)
+    read = deserialize(written, type(message))
+    assert messages.same(read, message._copy_())
+    assert serialize(read) == written
+
+
+@pytest.fixture(scope="session")
+def store() -> Any:
+    from rosbags.typesys import Stores, get_typestore
+
+    return get_typestore(Stores.ROS2_JAZZY)
+
+
+@pytest.mark.parametrize("name", NAMES)
+@given(data=st.data())
+@LIMITS
+def test_the_bytes_are_those_of_rosbags(name: str, data: Any, messages: Any, store: Any) -> None:
+    message = data.draw(messages.of(class_of(name)))
+    theirs = bytes(store.serialize_cdr(messages.for_rosbags(message), name))
+    assert serialize(message) == theirs
+
+
+@given(data=st.data())
+@LIMITS
+def test_broken_bytes_are_refused_or_read_but_never_anything_else(data: Any, messages: Any) -> None:
+    cls = class_of(data.draw(st.sampled_from(NAMES)))
+    written = bytearray(serialize(data.draw(messages.of(cls))))
+    cut = data.draw(st.integers(0, len(written)))
+    for place, value in data.draw(st.lists(st.tuples(st.integers(4, 80), st.integers(0, 255)), max_size=4)):
+        if place < len(written):
+            written[place] = value
+    try:
+        assert isinstance(deserialize(bytes(written[:cut]), cls), cls)
+    except CdrError as error:
+        assert str(error)

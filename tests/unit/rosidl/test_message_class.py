@@ -1,0 +1,184 @@
+"""Generated message classes: constructors, assignment, checks, equality, repr. The words are those of Jazzy."""
+
+from __future__ import annotations
+
+import pickle
+from array import array
+
+import numpy
+import pytest
+from example_interfaces.action import Fibonacci
+from geometry_msgs.msg import PoseWithCovariance, Quaternion, Twist, Vector3
+from rcl_interfaces.msg import Log, ParameterDescriptor, ParameterType, ParameterValue
+from rcl_interfaces.srv import ListParameters
+from rosidl_parser.definition import Array, BasicType, NamespacedType, UnboundedSequence, UnboundedString
+from sensor_msgs.msg import Imu, JointState, LaserScan
+from std_msgs.msg import Bool, Byte, Int8, Int32, String, UInt8
+from std_srvs.srv import SetBool, Trigger
+
+FLOATS = "[-340282346600000016151267322115014000640.000000, 340282346600000016151267322115014000640.000000]"
+REFUSED = [
+    (Vector3, "x", 1, "The 'x' field must be of type 'float'"),
+    (Int32, "data", 2**31, "The 'data' field must be an integer in [-2147483648, 2147483647]"),
+    (UInt8, "data", -1, "The 'data' field must be an unsigned integer in [0, 255]"),
+    (Bool, "data", 1, "The 'data' field must be of type 'bool'"),
+    (String, "data", None, "The 'data' field must be of type 'str'"),
+    (Byte, "data", b"ab", "The 'data' field must be of type 'bytes' or 'ByteString' with length 1"),
+    (Twist, "linear", 5, "The 'linear' field must be a sub message of type 'Vector3'"),
+    (LaserScan, "ranges", array("d"), "The 'ranges' array.array() must have the type code of 'f'"),
+    (
+        LaserScan,
+        "ranges",
+        5.0,
+        f"The 'ranges' field must be a set or sequence and each value of type 'float' and each float in {FLOATS}",
+    ),
+    (JointState, "name", "ab", "The 'name' field must be a set or sequence and each value of type 'str'"),
+    (
+        ParameterDescriptor,
+        "integer_range",
+        [1, 2],
+        "The 'integer_range' field must be a set or sequence with length <= 1 and each value of type 'IntegerRange'",
+    ),
+    (
+        Imu,
+        "orientation_covariance",
+        numpy.zeros(8),
+        "The 'orientation_covariance' numpy.ndarray() must have a size of 9",
+    ),
+    (
+        Imu,
+        "orientation_covariance",
+        numpy.zeros(9, "float32"),
+        "The 'orientation_covariance' numpy.ndarray() must have the dtype of 'numpy.float64'",
+    ),
+]
+
+
+@pytest.mark.parametrize(("cls", "field", "value", "words"), REFUSED)
+def test_checks_refuse_an_assignment(cls: type, field: str, value: object, words: str) -> None:
+    message = cls(check_fields=True)
+    with pytest.raises(AssertionError) as caught:
+        setattr(message, field, value)
+    assert str(caught.value) == words
+
+
+def test_without_checks_all_is_kept_as_it_is() -> None:
+    message = Vector3(x="a")
+    message.y = None
+    assert (message.x, message.y) == ("a", None)
+
+
+def test_the_environment_asks_for_checks(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS_PYTHON_CHECK_FIELDS", "1")
+    with pytest.raises(AssertionError, match="must be of type 'int'"):
+        Int8(data="x")
+
+
+def test_an_unknown_keyword_is_ignored_aloud() -> None:
+    with pytest.warns(UserWarning, match="Vector3 has no field named w: the value is ignored") as caught:
+        assert Vector3(w=1.0) == Vector3()
+    assert caught[0].filename == __file__
+
+
+def test_an_unknown_keyword_is_refused_with_checks() -> None:
+    with pytest.raises(AssertionError, match="^Invalid arguments passed to constructor: a, w$"):
+        Vector3(w=1.0, a=2, check_fields=True)
+
+
+def test_numbers_are_copied_when_they_are_given() -> None:
+    ranges, covariance = array("f", [1.0]), numpy.zeros(36)
+    scan, pose = LaserScan(ranges=ranges, intensities=ranges), PoseWithCovariance(covariance=covariance)
+    scan.ranges = ranges
+    ranges[0], covariance[0] = 2.0, 2.0
+    assert (scan.ranges[0], scan.intensities[0], pose.covariance[0]) == (1.0, 1.0, 0.0)
+
+
+def test_with_checks_an_array_of_the_right_type_is_kept_itself() -> None:
+    ranges = array("f", [1.0])
+    scan = LaserScan(check_fields=True)
+    scan.ranges = ranges
+    assert scan.ranges is ranges
+
+
+def test_a_fixed_array_of_wrong_length_is_refused_by_the_constructor_alone() -> None:
+    with pytest.raises(AssertionError, match="^$"):
+        Imu(orientation_covariance=[0.0] * 8)
+    message = Imu()
+    message.orientation_covariance = [0.0] * 8
+    assert message.orientation_covariance.shape == (8,)
+
+
+def test_two_messages_share_no_default() -> None:
+    one, other = JointState(), JointState()
+    one.name.append("a")
+    one.position.append(1.0)
+    one.header.frame_id = "map"
+    assert other == JointState()
+
+
+def test_defaults_of_definitions() -> None:
+    assert Quaternion() == Quaternion(x=0.0, y=0.0, z=0.0, w=1.0)
+    assert Quaternion.W__DEFAULT == 1.0
+
+
+def test_constants() -> None:
+    assert (ParameterType.PARAMETER_STRING_ARRAY, Log.INFO, ListParameters.Request.DEPTH_RECURSIVE) == (9, 20, 0)
+    assert Log().WARN == 30
+
+
+def test_slots_types_and_fields() -> None:
+    assert LaserScan.__slots__[-2:] == ["_intensities", "_check_fields"]
+    assert JointState.get_fields_and_field_types()["name"] == "sequence<string>"
+    assert PoseWithCovariance.SLOT_TYPES == (
+        NamespacedType(["geometry_msgs", "msg"], "Pose"),
+        Array(BasicType("double"), 36),
+    )
+    assert JointState().SLOT_TYPES[1:3] == (
+        UnboundedSequence(UnboundedString()),
+        UnboundedSequence(BasicType("double")),
+    )
+
+
+def test_changing_the_answer_of_get_fields_changes_no_class() -> None:
+    String.get_fields_and_field_types().clear()
+    assert String.get_fields_and_field_types() == {"data": "string"}
+
+
+def test_repr() -> None:
+    assert repr(LaserScan(ranges=[1.0]).ranges) == "array('f', [1.0])"
+    assert "ranges=[1.0], intensities=[])" in repr(LaserScan(ranges=[1.0]))
+    assert repr(SetBool.Request(data=True)) == "std_srvs.srv.SetBool_Request(data=True)"
+    assert repr(Fibonacci.Goal(order=3)) == "example_interfaces.action.Fibonacci_Goal(order=3)"
+
+
+def test_equality_is_of_the_class() -> None:
+    assert String(data="a") == String(data="a") != String(data="b")
+    assert SetBool.Request() != Trigger.Request()
+    assert Vector3() != (0.0, 0.0, 0.0)
+
+
+def test_fixed_arrays_differ_only_where_all_elements_do() -> None:
+    one, other = Imu(), Imu()
+    other.orientation_covariance[0] = 1.0
+    assert one == other
+    other.orientation_covariance[:] = 1.0
+    assert one != other
+
+
+@pytest.mark.parametrize("cls", [SetBool, Fibonacci])
+def test_services_and_actions_are_not_made(cls: type) -> None:
+    with pytest.raises(NotImplementedError):
+        cls()
+
+
+def test_pickle_and_typos() -> None:
+    message = Twist(linear=Vector3(x=1.0))
+    assert pickle.loads(pickle.dumps(message)) == message
+    with pytest.raises(AttributeError, match="'Twist' object has no attribute 'liner'"):
+        message.liner = 1
+    with pytest.raises(TypeError, match="unhashable type: 'Twist'"):
+        hash(message)
+
+
+def test_bytes_of_a_sequence_are_kept() -> None:
+    assert ParameterValue(byte_array_value=[b"a"]).byte_array_value == [b"a"]
