@@ -1,0 +1,109 @@
+"""Writes the robot's package as colcon expects it, for a machine with ROS 2."""
+
+from __future__ import annotations
+
+import ast
+import shutil
+import sys
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+from bot_console.runtime.workspace.own import NAME, ROOT, own_package
+
+ROS_PYTHON = {"numpy": "python3-numpy", "yaml": "python3-yaml"}
+"""Keys of rosdep for libraries; pymunk has none and comes from pip."""
+FROM_PIP = ("pymunk",)
+FOLDERS = {
+    "launch": ("launch", "*.launch.*"),
+    "config": ("profiles", "*.yaml"),
+    "worlds": ("profiles/worlds", "*.yaml"),
+}
+
+
+def export(folder: Path) -> Path:
+    """Write `<folder>/intelligent_robot`; raises `ValueError` where that exists, and `OSError`."""
+    place = folder.expanduser().resolve() / NAME
+    if place.exists():
+        raise ValueError(f"{place} exists; give another folder, or remove it")
+    shutil.copytree(ROOT / "nodes", place / NAME, ignore=shutil.ignore_patterns("__pycache__", "*.pyc"))
+    for target, (source, pattern) in FOLDERS.items():
+        (place / target).mkdir()
+        for path in sorted((ROOT / source).glob(pattern)):
+            shutil.copy(path, place / target / path.name)
+            if target == "config":
+                shutil.copy(path, place / target / f"{path.stem}_config.yaml")
+    (place / "resource").mkdir()
+    (place / "resource" / NAME).touch()
+    (place / "package.xml").write_text(package_xml(place), encoding="utf-8")
+    (place / "setup.py").write_text(setup_py(), encoding="utf-8")
+    (place / "setup.cfg").write_text(
+        f"[develop]\nscript_dir=$base/lib/{NAME}\n[install]\ninstall_scripts=$base/lib/{NAME}\n", encoding="utf-8"
+    )
+    return place
+
+
+def imported(folder: Path) -> set[str]:
+    """The top names that the Python files of a folder import."""
+    return {name for path in sorted(folder.rglob("*.py")) for name in _imports(path)}
+
+
+def _imports(path: Path) -> Iterator[str]:
+    for node in ast.walk(ast.parse(path.read_bytes(), str(path))):
+        if isinstance(node, ast.Import):
+            yield from (each.name.partition(".")[0] for each in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+            yield node.module.partition(".")[0]
+
+
+def package_xml(place: Path) -> str:
+    """The manifest, with what the files import."""
+    names = sorted(imported(place) - set(sys.stdlib_module_names) - {NAME, "setuptools", *FROM_PIP})
+    depends = "\n".join(f"  <exec_depend>{ROS_PYTHON.get(each, each)}</exec_depend>" for each in names)
+    return f"""<?xml version="1.0"?>
+<package format="3">
+  <name>{NAME}</name>
+  <version>0.1.0</version>
+  <description>Nodes of a small robot system, and a simulated robot to run them on (pip install pymunk)</description>
+  <maintainer email="robot@example.com">the makers of bot-console</maintainer>
+  <license>Apache-2.0</license>
+{depends}
+  <export>
+    <build_type>ament_python</build_type>
+  </export>
+</package>
+"""
+
+
+def setup_py() -> str:
+    """The build script, with one executable for each node."""
+    nodes = own_package().executables.items()
+    scripts = _lines((f'"{name} = {entry.module}:{entry.function}",' for name, entry in nodes), depth=3)
+    data = _lines(f'("share/" + NAME + "/{each}", glob("{each}/*")),' for each in FOLDERS)
+    return f"""from glob import glob
+
+from setuptools import find_packages, setup
+
+NAME = "{NAME}"
+
+setup(
+    name=NAME,
+    version="0.1.0",
+    packages=find_packages(),
+    data_files=[
+        ("share/ament_index/resource_index/packages", ["resource/" + NAME]),
+        ("share/" + NAME, ["package.xml"]),
+{data}
+    ],
+    install_requires=["setuptools", "pymunk>=7"],
+    zip_safe=True,
+    entry_points={{
+        "console_scripts": [
+{scripts}
+        ],
+    }},
+)
+"""
+
+
+def _lines(texts: Iterable[str], depth: int = 2) -> str:
+    return "\n".join("    " * depth + each for each in texts)

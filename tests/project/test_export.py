@@ -1,0 +1,53 @@
+"""`bot-console export DIR` gives a package that a machine with ROS 2 can build."""
+
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+
+import pytest
+from bot_console.runtime.workspace.exporting import NAME, export, imported
+from bot_console.runtime.workspace.package import read_package
+from bot_console.tui.cli import main
+
+ROS = {
+    *("rclpy", "launch", "launch_ros", "ament_index_python", "builtin_interfaces", "diagnostic_msgs", "geometry_msgs"),
+    *("nav_msgs", "rcl_interfaces", "rosgraph_msgs", "sensor_msgs", "std_msgs", "std_srvs", "visualization_msgs"),
+}
+LIBRARIES = {"numpy", "pymunk", "yaml", "setuptools"}
+
+
+def test_files_import_ros_names_and_ordinary_libraries_only(tmp_path):
+    names = imported(export(tmp_path)) - set(sys.stdlib_module_names)
+    assert names - LIBRARIES - {NAME} <= ROS
+    assert {"rclpy", "launch", "numpy", "pymunk"} <= names
+
+
+def test_the_package_is_read_like_any_other_of_a_workspace(tmp_path):
+    package = read_package(export(tmp_path))
+    assert package.name == NAME
+    assert package.build_type == "ament_python"
+    assert set(package.executables) == {
+        *("controller_node", "robot_node", "safety_node", "sensor_node", "simulator_node", "telemetry_node"),
+    }
+
+
+def test_every_ros_import_is_a_dependency_of_the_manifest(tmp_path):
+    place = export(tmp_path)
+    depends = {each.text for each in ElementTree.parse(place / "package.xml").iter("exec_depend")}
+    assert imported(place) & ROS <= depends
+
+
+def test_setup_py_is_a_program_that_python_takes(tmp_path):
+    place = export(tmp_path)
+    done = subprocess.run([sys.executable, "setup.py", "--name"], cwd=place, capture_output=True, text=True, check=False)
+    if "No module named 'setuptools'" in done.stderr:
+        pytest.skip("setuptools is not installed")
+    assert done.stdout.strip().endswith(NAME)
+
+
+def test_an_existing_folder_is_left_alone(tmp_path, capsys):
+    export(tmp_path)
+    with pytest.raises(SystemExit) as ended:
+        main(["export", str(tmp_path)])
+    assert ended.value.code == 1
+    assert "exists" in capsys.readouterr().err

@@ -1,0 +1,57 @@
+"""The floors of the house hold, and a step across them is noticed."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+
+PLANTED = {
+    "tui/console/model.py": "import rclpy",
+    "tui/panes/logs.py": "import bot_console.runtime.importer",
+    "tui/console/node.py": "import bot_console.runtime.importer",
+    "runtime/run.py": "import bot_console.tui.format",
+    "runtime/process/current.py": "import bot_console.runtime.rmw.bus",
+    "runtime/rmw/local.py": "import rclpy",
+    "nodes/robot_node.py": "import bot_console.runtime.importer",
+}
+
+
+@pytest.fixture(scope="module")
+def house(tmp_path_factory):
+    """A copy of the sources, with the file of contracts."""
+    place = tmp_path_factory.mktemp("house")
+    package = place / "build" / "editable" / "bot_console"
+    for each in ("tui", "runtime", "nodes"):
+        shutil.copytree(ROOT / each, package / each, ignore=shutil.ignore_patterns("__pycache__", "generated"))
+    shutil.copy(ROOT / "pyproject.toml", place)
+    return place
+
+
+def check(house):
+    program = "import sys; from importlinter.cli import lint_imports_command; lint_imports_command()"
+    words = [sys.executable, "-c", program, "--no-cache"]
+    environment = {**os.environ, "PYTHONPATH": str(house / "build" / "editable")}
+    return subprocess.run(words, cwd=house, env=environment, capture_output=True, text=True, check=False)
+
+
+def test_the_contracts_hold(house):
+    done = check(house)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("path", PLANTED)
+def test_a_planted_violation_is_caught(house, path):
+    place = house / "build" / "editable" / "bot_console" / path
+    before = place.read_text(encoding="utf-8")
+    place.write_text(f"{before}\n{PLANTED[path]}\n", encoding="utf-8")
+    try:
+        done = check(house)
+    finally:
+        place.write_text(before, encoding="utf-8")
+    assert done.returncode == 1, done.stdout + done.stderr
+    assert "BROKEN" in done.stdout

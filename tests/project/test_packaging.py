@@ -1,0 +1,49 @@
+"""What is installed: one package, with everything that a run needs."""
+
+import importlib.util
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory):
+    """The names in a wheel built from this tree."""
+    if importlib.util.find_spec("hatchling") is None:
+        pytest.skip("hatchling is not installed, and an isolated build needs the network")
+    folder = tmp_path_factory.mktemp("wheel")
+    words = [sys.executable, "-m", "build", "--wheel", "--no-isolation", "--outdir", str(folder), str(ROOT)]
+    subprocess.run(words, check=True, capture_output=True)
+    with zipfile.ZipFile(next(folder.glob("*.whl"))) as archive:
+        return archive.namelist()
+
+
+def test_the_wheel_holds_one_package(wheel):
+    assert {name.split("/")[0] for name in wheel if ".dist-info" not in name} == {"bot_console"}
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "bot_console/tui/app.tcss",
+        "bot_console/launch/robot_system.launch.py",
+        "bot_console/profiles/indoor.yaml",
+        "bot_console/profiles/worlds/indoor.yaml",
+        "bot_console/nodes/simulator_node.py",
+    ],
+)
+def test_the_wheel_has_what_a_run_needs(wheel, name):
+    assert name in wheel
+
+
+def test_the_wheel_has_generated_messages(wheel):
+    assert any(name.startswith("bot_console/runtime/rosidl/generated/") and "geometry_msgs" in name for name in wheel)
+
+
+def test_no_module_has_a_name_from_outside_of_its_package(wheel):
+    assert not any(name.startswith(("rclpy/", "launch/", "tests/")) for name in wheel)
