@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import logging
 import threading
 import traceback
 from collections.abc import Iterable
@@ -26,10 +27,11 @@ class LaunchService:
         self.__argv = list(argv) if argv is not None else []
         self.__debug = debug
         if debug:
-            import logging
-
             launch.logging.launch_config.level = logging.DEBUG
         self.__logger = launch.logging.get_logger("launch")
+        config = launch.logging.launch_config
+        self.__logger.info(f"All log files can be found below {config.log_dir}")
+        self.__logger.info(f"Default logging verbosity is set to {logging.getLevelName(config.level)}")
         self.__context = LaunchContext(argv=self.__argv, noninteractive=noninteractive)
         self.__context.register_event_handler(OnIncludeLaunchDescription())
         self.__context.register_event_handler(OnShutdown(on_shutdown=self.__on_shutdown))

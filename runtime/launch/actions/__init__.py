@@ -51,5 +51,4 @@ __all__ = [
     "UnregisterEventHandler",
     "UnsetEnvironmentVariable",
     "UnsetLaunchConfiguration",
-    "AppendEnvironmentVariable",
 ]

@@ -12,7 +12,7 @@ from launch.event_handler import EventHandler
 from launch.event_handlers import OnShutdown
 from launch.events import TimerEvent
 from launch.frontend import expose_action
-from launch.utilities import create_future
+from launch.utilities import create_future, normalize_to_list_of_substitutions
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
 
 
@@ -30,6 +30,7 @@ class TimerAction(Action):
                 "passing a string literal was deprecated in Galactic",
                 stacklevel=2,
             )
+            period = normalize_to_list_of_substitutions(period)
         self.__period = normalize_typed_substitution(period, float)
         self.__actions = actions
         self.__cancel_on_shutdown = normalize_typed_substitution(cancel_on_shutdown, bool)

@@ -5,18 +5,19 @@ from __future__ import annotations
 from typing import Any
 
 from launch.launch_description_source import LaunchDescriptionSource
+from launch.launch_description_sources.any_launch_file_utilities import (
+    get_launch_description_from_frontend_launch_file,
+)
 
 
 class FrontendLaunchDescriptionSource(LaunchDescriptionSource):
     """Reads an XML or YAML launch file."""
 
-    def __init__(self, launch_file_path: Any, *, parser: Any = None) -> None:
-        super().__init__(None, launch_file_path, "interpreted frontend launch file")
+    def __init__(
+        self, launch_file_path: Any, *, parser: Any = None, method: str = "interpreted frontend launch file"
+    ) -> None:
+        super().__init__(None, launch_file_path, method)
         self.__parser = parser
 
     def _get_launch_description(self, location: str) -> Any:
-        from launch.frontend import Parser
-
-        parser = self.__parser or Parser
-        root_entity, parser = parser.load(location)
-        return parser.parse_description(root_entity)
+        return get_launch_description_from_frontend_launch_file(location, parser=self.__parser)

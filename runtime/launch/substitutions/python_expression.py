@@ -28,7 +28,7 @@ class PythonExpression(Substitution):
             raise TypeError("eval substitution expects 1 or 2 arguments")
         kwargs: dict[str, Any] = {"expression": data[0]}
         if len(data) > 1:
-            names = perform_substitutions(None, data[1]) if _is_text(data[1]) else ""
+            names = "".join(each.text for each in data[1])
             kwargs["python_modules"] = [name.strip() for name in names.split(",") if name.strip()]
         return cls, kwargs
 
@@ -60,8 +60,3 @@ class PythonExpression(Substitution):
 def _each(modules: Any) -> Iterable[Any]:
     return (modules,) if isinstance(modules, (str, Substitution)) else modules
 
-
-def _is_text(pieces: Any) -> bool:
-    from launch.substitutions.text_substitution import TextSubstitution
-
-    return all(isinstance(each, TextSubstitution) for each in pieces)

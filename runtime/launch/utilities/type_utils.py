@@ -111,7 +111,7 @@ def normalize_typed_substitution(value: Any, data_type: Any = None) -> Any:
     """A value as it is, or a list of substitutions, or a list of either; raises `TypeError` for the wrong type."""
     if isinstance(value, (list, tuple)) and not is_substitution(value):
         return [normalize_typed_substitution(each, None) for each in value]
-    if is_substitution(value) or isinstance(value, str):
+    if is_substitution(value):
         return normalize_to_list_of_substitutions(value)
     if not is_instance_of(value, data_type):
         raise TypeError(f"value='{value}' is not an instance of {data_type}")

@@ -1,0 +1,112 @@
+"""Texts with `$(name argument ...)` in them."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from launch.frontend.expose import substitution_parse_methods
+
+NAME = re.compile(r"[a-zA-Z0-9_\-]+")
+
+
+class UnexpectedCharacters(ValueError):
+    """A character that cannot stand where it does."""
+
+
+class UnexpectedEOF(ValueError):
+    """A text that ends too early."""
+
+
+def replace_escaped_characters(data: str) -> str:
+    """The text without the backslashes that protect the character behind them."""
+    return re.sub(r"\\(.)", r"\1", data)
+
+
+def parse_substitution(string_value: str) -> list[Any]:
+    """The substitutions of a text; raises `ValueError` where it is malformed, `RuntimeError` for unknown names."""
+    from launch.substitutions.text_substitution import TextSubstitution
+
+    if not string_value:
+        return [TextSubstitution(text="")]
+    return _Reader(string_value).pieces("")
+
+
+def parse_if_substitutions(value: Any) -> Any:
+    """The same for a text or each text of a list; other values as they are."""
+    if isinstance(value, str):
+        return parse_substitution(value)
+    if isinstance(value, list) and value and all(isinstance(each, str) for each in value):
+        return [parse_substitution(each) for each in value]
+    return value
+
+
+class _Reader:
+    def __init__(self, text: str) -> None:
+        self._text = text
+        self._at = 0
+
+    def pieces(self, ends: str) -> list[Any]:
+        """Texts and substitutions up to one of the characters, or to the end."""
+        from launch.substitutions.text_substitution import TextSubstitution
+
+        found: list[Any] = []
+        plain = ""
+        while self._at < len(self._text) and self._text[self._at] not in ends:
+            if self._text.startswith("$(", self._at):
+                if plain:
+                    found.append(TextSubstitution(text=replace_escaped_characters(plain)))
+                plain = ""
+                found.append(self._substitution())
+                continue
+            width = 2 if self._text[self._at] == "\\" else 1
+            plain += self._text[self._at : self._at + width]
+            self._at += width
+        if plain:
+            found.append(TextSubstitution(text=replace_escaped_characters(plain)))
+        return found
+
+    def _substitution(self) -> Any:
+        self._at += len("$(")
+        name = NAME.match(self._text, self._at)
+        if name is None:
+            raise self._unexpected("the name of a substitution")
+        self._at = name.end()
+        arguments = []
+        while not self._take(")"):
+            if not self._take(" "):
+                raise self._unexpected("a space or ')'")
+            arguments.append(self._argument())
+        method = substitution_parse_methods.get(name[0])
+        if method is None:
+            raise RuntimeError(f"Unknown substitution: {name[0]}")
+        kind, options = method(arguments)
+        return kind(**options)
+
+    def _argument(self) -> list[Any]:
+        from launch.substitutions.text_substitution import TextSubstitution
+
+        for quote in "\"'":
+            if self._take(quote):
+                found = self.pieces(quote)
+                if not self._take(quote):
+                    raise self._unexpected(f"a closing {quote}")
+                return found or [TextSubstitution(text="")]
+        found = self.pieces(" )\"'")
+        if not found:
+            raise self._unexpected("an argument (exactly one space stands before each)")
+        return found
+
+    def _take(self, character: str) -> bool:
+        if self._text.startswith(character, self._at):
+            self._at += 1
+            return True
+        return False
+
+    def _unexpected(self, wanted: str) -> ValueError:
+        if self._at >= len(self._text):
+            return UnexpectedEOF(f"{self._text!r} ends where {wanted} is expected")
+        return UnexpectedCharacters(
+            f"No terminal matches '{self._text[self._at]}' in {self._text!r} at column {self._at + 1}: "
+            f"{wanted} is expected"
+        )

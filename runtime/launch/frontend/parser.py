@@ -1,0 +1,142 @@
+"""Parsers of launch files in XML and YAML."""
+
+from __future__ import annotations
+
+import importlib
+import io
+import os
+from functools import lru_cache
+from typing import Any, TextIO
+
+from launch.frontend.entity import Entity
+from launch.frontend.expose import action_parse_methods
+from launch.frontend.parse_substitution import (
+    parse_if_substitutions,
+    parse_substitution,
+    replace_escaped_characters,
+)
+from launch.invalid_launch_file_error import InvalidLaunchFileError
+
+PARSERS = ("launch_xml", "launch_yaml")
+EXTENSIONS = ("launch_ros",)
+EXTENSION_GROUP = "launch.frontend.launch_extension"
+
+
+class InvalidFrontendLaunchFileError(InvalidLaunchFileError):
+    """A launch file is neither good XML nor good YAML."""
+
+
+class Parser:
+    """Makes actions of the elements of a launch file."""
+
+    @classmethod
+    def load_launch_extensions(cls) -> None:
+        """Import the packages whose actions and substitutions launch files may name."""
+        _load_extensions()
+
+    @classmethod
+    def load_parser_implementations(cls) -> dict[str, type[Parser]]:
+        """The parsers by name."""
+        return {name.removeprefix("launch_"): importlib.import_module(name).Parser for name in PARSERS}
+
+    @classmethod
+    def get_file_extensions(cls) -> set[str]:
+        """Endings of files that the parser reads."""
+        return set()
+
+    @classmethod
+    def get_available_extensions(cls) -> list[str]:
+        """Endings of files that any parser reads."""
+        return [each for parser in cls.load_parser_implementations().values() for each in parser.get_file_extensions()]
+
+    @classmethod
+    def is_extension_valid(cls, extension: str) -> bool:
+        """Whether a parser reads files of this ending."""
+        return extension in cls.get_available_extensions()
+
+    @classmethod
+    def load(cls, file: str | TextIO) -> tuple[Entity, Parser]:
+        """The root element, with its parser; raises `InvalidFrontendLaunchFileError` where no parser can read it."""
+        cls.load_launch_extensions()
+        path = file if isinstance(file, str) else getattr(file, "name", "")
+        text = _read(path) if isinstance(file, str) else file.read()
+        extension = os.path.splitext(path)[1].removeprefix(".")
+        errors: list[BaseException] = []
+        for parser in cls._parsers_for(path):
+            try:
+                return parser.load(io.StringIO(text))
+            except Exception as error:  # each library has its own errors; all are told
+                errors.append(error)
+        raise InvalidFrontendLaunchFileError(extension, likely_errors=errors)
+
+    @classmethod
+    def _parsers_for(cls, path: str) -> list[type[Parser]]:
+        """All parsers, those first that know the ending."""
+        name = os.path.basename(path)
+
+        def knows(parser: type[Parser]) -> bool:
+            return any(name.endswith(f".{each}") for each in parser.get_file_extensions())
+
+        return sorted(cls.load_parser_implementations().values(), key=lambda parser: not knows(parser))
+
+    def parse_action(self, entity: Entity) -> Any:
+        """The action of an element; raises what is wrong with it."""
+        method = action_parse_methods.get(entity.type_name)
+        if method is None:
+            raise RuntimeError(f"Unrecognized entity of the type: {entity.type_name}")
+        kind, options = method(entity, self)
+        entity.assert_entity_completely_parsed()
+        return kind(**options)
+
+    def parse_substitution(self, value: str) -> Any:
+        """The substitutions of a text."""
+        return parse_substitution(value)
+
+    def parse_if_substitutions(self, value: Any) -> Any:
+        """The substitutions of a text or of texts in a list; other values as they are."""
+        return parse_if_substitutions(value)
+
+    def parse_condition(self, entity: Entity) -> Any:
+        """The condition of an element, if it has one."""
+        from launch.conditions import IfCondition, UnlessCondition
+
+        if_text = entity.get_attr("if", optional=True)
+        unless_text = entity.get_attr("unless", optional=True)
+        if if_text is not None and unless_text is not None:
+            raise RuntimeError("if and unless conditions can't be used simultaneously")
+        if if_text is not None:
+            return IfCondition(self.parse_substitution(if_text))
+        return None if unless_text is None else UnlessCondition(self.parse_substitution(unless_text))
+
+    def parse_description(self, entity: Entity) -> Any:
+        """The launch description of a root element."""
+        from launch.launch_description import LaunchDescription
+
+        if entity.type_name != "launch":
+            raise RuntimeError("Expected 'launch' as root tag")
+        deprecated = entity.get_attr("deprecated", optional=True)
+        actions = [self.parse_action(each) for each in entity.children]
+        entity.assert_entity_completely_parsed()
+        return LaunchDescription(actions, deprecated_reason=deprecated)
+
+    def escape_characters(self, value: str) -> str:
+        """A text without its protecting backslashes."""
+        return replace_escaped_characters(value)
+
+
+def _read(path: str) -> str:
+    with open(path, encoding="utf-8") as file:
+        return file.read()
+
+
+@lru_cache(maxsize=1)
+def _load_extensions() -> None:
+    from importlib.metadata import entry_points
+
+    for name in EXTENSIONS:
+        importlib.import_module(name)
+    for module in ("launch.actions", "launch.substitutions"):
+        importlib.import_module(module)
+    for entry_point in entry_points(group=EXTENSION_GROUP):
+        if entry_point.module not in EXTENSIONS:
+            entry_point.load()

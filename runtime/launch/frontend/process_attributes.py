@@ -1,0 +1,91 @@
+"""Attributes that all elements which run a process share."""
+
+from __future__ import annotations
+
+import shlex
+from typing import Any
+
+TEXTS = ("sigkill_timeout", "sigterm_timeout", "output", "cwd", "name")
+
+
+def parse_process(entity: Any, parser: Any, kwargs: dict[str, Any], ignore: frozenset[str]) -> dict[str, Any]:
+    """Add keyword arguments of `ExecuteProcess`; those to be ignored are the caller's to parse."""
+    if "cmd" not in ignore:
+        kwargs["cmd"] = parse_command_line(entity.get_attr("cmd"), parser)
+    for name in TEXTS:
+        _set(kwargs, name, entity, parser, ignore)
+    _set(kwargs, "launch-prefix", entity, parser, ignore, keyword="prefix")
+    if "on_exit" not in ignore:
+        _parse_on_exit(entity, kwargs)
+    respawn = entity.get_attr("respawn", optional=True)
+    if respawn is not None:
+        kwargs["respawn"] = parser.parse_substitution(respawn)
+    for name, kind in (("respawn_max_retries", int), ("respawn_delay", float), ("shell", bool), ("emulate_tty", bool)):
+        if name not in ignore:
+            value = entity.get_attr(name, data_type=kind, optional=True)
+            if value is not None:
+                kwargs[name] = value
+    if "additional_env" not in ignore:
+        _parse_env(entity, parser, kwargs)
+    return kwargs
+
+
+def _set(
+    kwargs: dict[str, Any], name: str, entity: Any, parser: Any, ignore: frozenset[str], keyword: str = ""
+) -> None:
+    keyword = keyword or name
+    if name not in ignore and keyword not in ignore:
+        value = entity.get_attr(name, optional=True)
+        if value is not None:
+            kwargs[keyword] = parser.parse_substitution(value)
+
+
+def _parse_on_exit(entity: Any, kwargs: dict[str, Any]) -> None:
+    from launch.actions.shutdown_action import Shutdown
+
+    on_exit = entity.get_attr("on_exit", optional=True)
+    if on_exit is None:
+        return
+    if on_exit != "shutdown":
+        raise ValueError(
+            f"Attribute on_exit of Entity {entity.type_name} expected to be shutdown but got `{on_exit}`"
+            "Other on_exit actions not yet supported"
+        )
+    kwargs["on_exit"] = [Shutdown()]
+
+
+def _parse_env(entity: Any, parser: Any, kwargs: dict[str, Any]) -> None:
+    elements = entity.get_attr("env", data_type=list, optional=True)
+    if elements is None:
+        return
+    kwargs["additional_env"] = {
+        tuple(parser.parse_substitution(each.get_attr("name"))): parser.parse_substitution(each.get_attr("value"))
+        for each in elements
+    }
+    for each in elements:
+        each.assert_entity_completely_parsed()
+
+
+def parse_command_line(text: str, parser: Any) -> list[list[Any]]:
+    """Words of a command line, split as a shell does; what a substitution gives is not split."""
+    from launch.substitutions.text_substitution import TextSubstitution
+
+    words: list[list[Any]] = []
+    word: list[Any] = []
+    for piece in parser.parse_substitution(text):
+        if not isinstance(piece, TextSubstitution):
+            word.append(piece)
+            continue
+        parts = shlex.split(piece.text) if piece.text.strip() else []
+        if piece.text[:1].isspace() and word:
+            words.append(word)
+            word = []
+        for number, part in enumerate(parts):
+            if number > 0:
+                words.append(word)
+                word = []
+            word.append(TextSubstitution(text=part))
+        if piece.text[-1:].isspace() and word:
+            words.append(word)
+            word = []
+    return [*words, word] if word else words

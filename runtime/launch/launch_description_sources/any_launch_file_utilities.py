@@ -1,0 +1,38 @@
+"""Launch files of any kind."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from launch.invalid_launch_file_error import InvalidLaunchFileError
+
+
+def get_launch_description_from_frontend_launch_file(launch_file_path: str, *, parser: Any = None) -> Any:
+    """The description in an XML or YAML launch file."""
+    from launch.frontend import Parser
+
+    root, used = (parser or Parser).load(launch_file_path)
+    return used.parse_description(root)
+
+
+def get_launch_description_from_any_launch_file(launch_file_path: str, *, parser: Any = None) -> Any:
+    """The description in a launch file; raises `InvalidLaunchFileError` with what each kind of reader has said."""
+    from launch.launch_description_sources.python_launch_file_utilities import (
+        get_launch_description_from_python_launch_file,
+    )
+
+    extension = os.path.splitext(launch_file_path)[1].removeprefix(".")
+    readers: list[Any] = [
+        lambda path: get_launch_description_from_frontend_launch_file(path, parser=parser),
+        get_launch_description_from_python_launch_file,
+    ]
+    if extension == "py":
+        readers.reverse()
+    errors: list[BaseException] = []
+    for read in readers:
+        try:
+            return read(launch_file_path)
+        except Exception as error:  # a launch file is a program; what every reader says is told
+            errors.append(error)
+    raise InvalidLaunchFileError(extension, likely_errors=errors)
