@@ -6,6 +6,7 @@ import argparse
 import importlib
 import signal
 import sys
+import traceback
 from collections.abc import Mapping, Sequence
 
 from ros2cli.command import Command, Result, Verb
@@ -34,6 +35,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         return stop.code if isinstance(stop.code, int) else 1 if stop.code else 0
     except KeyboardInterrupt:
         return int(signal.SIGINT)
+    except Exception:  # a verb's border: upstream ends in this traceback, and a console goes on after it
+        traceback.print_exc()
+        return 1
 
 
 def _run(words: list[str]) -> Result:

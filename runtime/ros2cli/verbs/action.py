@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from rclpy.action import ActionClient
 from rclpy.node import Node
 from ros2cli.command import Command, Result, Verb
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, node_names, spin_until
@@ -103,6 +102,7 @@ def _goal_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _send_goal(arguments: argparse.Namespace) -> Result:
     import yaml
+    from rclpy.action import ActionClient
 
     try:
         kind = get_action(arguments.action_type)

@@ -20,7 +20,10 @@ def set_(arguments: argparse.Namespace) -> Result:
         value = get_parameter_value(arguments.value)
         parameter = Parameter(name=arguments.parameter_name, value=value)
         request = SetParameters.Request(parameters=[parameter])
-        result = call(node, SetParameters, f"{absolute(arguments.node_name)}/set_parameters", request).results[0]
+        try:
+            result = call(node, SetParameters, f"{absolute(arguments.node_name)}/set_parameters", request).results[0]
+        except TypeError:  # a YAML map: the words of ROS 2's conversion of strings
+            raise TypeError("bad argument type for built-in operation") from None
     if result.successful:
         print(f"Set parameter successful{': ' + result.reason if result.reason else ''}")
     else:

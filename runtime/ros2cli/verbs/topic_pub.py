@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import itertools
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import rclpy
@@ -100,21 +101,20 @@ def publish(arguments: argparse.Namespace) -> Result:
         kind = get_message(arguments.message_type)
     except (AttributeError, ModuleNotFoundError, ValueError):
         return "The passed message type is invalid"
-    documents: Iterator[Any] | None = None
-    values: Any = {}
-    if arguments.stdin:
-        documents = yaml.safe_load_all(sys.stdin)
-    else:
-        values = yaml.safe_load(arguments.values)
-        if not isinstance(values, dict):
-            return "The passed value needs to be a dictionary in YAML format"
+    values = {} if arguments.stdin else yaml.safe_load(arguments.values)
+    if not isinstance(values, dict):
+        return "The passed value needs to be a dictionary in YAML format"
     arguments.no_daemon = True
     with DirectNode(arguments, name=arguments.node_name or "") as node:
         publisher = node.create_publisher(kind, arguments.topic_name, profile(arguments, "default"))
         if not _matched(node, publisher, arguments):
             return f"Timed out waiting for subscribers: Expected {arguments.wait_matching_subscriptions} subscribers"
         try:
-            _loop(node, publisher, kind, documents or iter(lambda: values, None), arguments)
+            if arguments.stdin:
+                messages = (_filled(kind, each) for each in yaml.safe_load_all(sys.stdin))
+            else:
+                messages = itertools.repeat(_filled(kind, values))
+            _loop(node, publisher, messages, arguments)
         except _Refused as refused:
             return str(refused)
     return None
@@ -122,6 +122,9 @@ def publish(arguments: argparse.Namespace) -> Result:
 
 class _Refused(Exception):
     """Values that do not fit the message."""
+
+
+_Filled = tuple[Any, Sequence[Callable[[Any], None]]]
 
 
 def _matched(node: Node, publisher: Any, arguments: argparse.Namespace) -> bool:
@@ -138,14 +141,19 @@ def _matched(node: Node, publisher: Any, arguments: argparse.Namespace) -> bool:
     return True
 
 
-def _loop(node: Node, publisher: Any, kind: Any, documents: Iterator[Any], arguments: argparse.Namespace) -> None:
+def _loop(node: Node, publisher: Any, messages: Iterator[_Filled], arguments: argparse.Namespace) -> None:
     times = 1 if arguments.once else arguments.times
-    message: Any = None
+    following = next(messages, None)
     print("publisher: beginning loop")
     clock = rclpy.clock.Clock(clock_type=rclpy.clock.ClockType.STEADY_TIME)
     due = clock.now()
-    for count, values in enumerate(documents, 1):
-        message = _filled(kind, values, node)
+    count = 0
+    while following is not None:
+        message, stamps = following
+        now = node.get_clock().now().to_msg()
+        for set_stamp in stamps:
+            set_stamp(now)
+        count += 1
         if arguments.print and count % arguments.print == 0:
             print(f"publishing #{count}: {message!r}\n")
         publisher.publish(message)
@@ -153,16 +161,15 @@ def _loop(node: Node, publisher: Any, kind: Any, documents: Iterator[Any], argum
             break
         due += rclpy.duration.Duration(seconds=1.0 / arguments.rate)
         clock.sleep_until(due)
+        following = next(messages, None)
     clock.sleep_for(rclpy.duration.Duration(seconds=arguments.keep_alive))
 
 
-def _filled(kind: Any, values: Any, node: Node) -> Any:
+def _filled(kind: Any, values: Any) -> _Filled:
+    """A message with the values, and what sets the time in it just before it is sent."""
     message = kind()
     try:
         stamps = set_message_fields(message, values, expand_header_auto=True, expand_time_now=True)
-    except (AttributeError, TypeError, ValueError) as error:
+    except Exception as error:  # whatever a field says about a value, as upstream
         raise _Refused(f"Failed to populate field: {error}") from None
-    now = node.get_clock().now().to_msg()
-    for set_stamp in stamps or ():
-        set_stamp(now)
-    return message
+    return message, stamps or ()

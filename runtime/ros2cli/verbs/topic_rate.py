@@ -5,13 +5,12 @@ from __future__ import annotations
 import argparse
 import math
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import rclpy
 from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
-from rclpy.serialization import serialize_message
 from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, spin_until
 from ros2cli.verbs.topic_echo import _filter as message_filter
@@ -19,6 +18,7 @@ from rosidl_runtime_py.utilities import get_message
 
 WINDOW = 10_000
 BYTES_WINDOW = 100
+SECOND_NS = 1_000_000_000
 
 
 def _positive(text: str) -> int:
@@ -67,54 +67,85 @@ def delay_arguments(parser: argparse.ArgumentParser) -> None:
     add_strategy_arguments(parser, daemon=False)
 
 
-def _measure(node: Node, topic: str, take: Callable[[Any], None], tell: Callable[[], str]) -> Result:
-    """Subscribe when the topic appears, and print once a second what there is to tell."""
+def _subscribe(node: Node, topic: str, take: Callable[[Any], None], *, raw: bool = False) -> None:
+    """Subscribe when the topic appears."""
     name = topic if topic.startswith("/") else f"/{topic}"
     if name not in dict(node.get_topic_names_and_types()):
         print(f"WARNING: topic [{topic}] does not appear to be published yet")
     spin_until(node, lambda: name in dict(node.get_topic_names_and_types()))
     kind = get_message(dict(node.get_topic_names_and_types())[name][0])
-    node.create_subscription(kind, topic, take, qos_profile_sensor_data)
-    while True:
-        spin_until(node, lambda: False, 1.0)
-        text = tell()
-        if text:
+    node.create_subscription(kind, topic, take, qos_profile_sensor_data, raw=raw)
+
+
+def _tell_each_second(node: Node, tell: Callable[[], str]) -> Result:
+    """Print once a second what there is to tell, for ever."""
+
+    def show() -> None:
+        if text := tell():
             print(text)
 
+    node.create_timer(1.0, show)
+    spin_until(node, lambda: False)
+    return None
 
-def spread(values: list[float]) -> tuple[float, float, float, float]:
+
+def spread(values: Sequence[float]) -> tuple[float, float, float, float]:
     """Mean, minimum, maximum and (population) standard deviation."""
     mean = sum(values) / len(values)
     return mean, min(values), max(values), math.sqrt(sum((each - mean) ** 2 for each in values) / len(values))
 
 
+class _Rate:
+    """Gaps (ns) between messages; the report is due with the first message a second (1e9 ns) after the last one."""
+
+    def __init__(self, window: int, now: Callable[[], int]) -> None:
+        self.gaps: deque[int] = deque(maxlen=window)
+        self._now = now
+        self._last = self._reported = 0
+
+    def take(self) -> str:
+        """Count a message; the report where one is due."""
+        now, last = self._now(), self._last
+        if now == 0:
+            text = "time has reset, resetting counters" if self.gaps else ""
+            self.gaps.clear()
+            return text
+        self._last = now
+        if last == 0 or last > now:
+            self.gaps.clear()
+            return ""
+        self.gaps.append(now - last)
+        if self._reported == 0:
+            self._reported = now
+        elif now - self._reported >= SECOND_NS:
+            self._reported = now
+            return self._report()
+        return ""
+
+    def _report(self) -> str:
+        mean, low, high, deviation = (each * 1e-9 for each in spread(list(self.gaps)))
+        return (
+            f"average rate: {1.0 / mean if mean else 0.0:.3f}\n\tmin: {low:.3f}s max: {high:.3f}s "
+            f"std dev: {deviation:.5f}s window: {len(self.gaps)}"
+        )
+
+
 def rate(arguments: argparse.Namespace) -> Result:
     """`ros2 topic hz`."""
-    gaps: deque[float] = deque(maxlen=arguments.window_size)
     passes = message_filter(arguments.filter_expr)
-    last: list[int] = []
     arguments.no_daemon = True
     with DirectNode(arguments) as node:
         wall = rclpy.clock.Clock(clock_type=rclpy.clock.ClockType.SYSTEM_TIME)
         clock = wall if arguments.wall_time else node.get_clock()
+        measured = _Rate(arguments.window_size, lambda: clock.now().nanoseconds)
 
         def take(message: Any) -> None:
-            if passes(message):
-                now = clock.now().nanoseconds
-                if last and now > last[0]:
-                    gaps.append((now - last[0]) * 1e-9)
-                last[:] = [now]
+            if passes(message) and (text := measured.take()):
+                print(text)
 
-        def tell() -> str:
-            if not gaps:
-                return ""
-            mean, low, high, deviation = spread(list(gaps))
-            return (
-                f"average rate: {1.0 / mean:.3f}\n\tmin: {low:.3f}s max: {high:.3f}s "
-                f"std dev: {deviation:.5f}s window: {len(gaps) + 1}"
-            )
-
-        return _measure(node, arguments.topic_name, take, tell)
+        _subscribe(node, arguments.topic_name, take)
+        spin_until(node, lambda: False)
+    return None
 
 
 def bandwidth(arguments: argparse.Namespace) -> Result:
@@ -124,45 +155,56 @@ def bandwidth(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
         clock = rclpy.clock.Clock(clock_type=rclpy.clock.ClockType.STEADY_TIME)
 
-        def take(message: Any) -> None:
-            sizes.append((clock.now().nanoseconds, len(serialize_message(message))))
+        def take(data: bytes) -> None:
+            sizes.append((clock.now().nanoseconds, len(data)))
 
         def tell() -> str:
             if len(sizes) < 2:
                 return ""
             seconds = (clock.now().nanoseconds - sizes[0][0]) * 1e-9
             amounts = [size for _, size in sizes]
-            total = _amount(sum(amounts) / seconds)
-            mean, low, high = (_amount(each) for each in (sum(amounts) / len(amounts), min(amounts), max(amounts)))
-            return f"{total}/s from {len(amounts)} messages\n\tMessage size mean: {mean} min: {low} max: {high}"
+            total = sum(amounts) / seconds
+            shown = [_amount(each, total) for each in (total, sum(amounts) / len(amounts), min(amounts), max(amounts))]
+            return (
+                f"{shown[0]}/s from {len(amounts)} messages\n\tMessage size mean: {shown[1]} min: {shown[2]} "
+                f"max: {shown[3]}"
+            )
 
-        return _measure(node, arguments.topic, take, tell)
+        _subscribe(node, arguments.topic, take, raw=True)
+        print(f"Subscribed to [{arguments.topic}]")
+        return _tell_each_second(node, tell)
 
 
-def _amount(count: float) -> str:
-    for unit, size in (("MB", 1e6), ("KB", 1e3)):
-        if count >= size:
-            return f"{count / size:.2f} {unit}"
-    return f"{count:.0f} B" if count == int(count) else f"{count:.2f} B"
+def _amount(count: float, total: float) -> str:
+    """Bytes in the unit that suits the total of a second (B/s)."""
+    if total < 1e3:
+        return f"{count:.0f} B"
+    return f"{count / 1e3:.2f} KB" if total < 1e6 else f"{count / 1e6:.2f} MB"
 
 
 def delay(arguments: argparse.Namespace) -> Result:
-    """`ros2 topic delay`."""
-    delays: deque[float] = deque(maxlen=arguments.window_size)
+    """`ros2 topic delay`; raises `RuntimeError` for messages without a header."""
+    delays: deque[int] = deque(maxlen=arguments.window_size)
+    fresh: list[None] = []
     arguments.no_daemon = True
     with DirectNode(arguments) as node:
 
         def take(message: Any) -> None:
+            if not hasattr(message, "header"):
+                raise RuntimeError("msg does not have header")
             stamp = message.header.stamp
-            delays.append((node.get_clock().now().nanoseconds - stamp.sec * 1_000_000_000 - stamp.nanosec) * 1e-9)
+            delays.append(node.get_clock().now().nanoseconds - stamp.sec * SECOND_NS - stamp.nanosec)
+            fresh[:] = [None]
 
         def tell() -> str:
-            if not delays:
-                return ""
-            mean, low, high, deviation = spread(list(delays))
+            if not fresh:
+                return "no new messages" if delays else ""
+            fresh.clear()
+            mean, low, high, deviation = (each * 1e-9 for each in spread(list(delays)))
             return (
                 f"average delay: {mean:.3f}\n\tmin: {low:.3f}s max: {high:.3f}s "
                 f"std dev: {deviation:.5f}s window: {len(delays)}"
             )
 
-        return _measure(node, arguments.topic_name, take, tell)
+        _subscribe(node, arguments.topic_name, take)
+        return _tell_each_second(node, tell)

@@ -52,7 +52,9 @@ def start(running: System, words: Sequence[str]) -> Program:
     return running.python(*words[1:]) if words[0] == "python" else running.ros2(*words[1:])
 
 
-LIBRARY_FRAME = re.compile(r'^  File "(?!<course>|<string>", line 1, in <module>).*", line .*, in .*\n(?:    .*\n)*', re.M)
+LIBRARY_FRAME = re.compile(
+    r'^  File "(?!<course>|<string>", line 1, in <module>).*", line .*, in .*\n(?:    .*\n)*', re.M
+)
 MARKS = re.compile(r"^    [ ]*[\^~]+\n", re.M)
 
 
@@ -66,7 +68,9 @@ def normal(text: str, folder: Path) -> str:
     text = re.sub(r"searching: \[.*?\]", "searching: [<prefixes>]", text)
     text = re.sub(r"(min: |max: |std dev: )[\d.]+s", r"\1<n>s", text)
     text = re.sub(r"window: \d+", "window: <n>", text)
+    # How many reports come before the command is stopped depends on how long the interpreter took to start.
     text = re.sub(r"average rate: (?:9\.[5-9]|10\.[0-4])\d*", "average rate: ~10", text)
+    text = re.sub(r"(average rate: ~10\n.*\n)\1+", r"\1", text)
     if "Traceback (most recent call last):" in text:
         text = LIBRARY_FRAME.sub("", text)
         syntax_error = "SyntaxError" in text
