@@ -19,7 +19,7 @@ from rclpy.task import Future as Future
 from rclpy.utilities import get_default_context as get_default_context
 from rclpy.utilities import get_rmw_implementation_identifier as get_rmw_implementation_identifier
 from rclpy.utilities import ok as ok
-from rclpy.utilities import renew_default_context as _renew_default_context
+from rclpy.utilities import shutdown as _shutdown
 from rclpy.utilities import try_shutdown as _try_shutdown
 
 if TYPE_CHECKING:
@@ -52,17 +52,13 @@ def init(
     signal_handler_options: SignalHandlerOptions | None = None,
 ) -> InitContextManager:
     """Begin; `args` None means `sys.argv`. Raises `RuntimeError` the second time, `RCLError` for bad arguments."""
-    if context is None:
-        context = get_default_context()
-        if context.ended:
-            _renew_default_context()
-            context = get_default_context()
-        if signal_handler_options is None:
-            signal_handler_options = SignalHandlerOptions.ALL
-    elif signal_handler_options is None:
-        signal_handler_options = SignalHandlerOptions.NO
+    default = get_default_context()
+    context = default if context is None else context
+    if signal_handler_options is None:
+        signal_handler_options = SignalHandlerOptions.ALL if context is default else SignalHandlerOptions.NO
+    if signal_handler_options:
+        install_signal_handlers(signal_handler_options)
     context.init(args, domain_id=domain_id)
-    install_signal_handlers(signal_handler_options) if signal_handler_options else None
     return InitContextManager(context)
 
 
@@ -71,17 +67,21 @@ def get_global_executor() -> Executor:
     from rclpy.executors import SingleThreadedExecutor
 
     holder = _global_executor.get()
-    if not holder or holder[0].context is not get_default_context():
-        holder[:] = [SingleThreadedExecutor()]
+    if not holder:
+        executor = SingleThreadedExecutor()
+        holder.append(executor)
+
+        def forget() -> None:
+            holder.clear()
+            executor.shutdown()
+
+        executor.context.on_shutdown(forget)
     return holder[0]
 
 
 def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
     """End; raises `RuntimeError` before `init`, and `RCLError` where that has happened already."""
-    holder = _global_executor.get()
-    if holder:
-        holder.pop().shutdown()
-    (get_default_context() if context is None else context).shutdown()
+    _shutdown(context=context)
     if uninstall_handlers or (uninstall_handlers is None and context is None):
         uninstall_signal_handlers()
 

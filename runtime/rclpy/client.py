@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from functools import partial
 from typing import Any
 
 from bot_console.runtime.process import current
@@ -76,6 +77,7 @@ class Client(Entity):
             number = self._number
             future: Future[Any] = Future()
             self._pending_requests[number] = future
+        future._when_settled(partial(self._pending_requests.pop, number, None))
         self._node._bus.request(self.endpoint, number, request)
         if self.events is not None:
             self.events.tell(0, self.endpoint, number, request=request)
@@ -88,7 +90,7 @@ class Client(Entity):
     def remove_pending_request(self, future: Future[Any]) -> None:
         """Wait for an answer no more; it is dropped when it comes."""
         with self._lock:
-            for number, each in self._pending_requests.items():
+            for number, each in list(self._pending_requests.items()):
                 if each is future:
                     del self._pending_requests[number]
                     return
@@ -105,8 +107,7 @@ class Client(Entity):
             return None
         if self.events is not None:
             self.events.tell(3, self.endpoint, number, response=response)
-        with self._lock:
-            future = self._pending_requests.pop(number, None)
+        future = self._pending_requests.pop(number, None)
         if future is not None:
             future._set_executor(self.sink)
             future.set_result(response)

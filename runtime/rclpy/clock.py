@@ -168,7 +168,7 @@ class Clock:
         if until._clock_type != self._clock_type:
             raise ValueError("until's clock type does not match this clock's type")
         wakeup = self._source.wakeup()
-        remove = context.on_shutdown(wakeup.set)
+        forget = context.on_shutdown(lambda: wakeup.set())
         changed: list[bool] = []
 
         def jumped(jump: Any) -> None:
@@ -182,8 +182,7 @@ class Clock:
                 wakeup.clear()
                 if context.ok() and self._now_ns() < until.nanoseconds:
                     wakeup.wait(self._steady_deadline(until.nanoseconds))
-        if callable(remove):
-            remove()
+        forget()
         return bool(context.ok()) and not changed
 
     def sleep_for(self, rel_time: Duration, context: Any = None) -> bool:

@@ -6,6 +6,7 @@ import os
 import threading
 import weakref
 from collections.abc import Callable, Sequence
+from inspect import ismethod
 from types import TracebackType
 from typing import Any
 
@@ -30,6 +31,8 @@ class Context:
         self.arguments: Any = None
         self._domain = 0
         self.bus: Any = None
+        self.lingering: set[Any] = set()
+        """Endpoints that stay in the graph although their node was destroyed."""
 
     def init(self, args: Sequence[str] | None = None, *, domain_id: int | None = None) -> None:
         """Begin; raises `RuntimeError` the second time and `RCLError` for arguments that cannot be parsed."""
@@ -54,6 +57,19 @@ class Context:
     def ok(self) -> bool:
         """Whether it was initialised and not shut down."""
         return self._initialized and not self.ended
+
+    def _require_init(self) -> None:
+        if not self._initialized:
+            raise TypeError("this context has not been initialised: call rclpy.init() first")
+
+    def require_running(self, what: str) -> None:
+        """Raise `TypeError` before `init` and `RCLError` after the shutdown: `what` cannot be made then."""
+        self._require_init()
+        if self.ended:
+            raise RCLError(
+                f"failed to create {what}: the given context is not valid, "
+                "either rcl_init() was not called or rcl_shutdown() was called."
+            )
 
     @property
     def handle(self) -> Context:
@@ -89,6 +105,8 @@ class Context:
                 return
             self.ended = True
             callbacks, self._callbacks = self._callbacks, []
+        for endpoint in list(self.lingering):
+            self.bus.remove(endpoint)
         for callback in callbacks:
             callback()
 
@@ -96,7 +114,8 @@ class Context:
         """Call back once at the shutdown, at once where it has happened; returns what takes the callback away."""
         if not callable(callback):
             raise TypeError(f"callback should be a callable, got {type(callback)}")
-        held = weakref.WeakMethod(callback) if hasattr(callback, "__self__") and not _is_builtin(callback) else None
+        self._require_init()
+        held = weakref.WeakMethod(callback) if ismethod(callback) else None
 
         def call() -> None:
             found = held() if held is not None else callback
@@ -126,6 +145,8 @@ class Context:
     def _abandon(self) -> None:
         """The process was killed while its code may go on: its nodes leave the graph and are heard no more."""
         self.ended = True
+        for endpoint in list(self.lingering):
+            self.bus.remove(endpoint)
         for node in list(self._nodes):
             node._leave_graph()
 
@@ -134,16 +155,14 @@ class Context:
         self.try_shutdown()
 
     def __enter__(self) -> Context:
+        if not self._initialized:
+            self.init()
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.try_shutdown()
-
-
-def _is_builtin(callback: Any) -> bool:
-    return not hasattr(callback, "__func__")
 
 
 def _domain_of_environment() -> int:

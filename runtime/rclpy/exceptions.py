@@ -12,11 +12,8 @@ class NotInitializedException(Exception):
     """Something needs `rclpy.init`, which has not been called."""
 
     def __init__(self, *args: Any) -> None:
-        Exception.__init__(self, "rclpy.init() has not been called", *args)
-
-    def __str__(self) -> str:
-        text, *more = self.args
-        return f"{text}. msg:{more[0]}" if more else str(text)
+        more = f" msg:{args[0]}" if args else ""
+        Exception.__init__(self, f"rclpy.init() has not been called.{more}")
 
 
 class NoTypeSupportImportedException(Exception):

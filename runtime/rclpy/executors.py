@@ -10,8 +10,6 @@ from types import TracebackType
 from typing import Any
 
 from bot_console.runtime.process import current
-from rclpy._rclpy_pybind11 import InvalidHandle
-from rclpy.impl.entity import DESTROYED
 from rclpy.impl.timer_heap import TimerHeap
 from rclpy.impl.worker_pool import WorkerPool
 from rclpy.task import Future, Task
@@ -48,6 +46,7 @@ class Executor:
 
     def __init__(self, *, context: Any = None) -> None:
         self._context = get_default_context() if context is None else context
+        self._context.require_running("guard_condition")
         self._clock = current().clock
         self._nodes: dict[Any, int] = {}
         self._node_count = 0
@@ -61,8 +60,6 @@ class Executor:
         self._wakeup = self._clock.wakeup()
         self._waiting = 0
         self._is_shutdown = False
-        self.stale = False
-        """Whether a node was destroyed while it was served here."""
         self._context.on_shutdown(self.wake)
 
     @property
@@ -102,6 +99,8 @@ class Executor:
         self, callback: Callable[..., Any] | Coroutine[Any, Any, Any], *args: Any, **kwargs: Any
     ) -> Task[Any]:
         """Run a function or coroutine in this executor; from any thread."""
+        if self._is_shutdown:
+            raise AttributeError("this executor was shut down: it takes no more tasks")
         task: Task[Any] = Task(callback, args, kwargs, executor=self)
         self._enter(task, None)
         return task
@@ -153,11 +152,9 @@ class Executor:
         return True
 
     def spin(self) -> None:
-        """Serve until shut down; raises `ExternalShutdownException` when the context is."""
-        while not self._is_shutdown:
+        """Serve until shut down; raises `ExternalShutdownException` when the context is while nothing runs here."""
+        while self._context.ok() and not self._is_shutdown:
             self.spin_once()
-            if not self._context.ok():
-                raise ExternalShutdownException
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
         """Run one callback; None or a negative time-out waits for ever, 0 not at all."""
@@ -173,7 +170,7 @@ class Executor:
         future._when_settled(self.wake)
         timeout = timeout_sec_to_nsec(timeout_sec)
         deadline = None if timeout is None else self._clock.steady_ns() + timeout
-        while self._context.ok() and not future.done() and not future.cancelled() and not self._is_shutdown:
+        while self._context.ok() and not future.done() and not self._is_shutdown:
             left = None if deadline is None else max(0, deadline - self._clock.steady_ns()) * 1e-9
             self._spin_once(left, future.done)
             if deadline is not None and self._clock.steady_ns() >= deadline:
@@ -217,8 +214,6 @@ class Executor:
 
     def _new_batch(self) -> bool:
         """Collect what is ready; whether there was anything."""
-        if self.stale and any(node.destroyed for node in self._nodes):
-            raise InvalidHandle(DESTROYED)
         entities: list[Any] = []
         ready = self._ready
         while ready:
@@ -332,6 +327,8 @@ class MultiThreadedExecutor(Executor):
                 "MultiThreadedExecutor is used with a single thread.\nUse the SingleThreadedExecutor instead.",
                 stacklevel=2,
             )
+        if num_threads <= 0:
+            raise ValueError("max_workers must be greater than 0")
         self._pool = WorkerPool(num_threads, "executor")
         self._futures: deque[Task[Any]] = deque()
 

@@ -16,4 +16,7 @@ def expand_topic_name(topic_name: str, node_name: str, node_namespace: str) -> s
     problem = names.validate_namespace(node_namespace)
     if problem:
         raise ValueError(f"node namespace '{node_namespace}' is invalid: {problem[0]}")
-    return names.expand(topic_name, node_name, node_namespace)
+    try:
+        return names.expand(topic_name, node_name, node_namespace)
+    except ValueError as error:
+        raise ValueError(f"topic name '{topic_name}' is invalid: {error}") from None

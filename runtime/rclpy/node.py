@@ -103,10 +103,13 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
             raise InvalidNamespaceException(namespace, *problem)
         self._remap_rules = tuple(rule for each in reversed(arguments) for rule in each.remap_rules)
         self._name = remapping.remap_node_name(self._remap_rules, name) or name
+        problem = names.validate_node_name(self._name)
+        if problem:
+            raise RCLError(f"error creating node: invalid node name: {problem[0]}")
         self._namespace = remapping.remap_namespace(self._remap_rules, name) or namespace
         problem = names.validate_namespace(self._namespace)
         if problem:
-            raise RCLError(f"error creating node: invalid node namespace: {problem[0]}")
+            raise RCLError(f"error creating node: invalid node namespace: {names.in_words_for_node_names(problem[0])}")
 
     def _make_parameters(
         self, arguments: list[Any], overrides: Sequence[Parameter] | None, undeclared: bool, automatic: bool
@@ -157,14 +160,17 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
 
     def get_name(self) -> str:
         """The name, remapped."""
+        self._use()
         return self._name
 
     def get_namespace(self) -> str:
         """The namespace, remapped."""
+        self._use()
         return self._namespace
 
     def get_fully_qualified_name(self) -> str:
         """Namespace and name."""
+        self._use()
         return f"{self._namespace.rstrip('/')}/{self._name}"
 
     def get_clock(self) -> Clock:
@@ -180,8 +186,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         if self.destroyed:
             return
         executor = self.executor
-        if executor is not None:
-            executor.stale = True
+        self._type_description_service.outlive_destroy()
         for rate in list(self._rates):
             self.destroy_rate(rate)
         for publisher in list(self._publishers):

@@ -12,6 +12,9 @@ from typing import Any, Generic, TypeVar
 
 T = TypeVar("T")
 
+_running = threading.local()
+"""`task`: the task that the thread is driving on; a future that it awaits tells it so."""
+
 
 class Future(Generic[T]):
     """A result that comes later. Done callbacks run as tasks of the executor where there is one, else at once."""
@@ -34,7 +37,10 @@ class Future(Generic[T]):
 
     def __await__(self) -> Generator[Any, None, T | None]:
         while not self._done:
-            yield self
+            task = getattr(_running, "task", None)
+            if task is not None:
+                task.waits_for = self
+            yield
         return self.result()
 
     def cancel(self) -> None:
@@ -169,8 +175,12 @@ class Task(Future[T]):
 
     def _step(self) -> None:
         try:
-            yielded = self._handler.send(None)
-            self.waits_for = yielded if isinstance(yielded, Future) else None
+            self.waits_for = None
+            outer, _running.task = getattr(_running, "task", None), self
+            try:
+                self._handler.send(None)
+            finally:
+                _running.task = outer
         except StopIteration as stop:
             self._handler = None
             self.set_result(stop.value)

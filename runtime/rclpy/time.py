@@ -79,7 +79,7 @@ class Time:
         if isinstance(other, Duration):
             total = self._nanoseconds - other.nanoseconds
             if total < 0:
-                raise ValueError("Subtraction leads to negative time")
+                raise ValueError("Subtraction leads to negative time.")
             return Time._of(total, self._clock_type)
         return NotImplemented
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import weakref
+from collections import deque
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -25,10 +27,29 @@ class TypeDescriptionService:
         self.enabled = parameter.type_ == Parameter.Type.BOOL and parameter.value
         if parameter.type_ not in (Parameter.Type.BOOL, Parameter.Type.NOT_SET):
             node.get_logger().error(f"Invalid type for parameter '{name}' {parameter.type_!r} should be bool")
+        self._service: Any = None
         if self.enabled:
             from type_description_interfaces.srv import GetTypeDescription
 
-            node.create_service(GetTypeDescription, self.service_name, self._answer)
+            self._service = node.create_service(GetTypeDescription, self.service_name, self._answer)
+
+    def outlive_destroy(self) -> None:
+        """Stay in the graph, deaf, when the node is destroyed: upstream keeps this service while the node object lives.
+
+        It goes with the object or with the context, whichever ends first.
+        """
+        service, node = self._service, self._node
+        if service is None:
+            return
+        endpoint = service.endpoint
+        node._entities.pop(service, None)
+        service.destroyed = True
+        service.detach()
+        endpoint.queue = deque(maxlen=0)
+        endpoint.notify = _nothing
+        node._bus.disown(endpoint)
+        node.context.lingering.add(endpoint)
+        weakref.finalize(node, _vanish, node._bus, node.context.lingering, endpoint).atexit = False
 
     def _answer(self, request: Any, response: Any) -> Any:
         """Describe a type that an entity of this node has, found by its hash; words as rcl's."""
@@ -55,6 +76,15 @@ class TypeDescriptionService:
             yield entity.msg_type
         for entity in (*node.services, *node.clients):
             yield entity.srv_type
+
+
+def _nothing() -> None:
+    """Nobody is there to be told."""
+
+
+def _vanish(bus: Any, lingering: set[Any], endpoint: Any) -> None:
+    lingering.discard(endpoint)
+    bus.remove(endpoint)
 
 
 def _is_hash(text: str) -> bool:

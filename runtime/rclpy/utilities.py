@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Sequence
 from typing import Any
 
@@ -10,23 +11,20 @@ from bot_console.runtime.process import ProcessLocal
 NANO = 1_000_000_000
 
 
-def _new_context() -> Any:
-    from rclpy.context import Context
-
-    return Context()
-
-
-_default_context: ProcessLocal[Any] = ProcessLocal(_new_context)
+_default_context: ProcessLocal[list[Any]] = ProcessLocal(list)
+"""The default context of a process, or nothing before its first use and after its shutdown."""
+_lock = threading.Lock()
 
 
 def get_default_context(*, shutting_down: bool = False) -> Any:
-    """The context that is used where none is named; a new one after a shutdown, so that `init` works again."""
-    return _default_context.get()
+    """The context that is used where none is named; with `shutting_down` the next call makes a new one."""
+    from rclpy.context import Context
 
-
-def renew_default_context() -> None:
-    """Let the next `get_default_context` give a fresh context."""
-    _default_context.set(_new_context())
+    with _lock:
+        holder = _default_context.get()
+        if not holder:
+            holder.append(Context())
+        return holder.pop() if shutting_down else holder[0]
 
 
 def remove_ros_args(args: Sequence[str] | None = None) -> list[str]:
@@ -44,13 +42,13 @@ def ok(*, context: Any = None) -> bool:
 
 
 def shutdown(*, context: Any = None) -> None:
-    """Shut a context down; raises `RuntimeError` when it was never initialised."""
-    (get_default_context() if context is None else context).shutdown()
+    """Shut a context down; raises `RuntimeError` before `init`, `RCLError` where a signal has done it already."""
+    (get_default_context(shutting_down=True) if context is None else context).shutdown()
 
 
 def try_shutdown(*, context: Any = None) -> None:
     """Shut a context down unless it is already."""
-    (get_default_context() if context is None else context).try_shutdown()
+    (get_default_context(shutting_down=True) if context is None else context).try_shutdown()
 
 
 def get_rmw_implementation_identifier() -> str:

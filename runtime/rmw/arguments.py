@@ -98,17 +98,20 @@ def _parameter(word: str, value: str, parsed: Arguments) -> None:
 
 
 def _parameter_name(lexer: Lexer) -> str:
+    """Parts divided by dots; a part is made of tokens and slashes in any order."""
     start = lexer.index
-    if lexer.peek() == Lexeme.FORWARD_SLASH:
-        lexer.accept()
-    lexer.match_token()
+    _parameter_name_part(lexer)
     while lexer.peek() != Lexeme.SEPARATOR:
-        if lexer.peek() == Lexeme.FORWARD_SLASH:
-            lexer.accept()
-        else:
-            lexer.expect(Lexeme.DOT)
-        lexer.match_token()
+        lexer.expect(Lexeme.DOT)
+        _parameter_name_part(lexer)
     return lexer.text[start : lexer.index]
+
+
+def _parameter_name_part(lexer: Lexer) -> None:
+    if lexer.peek() != Lexeme.FORWARD_SLASH:
+        lexer.match_token()
+    while lexer.peek() in (Lexeme.TOKEN, Lexeme.FORWARD_SLASH):
+        lexer.accept()
 
 
 def _parameters_file(word: str, value: str, parsed: Arguments) -> None:

@@ -112,6 +112,10 @@ class Bus(Protocol):
         """Let a client of a service appear in the graph."""
         ...
 
+    def disown(self, thing: Any) -> None:
+        """Let a service server or client stay when its node leaves."""
+        ...
+
     def remove(self, thing: Any) -> None:
         """Take a publisher, subscription, server or client away."""
         ...

@@ -199,6 +199,13 @@ class LocalBus:
         if things is not None:
             things.append(thing)
 
+    def disown(self, thing: Any) -> None:
+        """Let a service server or client stay when its node leaves."""
+        with self._lock:
+            things = self._nodes.get(thing.node, [])
+            if thing in things:
+                things.remove(thing)
+
     def remove(self, thing: Any) -> None:
         """Take an endpoint away; a second time does nothing."""
         with self._lock:

@@ -130,7 +130,7 @@ def _validate_substitution(name: str, opened: int, index: int) -> Problem | None
 
 
 def expand(name: str, node: str, namespace: str) -> str:
-    """The full name of a valid name as typed in a node; raises `ValueError` for an unknown substitution."""
+    """The full name of a valid name as typed in a node; raises `ValueError` in rcl's words for an unknown substitution."""
     if name[0] == "/" and "{" not in name:
         return name
     prefix = namespace.rstrip("/")
@@ -146,7 +146,23 @@ def _substitute(name: str, node: str, namespace: str) -> str:
 
     def value(found: re.Match[str]) -> str:
         if found[1] not in known:
-            raise ValueError(f"topic name '{name}' is invalid: unknown substitution: {found[0]}")
+            raise ValueError(f"unknown substitution: {found[0]}")
         return known[found[1]]
 
     return re.sub(r"\{([^}]*)\}", value, name)
+
+
+_NAMESPACE_PROBLEMS = ("empty", "absolute", "must not end", "characters", "repeated", "token", "exceed")
+_NODE_NAME_PROBLEMS = (
+    "node name must not be empty",
+    "node name must not contain characters other than alphanumerics or '_'",
+    "node name must not start with a number",
+    f"node name length should not exceed '{NODE_NAME_LIMIT}'",
+)
+
+
+def in_words_for_node_names(namespace_problem: str) -> str:
+    """What rmw says of a namespace when it makes a node: it looks the problem's number up among those of node names."""
+    number = next(place for place, word in enumerate(_NAMESPACE_PROBLEMS) if word in namespace_problem)
+    known = number < len(_NODE_NAME_PROBLEMS)
+    return _NODE_NAME_PROBLEMS[number] if known else "unknown result code for rmw_validate_node_name"

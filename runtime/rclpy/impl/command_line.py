@@ -12,14 +12,6 @@ from rclpy.logging import apply_arguments, get_logger
 DEPRECATED = "Found remap rule '{0}'. This syntax is deprecated. Use '--ros-args --remap {0}' instead."
 
 
-def parse_words(words: Sequence[str]) -> Arguments:
-    """Parse a command line; raises `RCLError`."""
-    try:
-        return _parse(words)
-    except ArgumentsError as error:
-        raise RCLError(f"failed to initialize rcl: {error}") from None
-
-
 def parse_global(words: Sequence[str]) -> Arguments:
     """The arguments of a context; raises `RCLError` (rcl logs why), `UnknownROSArgsError` for strange flags."""
     try:
@@ -32,12 +24,17 @@ def parse_global(words: Sequence[str]) -> Arguments:
     return parsed
 
 
-def parse_local(words: Sequence[str]) -> Arguments:
-    """The arguments of one node (`cli_args`); raises `RCLInvalidROSArgsError` and `UnknownROSArgsError`."""
+def parse_words(words: Sequence[str]) -> Arguments:
+    """Parse a command line, strange flags or not; raises `RCLInvalidROSArgsError`."""
     try:
-        parsed = _parse(words)
+        return _parse(words)
     except ArgumentsError as error:
         raise RCLInvalidROSArgsError(f"Failed to parse ROS arguments: {error}") from None
+
+
+def parse_local(words: Sequence[str]) -> Arguments:
+    """The arguments of one node (`cli_args`); raises `RCLInvalidROSArgsError` and `UnknownROSArgsError`."""
+    parsed = parse_words(words)
     _refuse_unknown(parsed)
     return parsed
 

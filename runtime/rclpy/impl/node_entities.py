@@ -189,11 +189,7 @@ class NodeEntities:
         period = int(float(timer_period_sec) * NANO)
         group = self._group(callback_group)
         self._use()
-        if not self.context.ok():
-            raise RCLError(
-                "failed to create timer: the given context is not valid, "
-                "either rcl_init() was not called or rcl_shutdown() was called."
-            )
+        self.context.require_running("timer")
         timer = Timer(callback, group, period, clock or self.get_clock(), context=self.context, autostart=autostart)
         timer._node = self
         self._enter(timer, group)
@@ -203,6 +199,7 @@ class NodeEntities:
         """Make a guard condition."""
         group = self._group(callback_group)
         self._use()
+        self.context.require_running("guard_condition")
         guard = GuardCondition(callback, group, context=self.context)
         self._enter(guard, group)
         return guard

@@ -7,7 +7,7 @@ from typing import Any
 
 from bot_console.runtime.process import current
 from rclpy._rclpy_pybind11 import NodeNameNonExistentError
-from rclpy.impl.topic_names import expand_name
+from rclpy.impl.topic_names import expand_name, remapped
 
 NamesAndTypes = list[tuple[str, list[str]]]
 NANO = 1_000_000_000
@@ -121,9 +121,10 @@ class NodeGraph:
         return self._infos(self._bus.subscriptions(), topic_name, no_mangle, publisher=False)
 
     def _infos(self, endpoints: Sequence[Any], topic: str, no_mangle: bool, *, publisher: bool) -> list[Any]:
+        from rclpy.impl.qos_in_effect import in_effect
         from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 
-        name = topic if no_mangle else self.resolve_topic_name(topic)
+        name = topic if no_mangle else remapped(self, expand_name(self, topic))
         kind = TopicEndpointTypeEnum.PUBLISHER if publisher else TopicEndpointTypeEnum.SUBSCRIPTION
         return [
             TopicEndpointInfo(
@@ -133,7 +134,7 @@ class NodeGraph:
                 topic_type_hash=_type_hash(each.message_class),
                 endpoint_type=kind,
                 endpoint_gid=list(each.gid),
-                qos_profile=each.qos,
+                qos_profile=in_effect(each.qos),
             )
             for each in endpoints
             if each.topic == name

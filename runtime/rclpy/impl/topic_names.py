@@ -18,7 +18,7 @@ def checked(node: Any, name: str, *, service: bool = False) -> str:
     problem = names.validate_topic_name(name)
     if problem:
         raise kind(name, *problem)
-    full = _remapped(node, names.expand(name, node.get_name(), node.get_namespace()), service)
+    full = remapped(node, _expanded(node, name), service)
     problem = names.validate_full_topic_name(full)
     if problem:
         raise kind(full, *problem)
@@ -26,11 +26,26 @@ def checked(node: Any, name: str, *, service: bool = False) -> str:
 
 
 def expand_name(node: Any, name: str, *, service: bool = False) -> str:
-    """The full name of an existing topic or service, not remapped; raises `ValueError` as upstream's counts do."""
+    """The full name of an existing topic or service, not remapped.
+
+    Raises `ValueError` as upstream's counts do, and for full names that are no good the exceptions of `checked`.
+    """
     problem = names.validate_topic_name(name)
     if problem:
         raise ValueError(f"topic name '{name}' is invalid: {problem[0]}")
-    return names.expand(name, node.get_name(), node.get_namespace())
+    full = _expanded(node, name)
+    problem = names.validate_full_topic_name(full)
+    if problem:
+        kind = InvalidServiceNameException if service else InvalidTopicNameException
+        raise kind(full, *problem)
+    return full
+
+
+def _expanded(node: Any, name: str) -> str:
+    try:
+        return names.expand(name, node.get_name(), node.get_namespace())
+    except ValueError as error:
+        raise ValueError(f"topic name '{name}' is invalid: {error}") from None
 
 
 def resolve(node: Any, name: str, *, only_expand: bool, service: bool = False) -> str:
@@ -42,14 +57,15 @@ def resolve(node: Any, name: str, *, only_expand: bool, service: bool = False) -
         full = names.expand(name, node.get_name(), node.get_namespace())
     except ValueError as error:
         raise RCLError(f"failed to resolve name: {error}") from None
-    full = full if only_expand else _remapped(node, full, service)
+    full = full if only_expand else remapped(node, full, service)
     problem = names.validate_full_topic_name(full)
     if problem:
         raise RCLError(f"failed to resolve name: {problem[0]}")
     return full
 
 
-def _remapped(node: Any, full: str, service: bool) -> str:
+def remapped(node: Any, full: str, service: bool = False) -> str:
+    """A full name after the node's remap rules."""
     rules = node._remap_rules
     if not rules:
         return full
