@@ -20,9 +20,9 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.rosidl.conversion import (
-    FieldTypeError as _FieldTypeError, to_bool as _to_bool, to_fixed as _to_fixed, to_float as _to_float, to_int as _to_int,
-    to_list as _to_list, to_message as _to_message, to_messages as _to_messages, to_ndarray as _to_ndarray,
-    to_octet as _to_octet, to_str as _to_str, too_long as _too_long, zeros as _zeros,
+    FieldTypeError as _FieldTypeError, to_bool as _to_bool, to_fixed as _to_fixed, to_float as _to_float,
+    to_int as _to_int, to_list as _to_list, to_message as _to_message, to_messages as _to_messages,
+    to_ndarray as _to_ndarray, to_octet as _to_octet, to_str as _to_str, too_long as _too_long, zeros as _zeros,
 )
 from bot_console.runtime.rosidl.message import Message as _Message, ServiceType as _ServiceType
 from bot_console.runtime.rosidl.message import checks_asked_for as _checks_asked_for

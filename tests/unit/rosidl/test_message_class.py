@@ -81,7 +81,7 @@ def test_an_unknown_keyword_is_ignored_aloud() -> None:
 
 
 def test_an_unknown_keyword_is_refused_with_checks() -> None:
-    with pytest.raises(AssertionError, match="^Invalid arguments passed to constructor: a, w$"):
+    with pytest.raises(AssertionError, match=r"^Invalid arguments passed to constructor: a, w$"):
         Vector3(w=1.0, a=2, check_fields=True)
 
 
@@ -101,7 +101,7 @@ def test_with_checks_an_array_of_the_right_type_is_kept_itself() -> None:
 
 
 def test_a_fixed_array_of_wrong_length_is_refused_by_the_constructor_alone() -> None:
-    with pytest.raises(AssertionError, match="^$"):
+    with pytest.raises(AssertionError, match=r"^$"):
         Imu(orientation_covariance=[0.0] * 8)
     message = Imu()
     message.orientation_covariance = [0.0] * 8
@@ -129,10 +129,10 @@ def test_constants() -> None:
 def test_slots_types_and_fields() -> None:
     assert LaserScan.__slots__[-2:] == ["_intensities", "_check_fields"]
     assert JointState.get_fields_and_field_types()["name"] == "sequence<string>"
-    assert PoseWithCovariance.SLOT_TYPES == (
+    assert (
         NamespacedType(["geometry_msgs", "msg"], "Pose"),
         Array(BasicType("double"), 36),
-    )
+    ) == PoseWithCovariance.SLOT_TYPES
     assert JointState().SLOT_TYPES[1:3] == (
         UnboundedSequence(UnboundedString()),
         UnboundedSequence(BasicType("double")),

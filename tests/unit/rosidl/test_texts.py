@@ -1,0 +1,57 @@
+"""The definition files that come along, and those that are added."""
+
+from __future__ import annotations
+
+import importlib
+from pathlib import Path
+
+import pytest
+from bot_console.runtime.rosidl import texts
+from bot_console.runtime.rosidl.parse import parse
+from bot_console.runtime.rosidl.write import written
+
+
+def all_names() -> list[str]:
+    return [f"{package}/{name}" for package in texts.standard_packages() for name in texts.interface_names(package)]
+
+
+def test_every_file_says_what_its_class_has() -> None:
+    for full_name in all_names():
+        package, kind, name = full_name.split("/")
+        interface = parse(texts.definition_text(package, kind, name) or "", package, kind, name)
+        module = importlib.import_module(f"{package}.{kind}")
+        for part in interface.parts:
+            cls = getattr(module, part.name)
+            assert {each.name: each.type.text for each in part.fields} == cls.get_fields_and_field_types(), full_name
+            for constant in part.constants:
+                assert repr(getattr(cls, constant.name)) == constant.value, full_name
+
+
+def test_what_is_written_is_read_as_the_same() -> None:
+    for full_name in all_names():
+        package, kind, name = full_name.split("/")
+        interface = parse(texts.definition_text(package, kind, name) or "", package, kind, name)
+        assert parse(written(interface), package, kind, name) == interface
+
+
+def test_packages_and_names() -> None:
+    assert {"std_msgs", "std_srvs", "rcl_interfaces", "tf2_msgs"} <= set(texts.known_packages())
+    assert texts.interface_names("std_srvs") == ["srv/Empty", "srv/SetBool", "srv/Trigger"]
+    assert texts.interface_names("nope_msgs") == []
+    assert texts.definition_text("std_msgs", "msg", "Nope") is None
+    assert texts.definition_text("nope_msgs", "msg", "Nope") is None
+
+
+def test_comments_are_kept() -> None:
+    assert "# Single scan from a planar laser range-finder" in (
+        texts.definition_text("sensor_msgs", "msg", "LaserScan") or ""
+    )
+
+
+def test_other_packages_can_be_added(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "srv").mkdir()
+    (tmp_path / "srv" / "Ask.srv").write_text("---\n")
+    monkeypatch.setattr(texts, "_sources", [lambda: {"my_msgs": tmp_path}])
+    assert "my_msgs" in texts.known_packages()
+    assert texts.interface_names("my_msgs") == ["srv/Ask"]
+    assert texts.definition_text("my_msgs", "srv", "Ask") == "---\n"
