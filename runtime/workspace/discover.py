@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
@@ -17,6 +18,8 @@ from bot_console.runtime.workspace.share import share_folder
 IGNORED = frozenset({"build", "install", "log", "node_modules", "__pycache__", "venv", "site-packages"})
 MARKERS = ("COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE")
 DEPTH = 6
+FOLDERS = 20_000
+"""Folders that are looked into at most, so that a start in a home directory does not take minutes."""
 
 
 class Workspace:
@@ -29,8 +32,9 @@ class Workspace:
     def packages(self) -> Mapping[str, Package]:
         """Packages by name."""
         found: dict[str, Package] = {}
+        budget = [FOLDERS]
         for folder in self.folders:
-            for each in _package_folders(folder, DEPTH):
+            for each in _package_folders(folder, DEPTH, budget):
                 package = read_package(each)
                 found.setdefault(package.name, package)
         found.setdefault(OWN, own_package())
@@ -62,9 +66,12 @@ def default_folders(start: Path) -> tuple[Path, ...]:
     return (start, start / "src") if (start / "src").is_dir() else (start,)
 
 
-def _package_folders(folder: Path, depth: int) -> Iterator[Path]:
+def _package_folders(folder: Path, depth: int, budget: list[int]) -> Iterator[Path]:
     """Folders with a `package.xml`, as colcon finds them: not below another package, not where told to ignore."""
-    if any((folder / marker).exists() for marker in MARKERS):
+    budget[0] -= 1
+    if budget[0] == 0:
+        _warn_of_size(folder)
+    if budget[0] <= 0 or any((folder / marker).exists() for marker in MARKERS):
         return
     if (folder / "package.xml").is_file():
         yield folder
@@ -77,7 +84,15 @@ def _package_folders(folder: Path, depth: int) -> Iterator[Path]:
         return
     for each in below:
         if each.name not in IGNORED and not each.name.startswith("."):
-            yield from _package_folders(each, depth - 1)
+            yield from _package_folders(each, depth - 1, budget)
+
+
+def _warn_of_size(folder: Path) -> None:
+    print(
+        f"[WARN] [bot-console]: more than {FOLDERS} folders; packages are not looked for from {folder} on. "
+        "Start in the workspace itself, or name it with --workspace",
+        file=sys.stderr,
+    )
 
 
 _current: list[Workspace] = []

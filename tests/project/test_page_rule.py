@@ -46,6 +46,7 @@ def test_ten_minutes_without_standing_for_twenty_seconds(name: str, seed: int, p
     assert run.metrics.distance > 200.0
 
 
+@pytest.mark.soak
 @pytest.mark.parametrize("name", NAMES)
 def test_from_every_place_some_heading_is_free(name: str) -> None:
     """A place is a trap when no half circle of the safety distance is free there: the rule would turn for ever."""
