@@ -26,7 +26,4 @@ class LocalSubstitution(Substitution):
 
     def perform(self, context: Any) -> str:
         """The value; raises `AttributeError` where it is missing."""
-        value = context.locals
-        for name in self.__expression.split("."):
-            value = getattr(value, name)
-        return str(value)
+        return str(eval(f"context.locals.{self.__expression}", {}, {"context": context}))

@@ -1,0 +1,232 @@
+"""Running a node."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+import launch.logging
+from launch.actions import ExecuteProcess
+from launch.frontend import expose_action
+from launch.substitutions import LocalSubstitution, TextSubstitution
+from launch.utilities import ensure_argument_type, normalize_to_list_of_substitutions, perform_substitutions
+from launch_ros.node_program import os_command, program_of
+from launch_ros.parameter_arguments import ParameterArgument, global_parameter_arguments, own_parameter_arguments
+from launch_ros.substitutions import ExecutableInPackage
+from launch_ros.utilities import (
+    add_node_name,
+    evaluate_parameters,
+    get_node_name_count,
+    make_namespace_absolute,
+    normalize_parameters,
+    normalize_remap_rules,
+    prefix_namespace,
+)
+
+LOCALS = "ros_specific_arguments"
+
+
+@expose_action("node")
+class Node(ExecuteProcess):
+    """Runs an executable as a node, with names, parameters and remap rules on its command line."""
+
+    UNSPECIFIED_NODE_NAME = "<node_name_unspecified>"
+    UNSPECIFIED_NODE_NAMESPACE = "<node_namespace_unspecified>"
+
+    def __init__(
+        self,
+        *,
+        executable: Any,
+        package: Any = None,
+        name: Any = None,
+        namespace: Any = None,
+        exec_name: Any = None,
+        parameters: Any = None,
+        remappings: Any = None,
+        ros_arguments: Iterable[Any] | None = None,
+        arguments: Iterable[Any] | None = None,
+        **kwargs: Any,
+    ) -> None:
+        cmd: list[Any] = [executable if package is None else ExecutableInPackage(package=package, executable=executable)]
+        cmd += [] if arguments is None else arguments
+        if ros_arguments is not None:
+            cmd += ["--ros-args"] + ros_arguments  # type: ignore[operator]  # noqa: RUF005 (fails as upstream does)
+        cmd += ["--ros-args"]
+        if name is not None:
+            cmd += ["-r", LocalSubstitution(f"{LOCALS}['name']", description="node name")]
+        if parameters is not None:
+            ensure_argument_type(parameters, (list,), "parameters", "Node")
+            parameters = normalize_parameters(parameters)
+        if remappings is not None:
+            remappings = list(normalize_remap_rules(remappings))
+        super().__init__(cmd=cmd, name=exec_name, **kwargs)
+        self.__package = package
+        self.__executable = executable
+        self.__name = name
+        self.__namespace = namespace
+        self.__parameters = [] if parameters is None else parameters
+        self.__remappings = [] if remappings is None else remappings
+        self.__arguments = arguments
+        self.__ros_arguments = ros_arguments
+        self.__expanded_name = self.UNSPECIFIED_NODE_NAME
+        self.__expanded_namespace = self.UNSPECIFIED_NODE_NAMESPACE
+        self.__expanded_parameters: list[ParameterArgument] | None = None
+        self.__expanded_remappings: list[tuple[str, str]] | None = None
+        self.__final_name: str | None = None
+        self.__package_text: str | None = None
+        self.__substitutions_performed = False
+        self.__logger = launch.logging.get_logger(__name__)
+
+    @classmethod
+    def parse(cls, entity: Any, parser: Any) -> tuple[Any, dict[str, Any]]:
+        """From XML or YAML."""
+        from launch_ros.actions.parse_node import parse_node
+
+        _, kwargs = super().parse(entity, parser, ignore=("cmd", "name"))
+        return cls, parse_node(entity, parser, kwargs)
+
+    @property
+    def node_package(self) -> Any:
+        """The package."""
+        return self.__package
+
+    @property
+    def node_executable(self) -> Any:
+        """The executable."""
+        return self.__executable
+
+    @property
+    def node_name(self) -> str:
+        """The full name; raises `RuntimeError` before the node was visited."""
+        if self.__final_name is None:
+            raise RuntimeError("cannot access 'node_name' before executing action")
+        return self.__final_name
+
+    @property
+    def expanded_node_name(self) -> str:
+        """The name without the namespace."""
+        return self.__expanded_name
+
+    @property
+    def expanded_node_namespace(self) -> str:
+        """The namespace."""
+        return self.__expanded_namespace
+
+    @property
+    def expanded_parameter_arguments(self) -> list[ParameterArgument] | None:
+        """Each parameter argument, with whether it is a file."""
+        return self.__expanded_parameters
+
+    @property
+    def expanded_remapping_rules(self) -> list[tuple[str, str]] | None:
+        """The remap rules."""
+        return self.__expanded_remappings
+
+    @property
+    def parameters(self) -> list[Any]:
+        """The parameters as they were given, in normal form."""
+        return self.__parameters
+
+    def is_node_name_fully_specified(self) -> bool:
+        """Whether name and namespace are both known."""
+        return (
+            self.UNSPECIFIED_NODE_NAME not in self.node_name and self.UNSPECIFIED_NODE_NAMESPACE not in self.node_name
+        )
+
+    def execute(self, context: Any) -> list[Any] | None:
+        """Evaluate names, parameters and rules, then start."""
+        self._perform_substitutions(context)
+        words = {"name": f"__node:={self.__expanded_name}"} if self.__name is not None else {}
+        context.extend_locals({LOCALS: words})
+        entities = super().execute(context)
+        if self.is_node_name_fully_specified():
+            self._count_name(context)
+        return entities
+
+    def _count_name(self, context: Any) -> None:
+        add_node_name(context, self.node_name)
+        count = get_node_name_count(context, self.node_name)
+        if count > 1:
+            launch.logging.get_logger(self.process_description.final_name).warning(
+                f"there are now at least {count} nodes with the name {self.node_name} created within this launch context"
+            )
+
+    def _perform_substitutions(self, context: Any) -> None:
+        if self.__substitutions_performed:
+            return  # a second run of the same action fails in a moment, with its own message
+        self.__substitutions_performed = True
+        if self.__package is not None:
+            package = normalize_to_list_of_substitutions(self.__package)
+            self.__package_text = perform_substitutions(context, package)
+        self._expand_names(context)
+        self._expand_parameters(context)
+        self._expand_remappings(context)
+
+    def _expand_names(self, context: Any) -> None:
+        try:
+            if self.__name is not None:
+                self.__expanded_name = _performed(context, self.__name)
+                _validate_name(self.__expanded_name)
+            own = None if self.__namespace is None else _performed(context, self.__namespace)
+            base = context.launch_configurations.get("ros_namespace")
+            namespace = make_namespace_absolute(prefix_namespace(base, own))
+            if namespace is not None:
+                self.__expanded_namespace = namespace or "/"
+                self._add_words("-r", f"__ns:={self.__expanded_namespace}")
+                _validate_namespace(self.__expanded_namespace)
+        except Exception:
+            described = (
+                f"package={self.__package}, executable={self.__executable}, name={self.__name}, "
+                f"namespace={self.__namespace}"
+            )
+            self.__logger.error(f"Error while expanding or validating node name or namespace for '{described}':")
+            raise
+        self.__final_name = prefix_namespace(self.__expanded_namespace, self.__expanded_name)
+
+    def _expand_parameters(self, context: Any) -> None:
+        given = context.launch_configurations.get("global_params")
+        if given is None and not self.__parameters:
+            return
+        self.__expanded_parameters = [] if given is None else global_parameter_arguments(given)
+        target = self.node_name if self.is_node_name_fully_specified() else None
+        evaluated = evaluate_parameters(context, self.__parameters)
+        self.__expanded_parameters += own_parameter_arguments(context, evaluated, target, self.__logger)
+        for argument, is_file in self.__expanded_parameters:
+            self._add_words("--params-file" if is_file else "-p", argument)
+
+    def _expand_remappings(self, context: Any) -> None:
+        rules = list(context.launch_configurations.get("ros_remaps") or ())
+        rules += [(_performed(context, source), _performed(context, target)) for source, target in self.__remappings]
+        if rules:
+            self.__expanded_remappings = rules
+        for source, target in rules:
+            self._add_words("-r", f"{source}:={target}")
+
+    def _add_words(self, *words: str) -> None:
+        self.process_description.cmd.extend([TextSubstitution(text=each)] for each in words)
+
+    def in_process_program(self, command: list[str]) -> Callable[[], object] | None:
+        """The node's program, where it is Python and nothing is put before it."""
+        if self.shell or self.process_description.words_of_prefix:
+            return None
+        return program_of(self.__package_text, command[0])
+
+    def os_command(self, command: list[str]) -> list[str]:
+        """The command as the system can run it."""
+        return os_command(self.__package_text, command, len(self.process_description.words_of_prefix))
+
+
+def _performed(context: Any, text: Any) -> str:
+    return perform_substitutions(context, normalize_to_list_of_substitutions(text))
+
+
+def _validate_name(name: str) -> None:
+    from rclpy.validate_node_name import validate_node_name
+
+    validate_node_name(name)
+
+
+def _validate_namespace(namespace: str) -> None:
+    from rclpy.validate_namespace import validate_namespace
+
+    validate_namespace(namespace)

@@ -1,0 +1,86 @@
+"""Parameters and remap rules in XML and YAML."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch_ros.descriptions.parameter_file import ParameterFile
+from launch_ros.descriptions.parameter_value import ParameterValue
+
+TYPES: dict[str, Any] = {
+    "int": int,
+    "float": float,
+    "bool": bool,
+    "str": str,
+    "list_of_int": list[int],
+    "list_of_float": list[float],
+    "list_of_bool": list[bool],
+    "list_of_str": list[str],
+    "yaml": None,
+}
+
+
+def parse_nested_parameters(params: Any, parser: Any) -> list[Any]:
+    """Each `param` element as a dict, or as a `ParameterFile`."""
+    return [_parameter(each, parser) for each in params]
+
+
+def _parameter(entity: Any, parser: Any) -> Any:
+    source = entity.get_attr("from", optional=True)
+    name = entity.get_attr("name", optional=True)
+    if source is not None and name is not None:
+        raise RuntimeError("name and from attributes are mutually exclusive")
+    if source is not None:
+        substitute = entity.get_attr("allow_substs", data_type=bool, optional=True)
+        file = ParameterFile(
+            parser.parse_substitution(source),
+            allow_substs=False if substitute is None else parser.parse_if_substitutions(substitute),
+        )
+        entity.assert_entity_completely_parsed()
+        return file
+    if name is None:
+        raise RuntimeError("param Entity should have name or from attribute")
+    return _named(entity, parser)
+
+
+def _named(entity: Any, parser: Any) -> dict[Any, Any]:
+    name = tuple(parser.parse_substitution(entity.get_attr("name")))
+    kind_name = entity.get_attr("type", optional=True)
+    nested = entity.get_attr("param", data_type=list, optional=True)
+    value = entity.get_attr("value", data_type=_kind(kind_name), optional=True)
+    if value is not None and nested:
+        raise RuntimeError("nested parameters and value attributes are mutually exclusive")
+    if value is not None:
+        parsed = parser.parse_if_substitutions(value)
+        result = parsed if kind_name is None and not isinstance(value, str) else ParameterValue(parsed, value_type=_kind(kind_name))
+        entity.assert_entity_completely_parsed()
+        return {name: result}
+    if not nested:
+        raise RuntimeError("either a value attribute or nested params are needed")
+    found: dict[Any, Any] = {}
+    for each in nested:
+        found.update(_named(each, parser))
+    entity.assert_entity_completely_parsed()
+    return {name: found}
+
+
+def _kind(name: str | None) -> Any:
+    if name is None:
+        return None
+    if name not in TYPES:
+        raise ValueError(f"Got invalid type identifier '{name}'")
+    return TYPES[name]
+
+
+def parse_remappings(entity: Any, parser: Any) -> list[tuple[Any, Any]] | None:
+    """The `remap` elements."""
+    elements = entity.get_attr("remap", data_type=list, optional=True)
+    if elements is None:
+        return None
+    rules = [
+        (parser.parse_substitution(each.get_attr("from")), parser.parse_substitution(each.get_attr("to")))
+        for each in elements
+    ]
+    for each in elements:
+        each.assert_entity_completely_parsed()
+    return rules

@@ -1,0 +1,53 @@
+"""A namespace for all nodes that follow."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import launch.logging
+from launch.action import Action
+from launch.frontend import expose_action
+from launch.substitution import Substitution
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch_ros.utilities import make_namespace_absolute, prefix_namespace
+
+
+@expose_action("push_ros_namespace")
+@expose_action("push-ros-namespace")
+class PushROSNamespace(Action):
+    """Puts a namespace before those of all nodes that follow, to the end of the group."""
+
+    def __init__(self, namespace: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__namespace = normalize_to_list_of_substitutions(namespace)
+
+    @classmethod
+    def parse(cls, entity: Any, parser: Any) -> tuple[type[PushROSNamespace], dict[str, Any]]:
+        """From XML or YAML."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["namespace"] = parser.parse_substitution(entity.get_attr("namespace"))
+        return cls, kwargs
+
+    @property
+    def namespace(self) -> list[Substitution]:
+        """The namespace."""
+        return self.__namespace
+
+    def execute(self, context: Any) -> None:
+        """Push it; raises what `validate_namespace` raises."""
+        from rclpy.validate_namespace import validate_namespace
+
+        pushed = perform_substitutions(context, self.__namespace)
+        before = context.launch_configurations.get("ros_namespace")
+        namespace = make_namespace_absolute(prefix_namespace(before, pushed))
+        try:
+            validate_namespace(namespace)
+        except Exception:
+            launch.logging.get_logger(__name__).error(
+                f"The resulting namespace is invalid: [previous_namespace='{before}', pushed_namespace='{pushed}']"
+            )
+            raise
+        context.launch_configurations["ros_namespace"] = namespace
+
+
+PushRosNamespace = PushROSNamespace

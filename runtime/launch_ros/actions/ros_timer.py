@@ -1,0 +1,40 @@
+"""Actions after a time of the ROS clock."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.actions import TimerAction
+from launch.events import TimerEvent
+from launch.frontend import expose_action
+
+
+@expose_action("ros_timer")
+class ROSTimer(TimerAction):
+    """Visits actions after a period (s) of ROS time, which is `/clock` where `SetUseSimTime` says so."""
+
+    def __init__(self, *, period: Any, actions: Any, **kwargs: Any) -> None:
+        super().__init__(period=period, actions=actions, **kwargs)
+        self.__timer: Any = None
+
+    def _wait(self, context: Any, period: float) -> None:
+        from launch_ros.ros_adapters import get_ros_node
+
+        node = get_ros_node(context)
+        loop = context.asyncio_loop
+        event = TimerEvent(timer_action=self)
+
+        def fired() -> None:
+            self.__timer.cancel()
+            loop.call_soon_threadsafe(context.emit_event_sync, event)
+
+        self.__timer = node.create_timer(period, fired, clock=node.get_clock())
+
+    def cancel(self) -> None:
+        """Visit no actions any more."""
+        if self.__timer is not None:
+            self.__timer.cancel()
+        super().cancel()
+
+
+RosTimer = ROSTimer

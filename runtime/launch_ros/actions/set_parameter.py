@@ -1,0 +1,75 @@
+"""Parameters for all nodes that follow."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.action import Action
+from launch.frontend import expose_action
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch_ros.utilities import evaluate_parameter_dict, normalize_parameter_dict
+
+KEY = "global_params"
+
+
+@expose_action("set_parameter")
+class SetParameter(Action):
+    """Sets a parameter of all nodes that follow."""
+
+    def __init__(self, name: Any, value: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__param_dict = normalize_parameter_dict({_key(name): value})
+
+    @classmethod
+    def parse(cls, entity: Any, parser: Any) -> tuple[type[SetParameter], dict[str, Any]]:
+        """From XML or YAML."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
+        kwargs["value"] = parser.parse_substitution(entity.get_attr("value"))
+        return cls, kwargs
+
+    @property
+    def name(self) -> Any:
+        """The parameter's name."""
+        return next(iter(self.__param_dict))
+
+    @property
+    def value(self) -> Any:
+        """The parameter's value."""
+        return next(iter(self.__param_dict.values()))
+
+    def execute(self, context: Any) -> None:
+        """Set it."""
+        evaluated = evaluate_parameter_dict(context, self.__param_dict)
+        context.launch_configurations.setdefault(KEY, [])
+        context.launch_configurations[KEY].extend(evaluated.items())
+
+
+@expose_action("set_parameters_from_file")
+class SetParametersFromFile(Action):
+    """Gives a parameter file to all nodes that follow."""
+
+    def __init__(self, filename: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__file = normalize_to_list_of_substitutions(filename)
+
+    @classmethod
+    def parse(cls, entity: Any, parser: Any) -> tuple[type[SetParametersFromFile], dict[str, Any]]:
+        """From XML or YAML."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["filename"] = parser.parse_substitution(entity.get_attr("filename"))
+        return cls, kwargs
+
+    @property
+    def filename(self) -> Any:
+        """Where it is."""
+        return self.__file
+
+    def execute(self, context: Any) -> None:
+        """Give it."""
+        context.launch_configurations.setdefault(KEY, [])
+        context.launch_configurations[KEY].append(perform_substitutions(context, self.__file))
+
+
+def _key(name: Any) -> Any:
+    return tuple(name) if isinstance(name, list) else name

@@ -1,0 +1,43 @@
+"""Remap rules for all nodes that follow."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.action import Action
+from launch.frontend import expose_action
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+@expose_action("set_remap")
+class SetRemap(Action):
+    """Gives a remap rule to all nodes that follow."""
+
+    def __init__(self, src: Any, dst: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__source = normalize_to_list_of_substitutions(src)
+        self.__target = normalize_to_list_of_substitutions(dst)
+
+    @classmethod
+    def parse(cls, entity: Any, parser: Any) -> tuple[type[SetRemap], dict[str, Any]]:
+        """From XML or YAML."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["src"] = parser.parse_substitution(entity.get_attr("from"))
+        kwargs["dst"] = parser.parse_substitution(entity.get_attr("to"))
+        return cls, kwargs
+
+    @property
+    def src(self) -> Any:
+        """The name that the node uses."""
+        return self.__source
+
+    @property
+    def dst(self) -> Any:
+        """The name that it becomes."""
+        return self.__target
+
+    def execute(self, context: Any) -> None:
+        """Give it."""
+        rule = (perform_substitutions(context, self.__source), perform_substitutions(context, self.__target))
+        context.launch_configurations.setdefault("ros_remaps", [])
+        context.launch_configurations["ros_remaps"].append(rule)

@@ -1,0 +1,37 @@
+"""Where nodes log."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import launch.logging
+from launch.action import Action
+from launch.frontend import expose_action
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+@expose_action("set_ros_log_dir")
+class SetROSLogDir(Action):
+    """Lets nodes that follow log to another folder; a relative one is below this run's."""
+
+    def __init__(self, new_log_dir: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__log_dir = normalize_to_list_of_substitutions(new_log_dir)
+
+    @classmethod
+    def parse(cls, entity: Any, parser: Any) -> tuple[type[SetROSLogDir], dict[str, Any]]:
+        """From XML or YAML."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["new_log_dir"] = parser.parse_substitution(entity.get_attr("new_log_dir"))
+        return cls, kwargs
+
+    @property
+    def log_dir(self) -> Any:
+        """The folder."""
+        return self.__log_dir
+
+    def execute(self, context: Any) -> None:
+        """Set it."""
+        before = launch.logging.launch_config.log_dir
+        context.environment["ROS_LOG_DIR"] = os.path.join(before, perform_substitutions(context, self.__log_dir))

@@ -1,0 +1,38 @@
+"""The launch's own clock."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.action import Action
+from launch.frontend import expose_action
+from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
+
+
+@expose_action("set_use_sim_time")
+class SetUseSimTime(Action):
+    """Lets the launch's own node follow `/clock`, as `ROSTimer` needs it; nodes that are started do not."""
+
+    def __init__(self, value: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__value = normalize_typed_substitution(value, bool)
+
+    @classmethod
+    def parse(cls, entity: Any, parser: Any) -> tuple[type[SetUseSimTime], dict[str, Any]]:
+        """From XML or YAML."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["value"] = parser.parse_substitution(entity.get_attr("value"))
+        return cls, kwargs
+
+    @property
+    def value(self) -> Any:
+        """Whether it does."""
+        return self.__value
+
+    def execute(self, context: Any) -> None:
+        """Set it."""
+        from launch_ros.ros_adapters import get_ros_node
+        from rclpy.parameter import Parameter
+
+        wanted = perform_typed_substitution(context, self.__value, bool)
+        get_ros_node(context).set_parameters([Parameter("use_sim_time", value=wanted)])

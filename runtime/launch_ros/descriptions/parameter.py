@@ -1,0 +1,40 @@
+"""A parameter with its value."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch_ros.descriptions.parameter_value import ParameterValue
+
+
+class Parameter:
+    """A parameter; it travels as `-p name:=value`."""
+
+    def __init__(self, name: Any, value: Any, *, value_type: Any = None) -> None:
+        self.__name = normalize_to_list_of_substitutions(name)
+        self.__value = ParameterValue(value, value_type=value_type)
+        self.__evaluated_name: str | None = None
+
+    @property
+    def name(self) -> Any:
+        """The name: evaluated once the launch runs."""
+        return self.__name if self.__evaluated_name is None else self.__evaluated_name
+
+    @property
+    def value(self) -> Any:
+        """The value: evaluated once the launch runs."""
+        return self.__value.value
+
+    @property
+    def value_type(self) -> Any:
+        """The type."""
+        return self.__value.value_type
+
+    def __str__(self) -> str:
+        return f"launch_ros.description.Parameter(name={self.name}, value={self.value}, value_type={self.value_type})"
+
+    def evaluate(self, context: Any) -> tuple[str, Any]:
+        """Name and value."""
+        self.__evaluated_name = perform_substitutions(context, self.__name)
+        return self.__evaluated_name, self.__value.evaluate(context)

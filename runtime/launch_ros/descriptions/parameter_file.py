@@ -1,0 +1,65 @@
+"""A parameter file."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
+
+PREFIX = "launch_params_"
+
+
+class ParameterFile:
+    """A parameter file; its own text may have substitutions where that is allowed."""
+
+    def __init__(self, param_file: Any, *, allow_substs: Any = False) -> None:
+        self.__param_file = normalize_to_list_of_substitutions(param_file)
+        self.__allow_substs = normalize_typed_substitution(allow_substs, data_type=bool)
+        self.__evaluated: Path | None = None
+
+    @property
+    def param_file(self) -> Any:
+        """Where it is: a path once the launch runs."""
+        return self.__param_file if self.__evaluated is None else self.__evaluated
+
+    @property
+    def allow_substs(self) -> Any:
+        """Whether substitutions in its text are evaluated."""
+        return self.__allow_substs
+
+    def __str__(self) -> str:
+        return f"launch_ros.description.ParameterFile(param_file={self.param_file}, allow_substs={self.allow_substs})"
+
+    def evaluate(self, context: Any) -> Path:
+        """The path; of a file with substitutions, that of a copy in which they are evaluated."""
+        path = Path(perform_substitutions(context, self.__param_file))
+        self.__allow_substs = perform_typed_substitution(context, self.__allow_substs, data_type=bool)
+        self.__evaluated = self._substituted(context, path) if self.__allow_substs else path
+        return self.__evaluated
+
+    def cleanup(self) -> None:
+        """Delete the copy, if one was made."""
+        if self.__allow_substs is True and self.__evaluated is not None:
+            self.__evaluated.unlink(missing_ok=True)
+
+    def _substituted(self, context: Any, path: Path) -> Path:
+        import yaml
+
+        from launch.frontend.parse_substitution import parse_substitution
+        from launch.substitutions import SubstitutionFailure
+
+        if not path.is_file():
+            return path
+        text = perform_substitutions(context, parse_substitution(path.read_text(encoding="utf-8")))
+        try:
+            yaml.safe_load(text)
+        except yaml.YAMLError as error:
+            raise SubstitutionFailure("The substituted parameter file is not a valid yaml file") from error
+        with tempfile.NamedTemporaryFile(
+            mode="w", prefix=PREFIX, suffix=path.name, delete=False, encoding="utf-8"
+        ) as copy:
+            copy.write(text)
+        return Path(copy.name)

@@ -1,0 +1,34 @@
+"""A value with a type."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
+
+
+class ParameterValue:
+    """A value of a parameter, or substitutions whose text becomes one of the type; None: by YAML's rules."""
+
+    def __init__(self, value: Any, *, value_type: Any = None) -> None:
+        self.__value = normalize_typed_substitution(value, value_type)
+        self.__value_type = value_type
+        self.__evaluated: Any = None
+
+    @property
+    def value(self) -> Any:
+        """The value: evaluated once the launch runs."""
+        return self.__value if self.__evaluated is None else self.__evaluated
+
+    @property
+    def value_type(self) -> Any:
+        """The type."""
+        return self.__value_type
+
+    def __str__(self) -> str:
+        return f"launch_ros.description.ParameterValue(value={self.value}, value_type={self.value_type})"
+
+    def evaluate(self, context: Any) -> Any:
+        """The value; raises `ValueError` for a text that is none of the type."""
+        self.__evaluated = perform_typed_substitution(context, self.__value, self.__value_type)
+        return self.__evaluated

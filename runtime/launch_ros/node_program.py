@@ -1,0 +1,81 @@
+"""What a node's executable is: a Python program that runs in this process, or a command of the system."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+from ament_index_python.packages import PackageNotFoundError, get_package_prefix
+from bot_console.runtime.importer import node_modules
+from bot_console.runtime.process import entry_point_program, file_program
+from bot_console.runtime.workspace.discover import workspace
+from bot_console.runtime.workspace.executables import Executable, executables
+
+Program = Callable[[], object]
+
+
+def program_of(package: str | None, path: str) -> Program | None:
+    """The program behind an executable's path; None where it is not Python."""
+    executable = _known(package, path)
+    if executable is not None and executable.entry_point is not None:
+        entry = executable.entry_point
+        return entry_point_program(f"{entry.module}:{entry.function}", node_modules(_source_folders(executable)))
+    if not _is_python(path):
+        return None
+    folders = [os.path.dirname(os.path.abspath(path)), *_prefix_folders(package)]
+    return file_program(path, node_modules(folders))
+
+
+def os_command(package: str | None, command: list[str], at: int) -> list[str]:
+    """A command whose word `at` is the executable, as the system can run it, with the embedded runtime where it is Python."""
+    executable = _known(package, command[at])
+    if executable is not None and executable.entry_point is not None:
+        runner = [sys.executable, "-m", "bot_console.runtime.run", executable.package, executable.name]
+    elif _is_python(command[at]):
+        runner = [sys.executable, "-m", "bot_console.runtime.run", command[at]]
+    else:
+        return command
+    return [*command[:at], *runner, *command[at + 1 :]]
+
+
+def _known(package: str | None, path: str) -> Executable | None:
+    if package is None:
+        return None
+    try:
+        return executables(package).get(os.path.basename(path))
+    except (PackageNotFoundError, ValueError):
+        return None
+
+
+def _source_folders(executable: Executable) -> list[str]:
+    """Folders from which the modules of a source package are imported."""
+    package = workspace().packages.get(executable.package)
+    if package is None:
+        return []
+    return list(dict.fromkeys(str(path.parent) for path in package.modules.values()))
+
+
+def _prefix_folders(package: str | None) -> list[str]:
+    """Folders from which the modules of an installed package are imported."""
+    if package is None:
+        return []
+    try:
+        prefix = get_package_prefix(package)
+    except (PackageNotFoundError, ValueError):
+        return []
+    inside = prefix.rstrip(os.sep) + os.sep
+    found = [each for each in sys.path if each.startswith(inside)]
+    for pattern in ("lib/python*/site-packages", "local/lib/python*/dist-packages"):
+        found += [str(each) for each in sorted(Path(prefix).glob(pattern))]
+    return list(dict.fromkeys(found))
+
+
+def _is_python(path: str) -> bool:
+    try:
+        with open(path, "rb") as file:
+            first = file.readline(200)
+    except OSError:
+        return False
+    return path.endswith(".py") or (first.startswith(b"#!") and b"python" in first)

@@ -1,0 +1,63 @@
+"""Parameters of a node as words of its command line."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from launch_ros.descriptions.parameter_file import PREFIX
+
+ParameterArgument = tuple[str, bool]
+"""A file's path and True, or `name:=value` and False."""
+
+
+def global_parameter_arguments(global_params: Iterable[Any]) -> list[ParameterArgument]:
+    """What `SetParameter` and `SetParametersFromFile` have set; raises `AssertionError` for a missing file."""
+    found: list[ParameterArgument] = []
+    for each in global_params:
+        if isinstance(each, tuple):
+            name, value = each
+            found.append((f"{name}:={value}", False))
+        else:
+            path = os.path.abspath(each)
+            if not os.path.isfile(path):
+                raise AssertionError
+            found.append((path, True))
+    return found
+
+
+def own_parameter_arguments(
+    context: Any, parameters: Sequence[Any], node_name: str | None, logger: Any
+) -> list[ParameterArgument]:
+    """A node's own parameters; a dict becomes a file for the node's full name, or for any node where that is None."""
+    found: list[ParameterArgument] = []
+    for each in parameters:
+        if isinstance(each, Mapping):
+            found.append((write_parameters(each, node_name), True))
+        elif isinstance(each, Path):
+            if each.is_file():
+                found.append((str(each), True))
+            else:
+                logger.warning(f"Parameter file path is not a file: {each}")
+        else:
+            found.append((_rule(*each.evaluate(context)), False))
+    return found
+
+
+def _rule(name: str, value: Any) -> str:
+    import yaml
+
+    return f"{name}:={yaml.dump(value)}"
+
+
+def write_parameters(parameters: Mapping[str, Any], node_name: str | None) -> str:
+    """A new parameter file; its path. Lists carry a tag that parameter parsers ignore, as upstream writes them."""
+    import yaml
+
+    content = {node_name or "/**": {"ros__parameters": dict(parameters)}}
+    with tempfile.NamedTemporaryFile(mode="w", prefix=PREFIX, delete=False, encoding="utf-8") as file:
+        yaml.dump(content, file, default_flow_style=False)
+    return file.name

@@ -1,0 +1,14 @@
+"""Types of what a node's `parameters` may be."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Union
+
+from launch.some_substitutions_type import SomeSubstitutionsType
+from launch_ros.parameter_descriptions import Parameter, ParameterFile
+
+SomeParameterFile = Union[SomeSubstitutionsType, Path]
+SomeParametersDict = Mapping[SomeSubstitutionsType, Any]
+SomeParameters = Sequence[Union[SomeParameterFile, Parameter, ParameterFile, SomeParametersDict]]

@@ -1,0 +1,79 @@
+"""The launch's own node, for actions that speak ROS."""
+
+from __future__ import annotations
+
+import os
+import threading
+from typing import Any
+
+from launch.event_handlers import OnShutdown
+
+KEY = "ros_adapter"
+
+
+class ROSAdapter:
+    """A node in a context of its own, spun by a thread of its own while the launch runs."""
+
+    def __init__(self, *, argv: list[str] | None = None) -> None:
+        import rclpy
+        from rclpy.executors import SingleThreadedExecutor
+
+        self._context = rclpy.Context()
+        rclpy.init(args=argv or [], context=self._context)
+        self._node = rclpy.create_node(f"launch_ros_{os.getpid()}", context=self._context)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self._node)
+        self._running = True
+        self._thread = threading.Thread(target=self._spin, name="launch_ros", daemon=True)
+        self._thread.start()
+
+    def _spin(self) -> None:
+        from rclpy.executors import ExternalShutdownException
+
+        try:
+            while self._running:
+                self._executor.spin_once(timeout_sec=1.0)
+        except (ExternalShutdownException, KeyboardInterrupt):
+            return
+
+    def shutdown(self) -> None:
+        """Leave the graph."""
+        import rclpy
+
+        if not self._running:
+            return
+        self._running = False
+        self._executor.wake()
+        self._thread.join(2.0)
+        self._node.destroy_node()
+        rclpy.try_shutdown(context=self._context)
+
+    @property
+    def ros_node(self) -> Any:
+        """The node."""
+        return self._node
+
+    @property
+    def ros_context(self) -> Any:
+        """Its context."""
+        return self._context
+
+    @property
+    def ros_executor(self) -> Any:
+        """Its executor."""
+        return self._executor
+
+
+def get_ros_adapter(context: Any) -> ROSAdapter:
+    """The adapter of a launch, made when it is first asked for."""
+    found = context.get_locals_as_dict().get(KEY)
+    if found is None:
+        found = ROSAdapter(argv=context.argv)
+        context.extend_globals({KEY: found})
+        context.register_event_handler(OnShutdown(on_shutdown=lambda event, context: found.shutdown()))
+    return found
+
+
+def get_ros_node(context: Any) -> Any:
+    """The node of a launch."""
+    return get_ros_adapter(context).ros_node

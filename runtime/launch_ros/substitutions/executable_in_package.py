@@ -1,0 +1,65 @@
+"""Where an executable of a package is."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from typing import Any
+
+from ament_index_python.packages import get_package_prefix
+from bot_console.runtime.workspace.executables import executables
+from launch.frontend import expose_substitution
+from launch.substitution import Substitution
+from launch.substitutions import SubstitutionFailure
+from launch.substitutions.joined import described
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+@expose_substitution("exec-in-pkg")
+class ExecutableInPackage(Substitution):
+    """The path of an executable of a package; of one that was never built, where its build would put it."""
+
+    def __init__(self, executable: Any, package: Any) -> None:
+        super().__init__()
+        self.__executable = normalize_to_list_of_substitutions(executable)
+        self.__package = normalize_to_list_of_substitutions(package)
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type[ExecutableInPackage], dict[str, Any]]:
+        """From `$(exec-in-pkg executable package)`."""
+        if len(data) != 2:
+            raise AttributeError("exec-in-pkg substitution expects 2 arguments")
+        return cls, {"executable": data[0], "package": data[1]}
+
+    @property
+    def executable(self) -> list[Substitution]:
+        """The executable's name."""
+        return self.__executable
+
+    @property
+    def package(self) -> list[Substitution]:
+        """The package's name."""
+        return self.__package
+
+    def describe(self) -> str:
+        """As `ExecInPkg(pkg='p', exec='e')`."""
+        return f"ExecInPkg(pkg={described(self.__package)}, exec={described(self.__executable)})"
+
+    def perform(self, context: Any) -> str:
+        """The path; raises `PackageNotFoundError`, or `SubstitutionFailure` for a package without the executable."""
+        executable = perform_substitutions(context, self.__executable)
+        package = perform_substitutions(context, self.__package)
+        prefix = get_package_prefix(package)
+        libexec = os.path.join(prefix, "lib", package)
+        found = shutil.which(executable, path=libexec) if os.path.isdir(libexec) else None
+        if found is not None:
+            return found
+        known = executables(package)
+        if executable in known:
+            path = known[executable].path
+            return os.path.join(libexec, executable) if path is None else str(path)
+        if not os.path.isdir(libexec) and not known:
+            raise SubstitutionFailure(
+                f"package '{package}' found at '{prefix}', but libexec directory '{libexec}' does not exist"
+            )
+        raise SubstitutionFailure(f"executable '{executable}' not found on the libexec directory '{libexec}' ")

@@ -1,0 +1,67 @@
+"""Where a package is."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from ament_index_python.packages import get_package_prefix, get_package_share_directory
+from launch.frontend import expose_substitution
+from launch.substitution import Substitution
+from launch.substitutions import PathJoinSubstitution
+from launch.substitutions.joined import described
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+class FindPackage(Substitution):
+    """A folder of a package; `/` goes on below it."""
+
+    def __init__(self, package: Any) -> None:
+        super().__init__()
+        self.__package = normalize_to_list_of_substitutions(package)
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type[FindPackage], dict[str, Any]]:
+        """From `$(find-pkg-share name)`."""
+        if len(data) != 1:
+            raise AttributeError("find package substitutions expect 1 argument")
+        return cls, {"package": data[0]}
+
+    @property
+    def package(self) -> list[Substitution]:
+        """The package's name."""
+        return self.__package
+
+    def __truediv__(self, additional_path: Any) -> PathJoinSubstitution:
+        """A path below."""
+        return PathJoinSubstitution([self, additional_path])
+
+    def describe(self) -> str:
+        """As `FindPackageShare(pkg='p')`."""
+        return f"{type(self).__name__}(pkg={described(self.__package)})"
+
+    def find(self, package_name: str) -> str:
+        """The folder; raises `PackageNotFoundError`."""
+        raise NotImplementedError
+
+    def perform(self, context: Any) -> str:
+        """The folder."""
+        return str(Path(self.find(perform_substitutions(context, self.__package))))
+
+
+@expose_substitution("find-pkg-prefix")
+class FindPackagePrefix(FindPackage):
+    """The prefix of a package."""
+
+    def find(self, package_name: str) -> str:
+        """The prefix."""
+        return get_package_prefix(package_name)
+
+
+@expose_substitution("find-pkg-share")
+class FindPackageShare(FindPackage):
+    """The share folder of a package."""
+
+    def find(self, package_name: str) -> str:
+        """The share folder."""
+        return get_package_share_directory(package_name)

@@ -1,0 +1,47 @@
+"""Parameters that the launch file has set for all nodes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.frontend import expose_substitution
+from launch.substitution import Substitution
+from launch.substitutions import SubstitutionFailure
+from launch.substitutions.joined import described
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+@expose_substitution("param")
+class Parameter(Substitution):
+    """The value that `SetParameter` has set, or a default."""
+
+    def __init__(self, name: Any, *, default: Any = None) -> None:
+        super().__init__()
+        self.__name = normalize_to_list_of_substitutions(name)
+        self.__default = None if default is None else normalize_to_list_of_substitutions(default)
+
+    @classmethod
+    def parse(cls, data: Any) -> tuple[type[Parameter], dict[str, Any]]:
+        """From `$(param name)`."""
+        if len(data) != 1:
+            raise TypeError("param substitution expects 1 argument")
+        return cls, {"name": data[0]}
+
+    @property
+    def name(self) -> list[Substitution]:
+        """The parameter's name."""
+        return self.__name
+
+    def describe(self) -> str:
+        """As `Parameter('x')`."""
+        return f"Parameter({described(self.__name)})"
+
+    def perform(self, context: Any) -> str:
+        """The value; raises `SubstitutionFailure` where nobody has set it."""
+        name = perform_substitutions(context, self.__name)
+        for each in context.launch_configurations.get("global_params", ()):
+            if isinstance(each, tuple) and each[0] == name:
+                return str(each[1])
+        if self.__default is None:
+            raise SubstitutionFailure(f"parameter '{name}' not found")
+        return perform_substitutions(context, self.__default)

@@ -1,0 +1,84 @@
+"""The `parameters` of a node as they are when it starts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from launch.utilities import ensure_argument_type, perform_substitutions
+from launch.utilities.type_utils import is_normalized_substitution
+from launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
+
+SCALARS = (float, int, str, bool, bytes)
+ITEM_SCALARS = (bool, int, float, str)
+
+
+def evaluate_parameters(context: Any, parameters: Sequence[Any]) -> tuple[Any, ...]:
+    """Each entry as a dict of plain values, a path, or a `Parameter`; raises `TypeError` for values of no ROS type."""
+    found: list[Any] = []
+    for entry in parameters:
+        if isinstance(entry, ParameterFile):
+            found.append(entry.evaluate(context))
+        elif isinstance(entry, Parameter):
+            entry.evaluate(context)
+            found.append(entry)
+        else:
+            found.append(evaluate_parameter_dict(context, entry))
+    return tuple(found)
+
+
+def evaluate_parameter_dict(context: Any, parameters: Mapping[Any, Any]) -> dict[str, Any]:
+    """Names and values."""
+    found: dict[str, Any] = {}
+    for key, value in parameters.items():
+        name = perform_substitutions(context, key)
+        found[name] = check_value(name, _evaluate(context, name, value))
+    return found
+
+
+def _evaluate(context: Any, name: str, value: Any) -> Any:
+    if isinstance(value, ParameterValue):
+        return value.evaluate(context)
+    if is_normalized_substitution(value):
+        return yaml_value(name, perform_substitutions(context, value))
+    if isinstance(value, tuple) and any(isinstance(each, list) for each in value):
+        return [
+            each if isinstance(each, str) else yaml_value(name, perform_substitutions(context, each)) for each in value
+        ]
+    if isinstance(value, tuple) and not value:
+        ensure_argument_type(value, SCALARS, "value")
+    return value
+
+
+def yaml_value(name: str, text: str) -> Any:
+    """What YAML makes of a text; an empty one stays."""
+    import yaml
+
+    if not text:
+        return text
+    try:
+        return yaml.safe_load(text)
+    except yaml.YAMLError as error:
+        raise ValueError(
+            f"Unable to parse the value of parameter {name} as yaml. If the parameter is meant to be a string, try "
+            "wrapping it in launch_ros.parameter_descriptions.ParameterValue(value, value_type=str)"
+        ) from error
+
+
+def check_value(name: str, value: Any) -> Any:
+    """The value, lists as tuples; raises `TypeError` where no ROS parameter can have it."""
+    if isinstance(value, SCALARS):
+        return value
+    if isinstance(value, Sequence):
+        kinds = {type(each) for each in value}
+        if len(kinds) == 1 and kinds <= {*ITEM_SCALARS}:
+            return tuple(value)
+        raise TypeError(
+            "Expected a non-empty sequence, with items of uniform type. Allowed sequence item types are "
+            f'bool, int, float, str. Got inconsistent input for "{name}"'
+        )
+    raise TypeError(
+        "Allowed value types are bytes, bool, int, float, str, Sequence[bool], Sequence[int], Sequence[float], "
+        f'Sequence[str]. Got {type(value)} for "{name}". If the parameter is meant to be a string, try wrapping it in '
+        "launch_ros.parameter_descriptions.ParameterValue(value, value_type=str)"
+    )

@@ -1,0 +1,31 @@
+"""Namespaces."""
+
+from __future__ import annotations
+
+
+def is_root_namespace(ns: str | None) -> bool:
+    """Whether it is `/`."""
+    return ns == "/"
+
+
+def is_namespace_absolute(ns: str | None) -> bool:
+    """Whether it begins with a slash."""
+    return ns is not None and ns.startswith("/")
+
+
+def make_namespace_absolute(ns: str | None) -> str | None:
+    """The same with a slash before it."""
+    return ns if ns is None or ns.startswith("/") else f"/{ns}"
+
+
+def prefix_namespace(base_ns: str | None, ns: str | None) -> str | None:
+    """A namespace or name below another one; an absolute one stays what it is."""
+    if base_ns is None and ns is None:
+        return None
+    if base_ns is None or is_namespace_absolute(ns):
+        combined = ns or ""
+    elif not ns:
+        combined = base_ns
+    else:
+        combined = f"{base_ns.rstrip('/')}/{ns}"
+    return combined if is_root_namespace(combined) else combined.rstrip("/")

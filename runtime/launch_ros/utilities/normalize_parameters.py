@@ -1,0 +1,79 @@
+"""The `parameters` of a node as it is kept until the launch runs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from launch.substitution import Substitution
+from launch.substitutions import TextSubstitution
+from launch.utilities import ensure_argument_type, normalize_to_list_of_substitutions
+from launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
+
+Key = tuple[Substitution, ...]
+SCALARS = (bool, int, float, str, bytes)
+
+
+def normalize_parameters(parameters: Any) -> list[Any]:
+    """Each entry as a dict with normal keys and values, a `ParameterFile`, or a `Parameter`; raises `TypeError`."""
+    if isinstance(parameters, str) or not isinstance(parameters, Sequence):
+        raise TypeError("Expecting list of parameters, got {parameters}")
+    return [_entry(each) for each in parameters]
+
+
+def _entry(entry: Any) -> Any:
+    if isinstance(entry, Mapping):
+        return normalize_parameter_dict(entry)
+    if isinstance(entry, (Parameter, ParameterFile)):
+        return entry
+    ensure_argument_type(entry, (str, Path, Substitution, list, tuple), "parameters", "normalize_parameters")
+    return ParameterFile(entry)
+
+
+def normalize_parameter_dict(parameters: Mapping[Any, Any], *, _prefix: Any = None) -> dict[Key, Any]:
+    """Names as substitutions, those of nested dicts with dots between; values as `normalize_value` gives them."""
+    if not isinstance(parameters, Mapping):
+        raise TypeError("expected dict")
+    found: dict[Key, Any] = {}
+    for name, value in parameters.items():
+        key = _key(name, _prefix)
+        if isinstance(value, Mapping):
+            found.update(normalize_parameter_dict(value, _prefix=key))
+        else:
+            found[key] = normalize_value(value)
+    return found
+
+
+def _key(name: Any, prefix: Key | None) -> Key:
+    if not isinstance(name, (str, Substitution, tuple, list)):
+        raise TypeError(f"Expecting type 'str' or 'Substitution' for parameter name, got {name}")
+    pieces = normalize_to_list_of_substitutions(name)
+    return tuple(pieces) if prefix is None else (*prefix, TextSubstitution(text="."), *pieces)
+
+
+def normalize_value(value: Any) -> Any:
+    """A scalar or tuple of scalars as it is; substitutions as a list; a tuple of lists of them; a `ParameterValue`."""
+    if isinstance(value, (ParameterValue, *SCALARS)):
+        return value
+    if isinstance(value, Substitution):
+        return [value]
+    if isinstance(value, Sequence):
+        return _normalize_sequence(value)
+    raise TypeError(f"Unexpected type for parameter value {value!r}")
+
+
+def _normalize_sequence(values: Sequence[Any]) -> Any:
+    if values and any(isinstance(each, Substitution) for each in values):
+        return normalize_to_list_of_substitutions(values)
+    if any(isinstance(each, (list, tuple)) for each in values):
+        return tuple(each if isinstance(each, str) else normalize_to_list_of_substitutions(each) for each in values)
+    kinds = {type(each) for each in values}
+    if kinds == {int, float}:
+        return tuple(float(each) for each in values)
+    if len(kinds) > 1 or not kinds <= {*SCALARS}:
+        raise TypeError(
+            "Expected a non-empty sequence, with items of uniform type. Allowed sequence item types are "
+            "bool, int, float, str."
+        )
+    return tuple(values)

@@ -1,0 +1,21 @@
+"""Which node names a launch has started, and how often."""
+
+from __future__ import annotations
+
+from typing import Any
+
+KEY = "unique_ros_node_names"
+
+
+def add_node_name(context: Any, node_name: str) -> None:
+    """Count a name."""
+    counts = context.get_locals_as_dict().get(KEY)
+    if counts is None:
+        counts = {}
+        context.extend_globals({KEY: counts})
+    counts[node_name] = counts.get(node_name, 0) + 1
+
+
+def get_node_name_count(context: Any, node_name: str) -> int:
+    """How often a name was counted."""
+    return context.get_locals_as_dict().get(KEY, {}).get(node_name, 0)
