@@ -45,6 +45,9 @@ def _run(words: list[str]) -> Result:
     name = next((word for word in words if not word.startswith("-")), "")
     command = load(name)
     if command is None:
+        names = _all_commands(parser)
+        for each in sorted(COMMANDS):
+            names.add_parser(each)
         parser.parse_args(words)
         parser.print_help()
         return 0
@@ -92,8 +95,12 @@ def _subparsers(
     )
 
 
+def _all_commands(parser: argparse.ArgumentParser) -> argparse._SubParsersAction[argparse.ArgumentParser]:
+    return _subparsers(parser, "ros2", {name: text for name, (_, text) in COMMANDS.items()})
+
+
 def _add(parser: argparse.ArgumentParser, command: Command) -> argparse.ArgumentParser:
-    commands = _subparsers(parser, "ros2", {name: text for name, (_, text) in COMMANDS.items()})
+    commands = _all_commands(parser)
     formatter = argparse.RawDescriptionHelpFormatter
     subparser = commands.add_parser(command.name, description=command.description, formatter_class=formatter)
     command.arguments(subparser)

@@ -9,8 +9,10 @@ from types import TracebackType
 from typing import Any, NamedTuple
 
 import rclpy
+from rclpy.clock import Clock, ClockType
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 
 HIDDEN = "_"
 
@@ -55,7 +57,7 @@ class DirectNode:
             self._name,
             enable_rosout=self._daemon,
             start_parameter_services=False,
-            parameter_overrides=[rclpy.parameter.Parameter("use_sim_time", value=True)] if self._sim_time else None,
+            parameter_overrides=[Parameter("use_sim_time", value=True)] if self._sim_time else None,
         )
         return self._node
 
@@ -83,7 +85,7 @@ def spin_until(node: Node, done: Callable[[], bool], timeout: float | None = Non
     """Serve the node until `done()`; whether it became true in time (s)."""
     executor = SingleThreadedExecutor()
     executor.add_node(node)
-    clock = rclpy.clock.Clock(clock_type=rclpy.clock.ClockType.STEADY_TIME)
+    clock = Clock(clock_type=ClockType.STEADY_TIME)
     start = clock.now().nanoseconds
     try:
         while not done():

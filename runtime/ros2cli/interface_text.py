@@ -46,12 +46,13 @@ def _lines(text: str, package: str, depth: int, all_comments: bool, comments: bo
     found: list[str] = []
     for line in text.splitlines():
         bare = line.split("#")[0].rstrip()
+        shown = line
         # Upstream does not take a `#` without any text for a comment.
         if not comments and line.strip() != "#":
             if not bare.strip():
                 continue
-            line = bare
-        found.append("\t" * depth + line + "\n" if line or depth == 0 else "\n")
+            shown = bare
+        found.append("\t" * depth + shown + "\n" if shown or depth == 0 else "\n")
         match = FIELD.match(bare.strip())
         if match and not CONSTANT.match(bare.strip()) and match["type"] not in PRIMITIVES:
             found += _nested(match["type"], package, depth, all_comments)

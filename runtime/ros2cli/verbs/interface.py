@@ -106,8 +106,11 @@ def _show_arguments(parser: argparse.ArgumentParser) -> None:
     comments.add_argument(
         "--no-comments", action="store_true", help="Show no comments or whitespace; show only the interface definition"
     )
-    parser.add_argument("type", help="Show an interface definition (e.g. 'example_interfaces/msg/String'). "
-                        "Passing '-' reads the argument from stdin (e.g. 'ros2 topic type /chatter | ros2 interface show -').")  # fmt: skip
+    parser.add_argument(
+        "type",
+        help="Show an interface definition (e.g. 'example_interfaces/msg/String'). Passing '-' reads the argument from "
+        "stdin (e.g. 'ros2 topic type /chatter | ros2 interface show -').",
+    )
 
 
 def _show(arguments: argparse.Namespace) -> Result:

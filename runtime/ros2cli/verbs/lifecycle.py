@@ -33,7 +33,10 @@ def _nodes_arguments(parser: argparse.ArgumentParser) -> None:
 def _nodes(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
         names = _managed(node, arguments.all)
-    print(len(names) if arguments.count_nodes else "\n".join(names))
+    if arguments.count_nodes:
+        print(len(names))
+    for name in () if arguments.count_nodes else names:
+        print(name)
     return None
 
 

@@ -4,77 +4,35 @@ from __future__ import annotations
 
 import argparse
 import getpass
+import os
 import re
 import subprocess
-from pathlib import Path
-from string import Template
+from xml.sax.saxutils import escape
 
 from ros2cli.command import Result
+from ros2cli.verbs import pkg_templates as texts
 
 NAME = re.compile(r"^(?!.*__)(?!.*_$)[a-z][a-z0-9_]*$")
-BUILD_TYPES = ("ament_cmake", "ament_python", "cmake")
-
-PACKAGE_XML = Template("""\
-<?xml version="1.0"?>
-<?xml-model href="http://download.ros.org/schema/package_format3.xsd" schematypens="http://www.w3.org/2001/XMLSchema"?>
-<package format="3">
-  <name>$name</name>
-  <version>0.0.0</version>
-  <description>$description</description>
-  <maintainer email="$email">$maintainer</maintainer>
-  <license>$license</license>
-
-$dependencies  <test_depend>ament_copyright</test_depend>
-  <test_depend>ament_flake8</test_depend>
-  <test_depend>ament_pep257</test_depend>
-  <test_depend>python3-pytest</test_depend>
-
-  <export>
-    <build_type>ament_python</build_type>
-  </export>
-</package>
-""")
-SETUP_PY = Template("""\
-from setuptools import find_packages, setup
-
-package_name = '$name'
-
-setup(
-    name=package_name,
-    version='0.0.0',
-    packages=find_packages(exclude=['test']),
-    data_files=[
-        ('share/ament_index/resource_index/packages',
-            ['resource/' + package_name]),
-        ('share/' + package_name, ['package.xml']),
-    ],
-    install_requires=['setuptools'],
-    zip_safe=True,
-    maintainer='$maintainer',
-    maintainer_email='$email',
-    description='$description',
-    license='$license',
-    tests_require=['pytest'],
-    entry_points={
-        'console_scripts': [$scripts
-        ],
-    },
+BUILD_TYPES = ("cmake", "ament_cmake", "ament_python")
+LICENSES = (
+    "Apache-2.0",
+    "BSL-1.0",
+    "BSD-2.0",
+    "BSD-2-Clause",
+    "BSD-3-Clause",
+    "GPL-3.0-only",
+    "LGPL-3.0-only",
+    "MIT",
+    "MIT-0",
 )
-""")
-SETUP_CFG = Template("""\
-[develop]
-script_dir=$$base/lib/$name
-[install]
-install_scripts=$$base/lib/$name
-""")
-NODE = Template("""\
-def main():
-    print('Hi from $name.')
+"""Names that ament knows."""
 
 
-if __name__ == '__main__':
-    main()
-""")
+def _user() -> str:
+    try:
+        return getpass.getuser()
+    except (KeyError, OSError):  # a container without a name for this user
+        return "user"
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
@@ -88,7 +46,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
     add("--build-type", default="ament_cmake", choices=BUILD_TYPES, help="The build type to process the package with")
     add("--dependencies", nargs="+", metavar="DEPENDENCIES", default=[], help="list of dependencies")
     add("--maintainer-email", help="email address of the maintainer of this package")
-    add("--maintainer-name", default=getpass.getuser(), help="name of the maintainer of this package")
+    add("--maintainer-name", default=_user(), help="name of the maintainer of this package")
     add("--node-name", help="name of the empty executable")
     add("--library-name", help="name of the empty library")
 
@@ -105,18 +63,18 @@ def create(arguments: argparse.Namespace) -> Result:
             f"A package of build type '{arguments.build_type}' has to be compiled, which this machine's ROS cannot do; "
             "add --build-type ament_python for a Python package"
         )
-    folder = Path(arguments.destination_directory) / name
-    if folder.exists():
-        return f"\nAborted!\nThe directory already exists: {folder.resolve()}\nEither remove the directory or choose a different destination directory or package name"
+    if name == "test":
+        return "Aborted since 'ament_python' packages can't be named 'test'. Please choose a different package name."
+    folder = os.path.join(arguments.destination_directory, name)
+    if os.path.exists(folder):
+        return (
+            f"\nAborted!\nThe directory already exists: {folder}\nEither remove the directory or choose a different "
+            "destination directory or package name"
+        )
     email = arguments.maintainer_email or _git_email() or f"{arguments.maintainer_name}@todo.todo"
-    _tell(arguments, folder, email)
-    for path, text in _files(arguments, email).items():
-        print(f"creating {Path('.') / folder / path}")
-        (folder / path).parent.mkdir(parents=True, exist_ok=True)
-        (folder / path).write_text(text, encoding="utf-8")
-    if arguments.license.startswith("TODO"):
-        print("\n[WARNING]: Unknown license 'TODO: License declaration'.  This has been set in the package.xml, but no "
-              "LICENSE file has been created.")  # fmt: skip
+    _tell(arguments, email)
+    _write(folder, arguments, email)
+    _tell_license(arguments.license)
     return None
 
 
@@ -128,10 +86,10 @@ def _git_email() -> str:
     return done.stdout.strip()
 
 
-def _tell(arguments: argparse.Namespace, folder: Path, email: str) -> None:
+def _tell(arguments: argparse.Namespace, email: str) -> None:
     print("going to create a new package")
     print(f"package name: {arguments.package_name}")
-    print(f"destination directory: {folder.parent.resolve()}")
+    print(f"destination directory: {os.path.abspath(arguments.destination_directory)}")
     print(f"package format: {arguments.package_format}")
     print("version: 0.0.0")
     print(f"description: {arguments.description}")
@@ -141,28 +99,69 @@ def _tell(arguments: argparse.Namespace, folder: Path, email: str) -> None:
     print(f"dependencies: {arguments.dependencies}")
     if arguments.node_name:
         print(f"node_name: {arguments.node_name}")
-    print(f"creating folder .{'/' + arguments.package_name if str(folder.parent) == '.' else ' ' + str(folder)}")
+    if arguments.library_name:
+        print(f"library_name: {arguments.library_name}")
 
 
-def _files(arguments: argparse.Namespace, email: str) -> dict[str, str]:
+def _write(folder: str, arguments: argparse.Namespace, email: str) -> None:
+    """Make the folders and files, and say so line by line."""
+    name, words = arguments.package_name, _words(arguments, email)
+    _folder(folder)
+    _file(folder, "package.xml", texts.PACKAGE_XML.substitute(words))
+    print("creating source folder")
+    source = _folder(folder, name)
+    _file(folder, "setup.py", texts.SETUP_PY.substitute(words))
+    _file(folder, "setup.cfg", texts.SETUP_CFG.substitute(words))
+    _file(_folder(folder, "resource"), name, "")
+    _file(source, "__init__.py", "")
+    tests = _folder(folder, "test")
+    for linter, argv in texts.LINTERS.items():
+        _file(tests, f"test_{linter}.py", texts.LINTER_TEST.substitute(linter=linter, argv=argv))
+    if arguments.node_name:
+        _file(source, f"{arguments.node_name}.py", texts.NODE.substitute(words))
+    if arguments.library_name:
+        _file(_folder(source, arguments.library_name), "__init__.py", "")
+
+
+def _folder(*path: str) -> str:
+    folder = os.path.join(*path)
+    print("creating folder", folder)
+    os.makedirs(folder, exist_ok=True)
+    return folder
+
+
+def _file(folder: str, name: str, text: str) -> None:
+    path = os.path.join(folder, name)
+    print("creating", path)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+def _words(arguments: argparse.Namespace, email: str) -> dict[str, str]:
+    """What the templates are filled with."""
     name, node = arguments.package_name, arguments.node_name
-    words = {
-        "name": name,
+    depends = "".join(f"  <depend>{each}</depend>\n" for each in arguments.dependencies)
+    free = {
         "description": arguments.description,
         "email": email,
         "maintainer": arguments.maintainer_name,
         "license": arguments.license,
-        "dependencies": "".join(f"  <depend>{each}</depend>\n" for each in arguments.dependencies)
-        + ("\n" if arguments.dependencies else ""),
+    }
+    return {
+        "name": name,
+        "format": str(arguments.package_format),
+        "dependencies": depends + ("\n" if depends else ""),
         "scripts": f"\n            '{node} = {name}.{node}:main'" if node else "",
+        **{key: escape(text) for key, text in free.items()},
+        **{f"python_{key}": repr(text) for key, text in free.items()},
     }
-    files = {
-        "package.xml": PACKAGE_XML.substitute(words),
-        "setup.py": SETUP_PY.substitute(words),
-        "setup.cfg": SETUP_CFG.substitute(words),
-        f"resource/{name}": "",
-        f"{name}/__init__.py": "",
-    }
-    if node:
-        files[f"{name}/{node}.py"] = NODE.substitute(words)
-    return files
+
+
+def _tell_license(license_name: str) -> None:
+    if license_name in LICENSES:
+        print(f"\n[WARNING]: No LICENSE file has been created: put the text of '{license_name}' there.")
+        return
+    print(
+        f"\n[WARNING]: Unknown license '{license_name}'.  This has been set in the package.xml, but no LICENSE file "
+        "has been created.\nIt is recommended to use one of the ament license identifiers:\n" + "\n".join(LICENSES)
+    )

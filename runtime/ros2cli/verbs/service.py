@@ -6,7 +6,8 @@ import argparse
 import sys
 from typing import Any
 
-import rclpy
+from rclpy.clock import Clock, ClockType
+from rclpy.duration import Duration
 from rclpy.node import Node
 from ros2cli.command import Command, Result, Verb
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, node_names, spin_until
@@ -141,7 +142,7 @@ def _requests(node: Node, kind: Any, values: dict[str, Any], arguments: argparse
     if not client.service_is_ready():
         print("waiting for service to become available...")
         spin_until(node, client.service_is_ready)
-    clock = rclpy.clock.Clock(clock_type=rclpy.clock.ClockType.STEADY_TIME)
+    clock = Clock(clock_type=ClockType.STEADY_TIME)
     while True:
         print(f"requester: making request: {request!r}\n")
         future = client.call_async(request)
@@ -149,7 +150,7 @@ def _requests(node: Node, kind: Any, values: dict[str, Any], arguments: argparse
         print(f"response:\n{future.result()!r}\n")
         if arguments.rate is None:
             return None
-        clock.sleep_for(rclpy.duration.Duration(seconds=1.0 / arguments.rate))
+        clock.sleep_for(Duration(seconds=1.0 / arguments.rate))
 
 
 COMMAND = Command(

@@ -8,7 +8,8 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-import rclpy
+from rclpy.clock import Clock, ClockType
+from rclpy.duration import Duration
 from rclpy.node import Node
 from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, spin_until
@@ -145,7 +146,7 @@ def _loop(node: Node, publisher: Any, messages: Iterator[_Filled], arguments: ar
     times = 1 if arguments.once else arguments.times
     following = next(messages, None)
     print("publisher: beginning loop")
-    clock = rclpy.clock.Clock(clock_type=rclpy.clock.ClockType.STEADY_TIME)
+    clock = Clock(clock_type=ClockType.STEADY_TIME)
     due = clock.now()
     count = 0
     while following is not None:
@@ -159,10 +160,10 @@ def _loop(node: Node, publisher: Any, messages: Iterator[_Filled], arguments: ar
         publisher.publish(message)
         if times and count >= times:
             break
-        due += rclpy.duration.Duration(seconds=1.0 / arguments.rate)
+        due += Duration(seconds=1.0 / arguments.rate)
         clock.sleep_until(due)
         following = next(messages, None)
-    clock.sleep_for(rclpy.duration.Duration(seconds=arguments.keep_alive))
+    clock.sleep_for(Duration(seconds=arguments.keep_alive))
 
 
 def _filled(kind: Any, values: Any) -> _Filled:

@@ -8,7 +8,7 @@ from collections import deque
 from collections.abc import Callable, Sequence
 from typing import Any
 
-import rclpy
+from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
 from ros2cli.command import Result
@@ -135,7 +135,7 @@ def rate(arguments: argparse.Namespace) -> Result:
     passes = message_filter(arguments.filter_expr)
     arguments.no_daemon = True
     with DirectNode(arguments) as node:
-        wall = rclpy.clock.Clock(clock_type=rclpy.clock.ClockType.SYSTEM_TIME)
+        wall = Clock(clock_type=ClockType.SYSTEM_TIME)
         clock = wall if arguments.wall_time else node.get_clock()
         measured = _Rate(arguments.window_size, lambda: clock.now().nanoseconds)
 
@@ -153,7 +153,7 @@ def bandwidth(arguments: argparse.Namespace) -> Result:
     sizes: deque[tuple[int, int]] = deque(maxlen=arguments.window_size)
     arguments.no_daemon = True
     with DirectNode(arguments) as node:
-        clock = rclpy.clock.Clock(clock_type=rclpy.clock.ClockType.STEADY_TIME)
+        clock = Clock(clock_type=ClockType.STEADY_TIME)
 
         def take(data: bytes) -> None:
             sizes.append((clock.now().nanoseconds, len(data)))
