@@ -1,0 +1,86 @@
+"""What counts as a message, service or action class, and the words for what does not."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from example_interfaces.action import Fibonacci
+from rclpy._rclpy_pybind11 import RMWError
+from rclpy.serialization import deserialize_message, serialize_message
+from rclpy.type_hash import TypeHash, type_hash_of
+from rclpy.type_support import check_is_valid_action_type, check_is_valid_msg_type, check_is_valid_srv_type
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+
+ROS1 = "This might be a ROS 1 message type but it should be a ROS 2 message type."
+
+
+def test_the_right_kinds_pass() -> None:
+    check_is_valid_msg_type(String)
+    check_is_valid_msg_type(Trigger.Request)
+    check_is_valid_srv_type(Trigger)
+    check_is_valid_srv_type(Fibonacci.Impl.SendGoalService)
+    check_is_valid_action_type(Fibonacci)
+
+
+@pytest.mark.parametrize(
+    ("check", "cls", "words"),
+    [
+        (
+            check_is_valid_msg_type,
+            Trigger,
+            "The message type provided is not valid ({}), this might be a service or action",
+        ),
+        (
+            check_is_valid_msg_type,
+            Fibonacci,
+            "The message type provided is not valid ({}), this might be a service or action",
+        ),
+        (
+            check_is_valid_srv_type,
+            String,
+            "The service type provided is not valid ({}), this might be a message or action",
+        ),
+        (
+            check_is_valid_srv_type,
+            Fibonacci,
+            "The service type provided is not valid ({}), this might be a message or action",
+        ),
+        (
+            check_is_valid_action_type,
+            String,
+            "The action type provided is not valid ({}), this might be a message or service",
+        ),
+    ],
+)
+def test_another_kind(check: Any, cls: Any, words: str) -> None:
+    with pytest.raises(RuntimeError) as caught:
+        check(cls)
+    assert str(caught.value) == words.format(cls)
+
+
+@pytest.mark.parametrize("thing", [int, "std_msgs/msg/String", None, String()])
+@pytest.mark.parametrize("check", [check_is_valid_msg_type, check_is_valid_srv_type])
+def test_no_interface_class_at_all(check: Any, thing: Any) -> None:
+    with pytest.raises(AttributeError, match=ROS1):
+        check(thing)
+
+
+def test_serialization() -> None:
+    data = serialize_message(String(data="hi"))
+    assert data == bytes.fromhex("0001 0000 0300 0000 6869 00")
+    assert deserialize_message(data, String) == String(data="hi")
+    with pytest.raises(RMWError, match="failed to deserialize ROS message: no CDR header"):
+        deserialize_message(b"", String)
+    with pytest.raises(AttributeError, match=ROS1):
+        serialize_message("hi")
+
+
+def test_type_hashes() -> None:
+    found = type_hash_of(String)
+    assert str(found) == "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
+    assert found == TypeHash(1, found.value) != TypeHash()
+    assert str(TypeHash()) == "INVALID"
+    with pytest.raises(AssertionError):
+        TypeHash(value="x")  # type: ignore[arg-type]
