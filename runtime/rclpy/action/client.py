@@ -1,0 +1,206 @@
+"""Action clients."""
+
+from __future__ import annotations
+
+import threading
+import uuid
+import weakref
+from collections.abc import Callable
+from typing import Any
+
+from action_msgs.srv import CancelGoal
+from bot_console.runtime.process import current
+from rclpy.action.client_goal_handle import ClientGoalHandle
+from rclpy.action.endpoints import ClientEndpoints, action_names
+from rclpy.action.entity import ActionEntity, call, take
+from rclpy.action.goal_state import TERMINAL
+from rclpy.action.pending_requests import PendingRequests
+from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
+from rclpy.task import Future
+from rclpy.waitable import NumberOfEntities
+from unique_identifier_msgs.msg import UUID
+
+NANO = 1_000_000_000
+POLL = NANO // 4
+
+
+class ActionClient(ActionEntity):
+    """Sends goals to an action server; raises `ValueError` for a name that is none."""
+
+    def __init__(
+        self,
+        node: Any,
+        action_type: Any,
+        action_name: str,
+        *,
+        callback_group: Any = None,
+        goal_service_qos_profile: QoSProfile = qos_profile_services_default,
+        result_service_qos_profile: QoSProfile = qos_profile_services_default,
+        cancel_service_qos_profile: QoSProfile = qos_profile_services_default,
+        feedback_sub_qos_profile: QoSProfile | None = None,
+        status_sub_qos_profile: QoSProfile = qos_profile_action_status_default,
+    ) -> None:
+        super().__init__(node, action_type, callback_group)
+        self._check("client")
+        names = action_names(node, action_name, "client")
+        self._action_name = action_name
+        self._logger = node.get_logger().get_child("action_client")
+        self._lock = threading.Lock()
+        self._goal_handles: dict[bytes, weakref.ref[ClientGoalHandle]] = {}
+        self._feedback_callbacks: dict[bytes, Callable[..., Any]] = {}
+        self._goals = PendingRequests(self._node._bus)
+        self._cancels = PendingRequests(self._node._bus)
+        self._results = PendingRequests(self._node._bus)
+        feedback_qos = feedback_sub_qos_profile or QoSProfile(depth=10)
+        self._endpoints = ClientEndpoints(
+            node, action_type.Impl, names, self.notify, feedback_qos, status_sub_qos_profile
+        )
+        self._join()
+
+    # What the executor serves ------------------------------------------------------------------------------------
+
+    def get_num_entities(self) -> NumberOfEntities:
+        """Two subscriptions and three clients."""
+        return NumberOfEntities(2, 0, 0, 3, 0)
+
+    def run(self) -> Any:
+        """Take a response of each kind, a feedback and a status, and tell whom they concern."""
+        ends = self._endpoints
+        responses = (take(ends.goal.queue), take(ends.cancel.queue), take(ends.result.queue))
+        return self._receive(*responses, take(ends.feedback.queue), take(ends.status.queue))
+
+    async def _receive(self, goal: Any, cancel: Any, result: Any, feedback: Any, status: Any) -> None:
+        if goal is not None:
+            self._receive_goal(*goal)
+        if cancel is not None:
+            self._settle(self._cancels, "cancel", *cancel)
+        if result is not None:
+            self._settle(self._results, "result", *result)
+        if feedback is not None:
+            message = feedback[0]
+            callback = self._feedback_callbacks.get(bytes(message.goal_id.uuid))
+            if callback is not None:
+                await call(callback, message)
+        if status is not None:
+            self._receive_status(status[0])
+
+    def _receive_goal(self, number: int, response: Any) -> None:
+        goal_id = self._goals.subject(number)
+        if goal_id is None:
+            self._unexpected("goal")
+            return
+        handle = ClientGoalHandle(self, goal_id, response)
+        key = bytes(goal_id.uuid)
+        if handle.accepted:
+            if key in self._goal_handles:
+                raise RuntimeError(f"Two goals were accepted with the same ID ({handle})")
+            self._goal_handles[key] = weakref.ref(handle)
+        else:
+            self._feedback_callbacks.pop(key, None)
+        self._goals.settle(number, handle, self.sink)
+
+    def _settle(self, requests: PendingRequests, kind: str, number: int, response: Any) -> None:
+        if not requests.settle(number, response, self.sink):
+            self._unexpected(kind)
+
+    def _unexpected(self, kind: str) -> None:
+        self._logger.warning(
+            f"Ignoring unexpected {kind} response. There may be more than one action server for the action "
+            f"'{self._action_name}'"
+        )
+
+    def _receive_status(self, message: Any) -> None:
+        for each in message.status_list:
+            key = bytes(each.goal_info.goal_id.uuid)
+            reference = self._goal_handles.get(key)
+            if reference is None:
+                continue
+            handle = reference()
+            if handle is not None:
+                handle._status = each.status
+            if handle is None or each.status in TERMINAL:
+                del self._goal_handles[key]
+
+    # Goals -------------------------------------------------------------------------------------------------------
+
+    def send_goal(self, goal: Any, **kwargs: Any) -> Any:
+        """Send a goal and wait for the result response, which another thread has to receive."""
+        return self._get_result(_wait(self.send_goal_async(goal, **kwargs)))
+
+    def send_goal_async(
+        self, goal: Any, feedback_callback: Callable[..., Any] | None = None, goal_uuid: Any = None
+    ) -> Future[Any]:
+        """Send a goal; the future gets a `ClientGoalHandle` when the server has accepted or rejected it.
+
+        Raises `TypeError` for anything but the action's `Goal`.
+        """
+        if not isinstance(goal, self._action_type.Goal):
+            raise TypeError
+        self.use()
+        request = self._action_type.Impl.SendGoalService.Request()
+        request.goal_id = UUID(uuid=list(uuid.uuid4().bytes)) if goal_uuid is None else goal_uuid
+        request.goal = goal
+        if feedback_callback is not None:
+            self._feedback_callbacks[bytes(request.goal_id.uuid)] = feedback_callback
+        return self._goals.send(self._endpoints.goal, request, request.goal_id)
+
+    def _cancel_goal(self, goal_handle: Any) -> Any:
+        return _wait(self._cancel_goal_async(goal_handle))
+
+    def _cancel_goal_async(self, goal_handle: Any) -> Future[Any]:
+        self._check_handle(goal_handle)
+        request = CancelGoal.Request()
+        request.goal_info.goal_id = goal_handle.goal_id
+        return self._cancels.send(self._endpoints.cancel, request, goal_handle.goal_id)
+
+    def _get_result(self, goal_handle: Any) -> Any:
+        return _wait(self._get_result_async(goal_handle))
+
+    def _get_result_async(self, goal_handle: Any) -> Future[Any]:
+        self._check_handle(goal_handle)
+        request = self._action_type.Impl.GetResultService.Request()
+        request.goal_id = goal_handle.goal_id
+        future = self._results.send(self._endpoints.result, request, goal_handle.goal_id)
+        key = bytes(goal_handle.goal_id.uuid)
+        future.add_done_callback(lambda _: self._feedback_callbacks.pop(key, None))
+        return future
+
+    def _check_handle(self, goal_handle: Any) -> None:
+        if not isinstance(goal_handle, ClientGoalHandle):
+            raise TypeError(f"Expected type ClientGoalHandle but received {type(goal_handle)}")
+        self.use()
+
+    # The server --------------------------------------------------------------------------------------------------
+
+    def server_is_ready(self) -> bool:
+        """Whether a server is there."""
+        self.use()
+        return self._endpoints.server_is_there()
+
+    def wait_for_server(self, timeout_sec: float | None = None) -> bool:
+        """Block until a server is there; False when time (s) is over or the context was shut down."""
+        clock = current().clock
+        deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * NANO)
+        wakeup = clock.wakeup()
+        forget = self._node._bus.on_graph_change(wakeup.set)
+        try:
+            while self._node.context.ok() and not self.server_is_ready():
+                now = clock.steady_ns()
+                if deadline is not None and now >= deadline:
+                    break
+                # The graph wakes this up; the poll is for a shutdown of the context.
+                until = now + POLL
+                wakeup.wait(until if deadline is None else min(until, deadline))
+                wakeup.clear()
+        finally:
+            forget()
+        return self.server_is_ready()
+
+
+def _wait(future: Future[Any]) -> Any:
+    """Block until another thread has settled a future; its result."""
+    wakeup = current().clock.wakeup()
+    future._when_settled(wakeup.set)
+    if not future.done():
+        wakeup.wait()
+    return future.result()

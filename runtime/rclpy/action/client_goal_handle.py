@@ -1,0 +1,65 @@
+"""A goal as its client sees it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from action_msgs.msg import GoalStatus
+from rclpy.task import Future
+
+
+class ClientGoalHandle:
+    """A goal that was sent and answered; `status` follows the server's status topic."""
+
+    def __init__(self, action_client: Any, goal_id: Any, goal_response: Any) -> None:
+        self._action_client = action_client
+        self._goal_id = goal_id
+        self._goal_response = goal_response
+        self._status: int = GoalStatus.STATUS_UNKNOWN
+
+    def __eq__(self, other: object) -> bool:
+        return self._goal_id == other.goal_id  # type: ignore[attr-defined]
+
+    def __ne__(self, other: object) -> bool:
+        return self._goal_id != other.goal_id  # type: ignore[attr-defined]
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        return f"ClientGoalHandle <id={self.goal_id.uuid}, accepted={self.accepted}, status={self.status}>"
+
+    @property
+    def goal_id(self) -> Any:
+        """The goal's UUID."""
+        return self._goal_id
+
+    @property
+    def stamp(self) -> Any:
+        """When the server accepted the goal."""
+        return self._goal_response.stamp
+
+    @property
+    def accepted(self) -> bool:
+        """Whether the server accepted the goal."""
+        return self._goal_response.accepted
+
+    @property
+    def status(self) -> int:
+        """One of the constants of `action_msgs/msg/GoalStatus`."""
+        return self._status
+
+    def cancel_goal(self) -> Any:
+        """Ask for cancelling and wait for the answer, which another thread has to receive."""
+        return self._action_client._cancel_goal(self)
+
+    def cancel_goal_async(self) -> Future[Any]:
+        """Ask for cancelling; the future gets the `CancelGoal` response."""
+        return self._action_client._cancel_goal_async(self)
+
+    def get_result(self) -> Any:
+        """Ask for the result and wait for it; another thread has to receive it."""
+        return self._action_client._get_result(self)
+
+    def get_result_async(self) -> Future[Any]:
+        """Ask for the result; the future gets a response with `status` and `result`."""
+        return self._action_client._get_result_async(self)

@@ -1,0 +1,120 @@
+"""The three services and two topics that an action is made of, under their names on the wire."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from bot_console.runtime.rmw.bus import ClientEndpoint, Endpoint, Notify, ServiceEndpoint, SubscriptionEndpoint
+from bot_console.runtime.rmw.local import new_gid, queue_for
+from bot_console.runtime.rosidl.conversion import type_name
+from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException
+from rclpy.impl.topic_names import checked
+
+GOAL, CANCEL, RESULT = "send_goal", "cancel_goal", "get_result"
+FEEDBACK, STATUS = "feedback", "status"
+
+
+@dataclass(frozen=True)
+class ActionNames:
+    """Full names, remapped one by one as Jazzy does: a rule for the action's own name changes nothing."""
+
+    goal: str
+    cancel: str
+    result: str
+    feedback: str
+    status: str
+
+
+def action_names(node: Any, action: str, side: str) -> ActionNames:
+    """The names of an action's parts; raises `ValueError` for an action name that is none, in the words of rcl.
+
+    `side` is "client" or "server".
+    """
+    if not action:
+        raise ValueError(f"Failed to create action {side}: invalid empty action name")
+    try:
+        services = (checked(node, f"{action}/_action/{part}", service=True) for part in (GOAL, CANCEL, RESULT))
+        topics = (checked(node, f"{action}/_action/{part}") for part in (FEEDBACK, STATUS))
+        return ActionNames(*services, *topics)
+    except (InvalidServiceNameException, InvalidTopicNameException):
+        why = "topic name is invalid"
+    except ValueError as error:
+        why = str(error)
+    raise ValueError(f"Failed to create action {side} due to invalid topic name '{action}' : {why}")
+
+
+class ServerEndpoints:
+    """What an action server has on the bus."""
+
+    def __init__(
+        self, node: Any, impl: Any, names: ActionNames, notify: Notify, feedback_qos: Any, status_qos: Any
+    ) -> None:
+        self._bus = node._bus
+        self.goal = self._service(node, names.goal, impl.SendGoalService, notify)
+        self.cancel = self._service(node, names.cancel, impl.CancelGoalService, notify)
+        self.result = self._service(node, names.result, impl.GetResultService, notify)
+        self.feedback = self._publisher(node, names.feedback, impl.FeedbackMessage, feedback_qos)
+        self.status = self._publisher(node, names.status, impl.GoalStatusMessage, status_qos)
+
+    def _service(self, node: Any, name: str, kind: Any, notify: Notify) -> ServiceEndpoint:
+        endpoint = ServiceEndpoint(node._id, name, type_name(kind), notify)
+        self._bus.create_service(endpoint)
+        return endpoint
+
+    def _publisher(self, node: Any, name: str, kind: Any, qos: Any) -> Any:
+        endpoint = Endpoint(node._id, name, type_name(kind), qos, new_gid(), kind)
+        return self._bus.create_publisher(endpoint, lambda kind, what: None)
+
+    def pending(self) -> bool:
+        """Whether a request is there."""
+        return bool(self.goal.queue or self.cancel.queue or self.result.queue)
+
+    def remove(self) -> None:
+        """Leave the bus."""
+        for each in (self.goal, self.cancel, self.result, self.feedback, self.status):
+            self._bus.remove(each)
+
+
+class ClientEndpoints:
+    """What an action client has on the bus."""
+
+    def __init__(
+        self, node: Any, impl: Any, names: ActionNames, notify: Notify, feedback_qos: Any, status_qos: Any
+    ) -> None:
+        self._bus = node._bus
+        self.goal = self._client(node, names.goal, impl.SendGoalService, notify)
+        self.cancel = self._client(node, names.cancel, impl.CancelGoalService, notify)
+        self.result = self._client(node, names.result, impl.GetResultService, notify)
+        self.feedback = self._subscription(node, names.feedback, impl.FeedbackMessage, feedback_qos, notify)
+        self.status = self._subscription(node, names.status, impl.GoalStatusMessage, status_qos, notify)
+
+    def _client(self, node: Any, name: str, kind: Any, notify: Notify) -> ClientEndpoint:
+        endpoint = ClientEndpoint(node._id, name, type_name(kind), notify)
+        self._bus.create_client(endpoint)
+        return endpoint
+
+    def _subscription(self, node: Any, name: str, kind: Any, qos: Any, notify: Notify) -> SubscriptionEndpoint:
+        endpoint = Endpoint(node._id, name, type_name(kind), qos, new_gid(), kind)
+        subscription = SubscriptionEndpoint(endpoint, False, queue_for(qos), notify)
+        self._bus.create_subscription(subscription)
+        return subscription
+
+    def pending(self) -> bool:
+        """Whether a response, feedback or a status is there."""
+        return bool(
+            self.goal.queue or self.cancel.queue or self.result.queue or self.feedback.queue or self.status.queue
+        )
+
+    def server_is_there(self) -> bool:
+        """Whether all five parts of a server are in the graph."""
+        published = {each.topic for each in self._bus.publishers()}
+        topics = (self.feedback.endpoint.topic, self.status.endpoint.topic)
+        return published.issuperset(topics) and all(
+            self._bus.has_server(each) for each in (self.goal, self.cancel, self.result)
+        )
+
+    def remove(self) -> None:
+        """Leave the bus."""
+        for each in (self.goal, self.cancel, self.result, self.feedback, self.status):
+            self._bus.remove(each)

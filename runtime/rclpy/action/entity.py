@@ -1,0 +1,68 @@
+"""What action servers and clients have in common as things that an executor serves."""
+
+from __future__ import annotations
+
+import inspect
+from collections import deque
+from collections.abc import Callable
+from typing import Any
+
+from rclpy._rclpy_pybind11 import InvalidHandle
+from rclpy.impl.entity import DESTROYED, WAITABLE, Entity
+from rclpy.type_support import check_is_valid_action_type
+from rclpy.waitable import Waitable
+
+
+class ActionEntity(Entity, Waitable):
+    """A waitable over several endpoints: one wake takes one thing from each that has something."""
+
+    KIND = WAITABLE
+
+    def __init__(self, node: Any, action_type: Any, callback_group: Any) -> None:
+        group = node.default_callback_group if callback_group is None else callback_group
+        Entity.__init__(self, group)
+        Waitable.__init__(self, group)
+        self._node = node
+        self._action_type = action_type
+        self._endpoints: Any = None
+
+    def _check(self, side: str) -> None:
+        """Whether the node can have a new action server or client; raises `ValueError` where its context has ended."""
+        check_is_valid_action_type(self._action_type)
+        if self._node.destroyed:
+            raise InvalidHandle(DESTROYED)
+        if not self._node.context.ok():
+            raise ValueError(f"Failed to create action {side}: rcl node's context is invalid")
+
+    def _join(self) -> None:
+        self._node.add_waitable(self)
+        self._node._enter(self, self.callback_group)
+
+    def pending(self) -> bool:
+        """Whether something has come."""
+        return not self.destroyed and self._endpoints.pending()
+
+    def destroy(self) -> None:
+        """Leave the graph; every use from now on raises `InvalidHandle`."""
+        if self.destroyed:
+            return
+        self.destroyed = True
+        self._endpoints.remove()
+        self._node.remove_waitable(self)
+        self._node._entities.pop(self, None)
+        self.detach()
+
+
+def take(queue: deque[Any]) -> Any:
+    """The oldest entry of a queue, None where another thread was faster."""
+    try:
+        return queue.popleft()
+    except IndexError:
+        return None
+
+
+async def call(callback: Callable[..., Any], *args: Any) -> Any:
+    """Call a function, or await a coroutine function."""
+    if inspect.iscoroutinefunction(callback):
+        return await callback(*args)
+    return callback(*args)

@@ -1,0 +1,85 @@
+"""The goals that an action server knows."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from action_msgs.msg import GoalStatus, GoalStatusArray
+from action_msgs.srv import CancelGoal
+from rclpy.action.goal_state import is_cancelable
+from rclpy.action.server_goal_handle import ServerGoalHandle
+
+NANO = 1_000_000_000
+ANY_GOAL = bytes(16)
+
+
+class Goals:
+    """Goal handles by UUID in the order of their acceptance; results are kept for `timeout_ns` after the end."""
+
+    def __init__(self, timeout_ns: int) -> None:
+        self._timeout_ns = timeout_ns
+        self._handles: dict[bytes, ServerGoalHandle] = {}
+        self.next_expiry: int | None = None
+        """When the first result may be forgotten, by the node's clock (ns)."""
+
+    def __contains__(self, uuid: bytes) -> bool:
+        return uuid in self._handles
+
+    def get(self, uuid: bytes) -> ServerGoalHandle | None:
+        """The goal of a UUID."""
+        return self._handles.get(uuid)
+
+    def add(self, uuid: bytes, handle: ServerGoalHandle) -> None:
+        """Keep an accepted goal."""
+        self._handles[uuid] = handle
+
+    def status_array(self) -> Any:
+        """What the status topic shows: each goal that is kept."""
+        return GoalStatusArray(
+            status_list=[
+                GoalStatus(goal_info=each._goal_info, status=each._status) for each in list(self._handles.values())
+            ]
+        )
+
+    def to_cancel(self, request: Any) -> tuple[list[ServerGoalHandle], int]:
+        """The goals that a cancel request means, and the return code of the answer.
+
+        A UUID alone means that goal; a time stamp means all goals accepted until then (besides the one of the UUID);
+        neither means all goals.
+        """
+        uuid, stamp = bytes(request.goal_info.goal_id.uuid), _ns(request.goal_info.stamp)
+        none, terminated = CancelGoal.Response.ERROR_NONE, CancelGoal.Response.ERROR_GOAL_TERMINATED
+        if uuid != ANY_GOAL and stamp == 0:
+            handle = self._handles.get(uuid)
+            if handle is None:
+                return [], CancelGoal.Response.ERROR_UNKNOWN_GOAL_ID
+            return ([handle], none) if is_cancelable(handle.status) else ([], terminated)
+        every = uuid == ANY_GOAL and stamp == 0
+        meant = [
+            handle
+            for each, handle in list(self._handles.items())
+            if is_cancelable(handle.status) and (every or _ns(handle._goal_info.stamp) <= stamp or each == uuid)
+        ]
+        return meant, none
+
+    def find_next_expiry(self) -> None:
+        """Work out `next_expiry` anew, after a goal has ended or was forgotten."""
+        ends = [each.terminal_ns for each in list(self._handles.values()) if each.terminal_ns is not None]
+        self.next_expiry = min(ends) + self._timeout_ns + 1 if ends else None
+
+    def expire(self, now_ns: int) -> None:
+        """Forget the goals that ended more than the time-out ago."""
+        for uuid, each in list(self._handles.items()):
+            if each.terminal_ns is not None and now_ns - each.terminal_ns > self._timeout_ns:
+                each.destroy()
+                del self._handles[uuid]
+        self.find_next_expiry()
+
+    def destroy(self) -> None:
+        """Let go of all goals."""
+        for each in list(self._handles.values()):
+            each.destroy()
+
+
+def _ns(stamp: Any) -> int:
+    return stamp.sec * NANO + stamp.nanosec

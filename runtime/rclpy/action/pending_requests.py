@@ -1,0 +1,52 @@
+"""The requests of an action client that wait for their responses."""
+
+from __future__ import annotations
+
+import threading
+from typing import Any
+
+from bot_console.runtime.rmw.bus import ClientEndpoint
+from rclpy.task import Future
+
+
+class PendingRequests:
+    """Futures of requests of one service, with the goal that each is about."""
+
+    def __init__(self, bus: Any) -> None:
+        self._bus = bus
+        self._lock = threading.Lock()
+        self._number = 0
+        self._waiting: dict[int, tuple[Future[Any], Any]] = {}
+
+    def send(self, endpoint: ClientEndpoint, request: Any, goal_id: Any) -> Future[Any]:
+        """Send a request; the future is settled by `settle`, and forgotten when it is cancelled before."""
+        future: Future[Any] = Future()
+        with self._lock:
+            self._number += 1
+            number = self._number
+            self._waiting[number] = (future, goal_id)
+        future._when_settled(lambda: self._discard(number))
+        self._bus.request(endpoint, number, request)
+        return future
+
+    def subject(self, number: int) -> Any:
+        """The goal that a request is about; None for one that nobody waits for."""
+        with self._lock:
+            found = self._waiting.get(number)
+        return None if found is None else found[1]
+
+    def settle(self, number: int, result: Any, executor: Any) -> bool:
+        """Give a request its result, done callbacks running in the executor; whether anybody waited for it."""
+        found = self._forget(number)
+        if found is None:
+            return False
+        found[0]._set_executor(executor)
+        found[0].set_result(result)
+        return True
+
+    def _discard(self, number: int) -> None:
+        self._forget(number)
+
+    def _forget(self, number: int) -> tuple[Future[Any], Any] | None:
+        with self._lock:
+            return self._waiting.pop(number, None)

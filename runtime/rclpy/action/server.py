@@ -1,0 +1,297 @@
+"""Action servers."""
+
+from __future__ import annotations
+
+import functools
+import threading
+import traceback
+from collections.abc import Callable
+from enum import Enum
+from typing import Any
+
+from action_msgs.msg import GoalInfo, GoalStatus
+from rclpy._rclpy_pybind11 import RCLError
+from rclpy.action.endpoints import ServerEndpoints, action_names
+from rclpy.action.entity import ActionEntity, call, take
+from rclpy.action.goal_state import GoalEvent
+from rclpy.action.goals import Goals
+from rclpy.action.server_goal_handle import ServerGoalHandle
+from rclpy.impl.logging_severity import LoggingSeverity
+from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
+from rclpy.waitable import NumberOfEntities
+
+NANO = 1_000_000_000
+RESULT_TIMEOUT = 900
+MARGIN_NS = 1_000_000
+"""The executor wakes by another clock than the one that says whether a result has expired."""
+
+
+class GoalResponse(Enum):
+    """What a goal callback may say."""
+
+    REJECT = 1
+    ACCEPT = 2
+
+
+class CancelResponse(Enum):
+    """What a cancel callback may say."""
+
+    REJECT = 1
+    ACCEPT = 2
+
+
+def default_handle_accepted_callback(goal_handle: ServerGoalHandle) -> None:
+    """Execute the goal at once."""
+    goal_handle.execute()
+
+
+def default_goal_callback(goal_request: Any) -> GoalResponse:
+    """Accept every goal."""
+    return GoalResponse.ACCEPT
+
+
+def default_cancel_callback(cancel_request: Any) -> CancelResponse:
+    """Cancel no goal."""
+    return CancelResponse.REJECT
+
+
+class ActionServer(ActionEntity):
+    """Serves an action; callbacks may be functions or coroutine functions.
+
+    `execute_callback(goal_handle)` returns the result. Results are kept for `result_timeout` (s) after the end of
+    their goal. Raises `ValueError` for a name that is none, `TypeError` for an execute callback that is none.
+    """
+
+    def __init__(
+        self,
+        node: Any,
+        action_type: Any,
+        action_name: str,
+        execute_callback: Callable[..., Any],
+        *,
+        callback_group: Any = None,
+        goal_callback: Callable[..., Any] = default_goal_callback,
+        handle_accepted_callback: Callable[..., Any] = default_handle_accepted_callback,
+        cancel_callback: Callable[..., Any] = default_cancel_callback,
+        goal_service_qos_profile: QoSProfile = qos_profile_services_default,
+        result_service_qos_profile: QoSProfile = qos_profile_services_default,
+        cancel_service_qos_profile: QoSProfile = qos_profile_services_default,
+        feedback_pub_qos_profile: QoSProfile | None = None,
+        status_pub_qos_profile: QoSProfile = qos_profile_action_status_default,
+        result_timeout: float = RESULT_TIMEOUT,
+    ) -> None:
+        super().__init__(node, action_type, callback_group)
+        self._lock = threading.Lock()
+        self.register_handle_accepted_callback(handle_accepted_callback)
+        self.register_goal_callback(goal_callback)
+        self.register_cancel_callback(cancel_callback)
+        self.register_execute_callback(execute_callback)
+        self._check("server")
+        names = action_names(node, action_name, "server")
+        self._goals = Goals(int(result_timeout * NANO))
+        self._logger = node.get_logger().get_child("action_server")
+        self._clock = node.get_clock()
+        self.heap_deadline: int | None = None
+        feedback_qos = feedback_pub_qos_profile or QoSProfile(depth=10)
+        self._endpoints = ServerEndpoints(
+            node, action_type.Impl, names, self.notify, feedback_qos, status_pub_qos_profile
+        )
+        self._clock._add_timer(self)
+        self._join()
+
+    @property
+    def action_type(self) -> Any:
+        """The action's class."""
+        return self._action_type
+
+    # Callbacks ---------------------------------------------------------------------------------------------------
+
+    def register_handle_accepted_callback(self, handle_accepted_callback: Callable[..., Any] | None) -> None:
+        """Set what gets the handle of each accepted goal; None executes it at once."""
+        self._handle_accepted_callback = handle_accepted_callback or default_handle_accepted_callback
+
+    def register_goal_callback(self, goal_callback: Callable[..., Any] | None) -> None:
+        """Set what accepts or rejects a goal; None accepts."""
+        self._goal_callback = goal_callback or default_goal_callback
+
+    def register_cancel_callback(self, cancel_callback: Callable[..., Any] | None) -> None:
+        """Set what accepts or rejects a cancel request; None rejects."""
+        self._cancel_callback = cancel_callback or default_cancel_callback
+
+    def register_execute_callback(self, execute_callback: Callable[..., Any]) -> None:
+        """Set what executes a goal; raises `TypeError` for what cannot be called."""
+        if not callable(execute_callback):
+            raise TypeError("Failed to register goal execution callback: not callable")
+        self._execute_callback = execute_callback
+
+    # What the executor serves ------------------------------------------------------------------------------------
+
+    def get_num_entities(self) -> NumberOfEntities:
+        """A timer and three services."""
+        return NumberOfEntities(0, 0, 1, 0, 3)
+
+    def pending(self) -> bool:
+        """Whether a request has come or a result has expired."""
+        return super().pending() or (not self.destroyed and self._expired())
+
+    def run(self) -> Any:
+        """Take a request of each kind and serve them."""
+        ends = self._endpoints
+        return self._serve(take(ends.goal.queue), take(ends.cancel.queue), take(ends.result.queue), self._expired())
+
+    async def _serve(self, goal: Any, cancel: Any, result: Any, expired: bool) -> None:
+        if goal is not None:
+            await self._serve_goal(*goal)
+        if cancel is not None:
+            await self._serve_cancel(*cancel)
+        if result is not None:
+            self._serve_result(*result)
+        if expired:
+            self._goals.expire(self._now_ns())
+            self._arm()
+
+    async def _serve_goal(self, client: Any, number: int, request: Any) -> None:
+        uuid = bytes(request.goal_id.uuid)
+        handle = await self._accepted(request, uuid)
+        response = self._action_type.Impl.SendGoalService.Response()
+        response.accepted = handle is not None
+        if handle is not None:
+            response.stamp = handle._goal_info.stamp
+        self._node._bus.respond(client, number, response)
+        if handle is None:
+            self._debug("New goal rejected: {}", request.goal_id.uuid)
+            return
+        self._debug("New goal accepted: {}", request.goal_id.uuid)
+        await call(self._handle_accepted_callback, handle)
+
+    async def _accepted(self, request: Any, uuid: bytes) -> ServerGoalHandle | None:
+        """The handle of a goal if the goal callback accepts it; a UUID that is known is rejected unasked."""
+        self._debug("New goal request with ID: {}", request.goal_id.uuid)
+        if uuid in self._goals:
+            return None
+        response = await call(self._goal_callback, request.goal)
+        if not isinstance(response, GoalResponse):
+            self._logger.warning("Goal request callback did not return a GoalResponse type. Rejecting goal.")
+            return None
+        if response is not GoalResponse.ACCEPT:
+            return None
+        info = GoalInfo(goal_id=request.goal_id, stamp=self._clock.now().to_msg())
+        with self._lock:
+            # An asynchronous goal callback may have let the same goal in meanwhile.
+            if uuid in self._goals:
+                return None
+            handle = ServerGoalHandle(self, info, request.goal)
+            self._goals.add(uuid, handle)
+        return handle
+
+    async def _serve_cancel(self, client: Any, number: int, request: Any) -> None:
+        self._debug("Cancel request received: {}", request)
+        handles, code = self._goals.to_cancel(request)
+        canceling = []
+        for handle in handles:
+            if await call(self._cancel_callback, handle) is not CancelResponse.ACCEPT:
+                continue
+            try:
+                handle._update_state(GoalEvent.CANCEL_GOAL)
+            except RCLError as error:
+                self._debug("Failed to cancel goal with ID {}: {}", handle.goal_id.uuid, error)
+                continue
+            canceling.append(handle._goal_info)
+        response = self._action_type.Impl.CancelGoalService.Response()
+        response.return_code = code
+        response.goals_canceling = canceling
+        self._node._bus.respond(client, number, response)
+
+    def _serve_result(self, client: Any, number: int, request: Any) -> None:
+        self._debug("Result request received for goal with ID: {}", request.goal_id.uuid)
+        handle = self._goals.get(bytes(request.goal_id.uuid))
+        if handle is None:
+            self._debug("Sending result response for unknown goal ID: {}", request.goal_id.uuid)
+            response = self._action_type.Impl.GetResultService.Response()
+            response.status = GoalStatus.STATUS_UNKNOWN
+            self._node._bus.respond(client, number, response)
+            return
+        handle._result_future._set_executor(self.sink)
+        handle._result_future.add_done_callback(functools.partial(self._send_result, client, number))
+
+    def _send_result(self, client: Any, number: int, future: Any) -> None:
+        self._node._bus.respond(client, number, future.result())
+
+    # What goal handles need --------------------------------------------------------------------------------------
+
+    def notify_execute(self, goal_handle: ServerGoalHandle, execute_callback: Callable[..., Any] | None) -> None:
+        """Let the node's executor run a callback, the server's own by default, for a goal."""
+        callback = self._execute_callback if execute_callback is None else execute_callback
+        self._node.executor.create_task(self._execute_goal, callback, goal_handle)
+
+    async def _execute_goal(self, callback: Callable[..., Any], handle: ServerGoalHandle) -> None:
+        uuid = handle.goal_id.uuid
+        self._debug("Executing goal with ID {}", uuid)
+        try:
+            result = await call(callback, handle)
+        except Exception as error:  # the border to a callback: the client gets an empty result, the log the reason
+            result = self._action_type.Result()
+            self._logger.error(f"Error raised in execute callback: {error}")
+            traceback.print_exc()
+        if handle.is_active:
+            self._logger.warning(f"Goal state not set, assuming aborted. Goal ID: {uuid}")
+            handle.abort()
+        self._debug("Goal with ID {uuid} finished with state {}", handle.status)
+        response = self._action_type.Impl.GetResultService.Response()
+        response.status = handle.status
+        response.result = result
+        handle._result_future.set_result(response)
+
+    def notify_goal_done(self) -> None:
+        """A goal has ended: from now on its result grows old."""
+        self._goals.find_next_expiry()
+        self._arm()
+
+    def _publish_status(self) -> None:
+        self.use()
+        self._endpoints.status.publish(self._goals.status_array())
+
+    def _publish_feedback(self, message: Any) -> None:
+        self.use()
+        self._endpoints.feedback.publish(message)
+
+    def _debug(self, text: str, *values: Any) -> None:
+        if self._logger.is_enabled_for(LoggingSeverity.DEBUG):
+            self._logger.debug(text.format(*values))
+
+    def _now_ns(self) -> int:
+        return self._clock._now_ns()
+
+    # Old results -------------------------------------------------------------------------------------------------
+
+    def _expired(self) -> bool:
+        due = self._goals.next_expiry
+        return due is not None and self._now_ns() >= due
+
+    def _arm(self) -> None:
+        """Let the executor wake when the next result expires; under simulated time the clock tells it."""
+        due, sink = self._goals.next_expiry, self.sink
+        if due is None or sink is None or self.destroyed:
+            return
+        deadline = self._clock._steady_deadline(due)
+        if deadline is not None:
+            sink.arm(self, deadline + MARGIN_NS)
+        elif self.pending():
+            self.notify()
+
+    def attach(self, sink: Any, node_order: int) -> None:
+        """Let an executor serve this from now on."""
+        super().attach(sink, node_order)
+        self._arm()
+
+    def time_jumped(self, backward: bool) -> None:
+        """The node's clock was set."""
+        self._arm()
+
+    def destroy(self) -> None:
+        """Destroy the server and let go of its goals."""
+        if self.destroyed:
+            return
+        self._goals.destroy()
+        self._clock._remove_timer(self)
+        super().destroy()

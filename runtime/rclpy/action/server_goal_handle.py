@@ -1,0 +1,109 @@
+"""A goal as its server's callbacks see it."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import Any
+
+from rclpy.action.goal_state import ACCEPTED, ACTIVE, CANCELING, GoalEvent, GoalStatus, next_status
+from rclpy.task import Future
+
+
+class ServerGoalHandle:
+    """An accepted goal: execute it, publish feedback, and end it by `succeed`, `abort` or `canceled`.
+
+    These three raise `RCLError` in a state in which they make no sense, such as `canceled` without a cancel request.
+    """
+
+    def __init__(self, action_server: Any, goal_info: Any, goal_request: Any) -> None:
+        self._action_server = action_server
+        self._goal_info = goal_info
+        self._goal_request = goal_request
+        self._status: int = ACCEPTED
+        self._destroyed = False
+        self._lock = threading.Lock()
+        self._result_future: Future[Any] = Future()
+        self.terminal_ns: int | None = None
+        """When the goal ended, by the node's clock (ns)."""
+
+    def __eq__(self, other: object) -> bool:
+        return self.goal_id == other.goal_id  # type: ignore[attr-defined]
+
+    def __ne__(self, other: object) -> bool:
+        return self.goal_id != other.goal_id  # type: ignore[attr-defined]
+
+    __hash__ = None  # type: ignore[assignment]
+
+    @property
+    def request(self) -> Any:
+        """The goal, of the action's `Goal` class."""
+        return self._goal_request
+
+    @property
+    def goal_id(self) -> Any:
+        """The goal's UUID."""
+        return self._goal_info.goal_id
+
+    @property
+    def is_active(self) -> bool:
+        """Whether the goal has not ended."""
+        return not self._destroyed and self._status in ACTIVE
+
+    @property
+    def is_cancel_requested(self) -> bool:
+        """Whether a cancel request was accepted."""
+        return self.status == CANCELING
+
+    @property
+    def status(self) -> int:
+        """One of the constants of `action_msgs/msg/GoalStatus`."""
+        return GoalStatus.STATUS_UNKNOWN if self._destroyed else self._status
+
+    def _update_state(self, event: GoalEvent) -> None:
+        with self._lock:
+            if self._destroyed:
+                return
+            self._status = next_status(self._status, event)
+            self._action_server._publish_status()
+            if self._status not in ACTIVE:
+                self.terminal_ns = self._action_server._now_ns()
+                self._action_server.notify_goal_done()
+
+    def execute(self, execute_callback: Callable[..., Any] | None = None) -> None:
+        """Let the executor run the callback, the server's own by default.
+
+        A goal that is being cancelled keeps its state: the callback then has to end it.
+        """
+        if not self.is_cancel_requested:
+            self._update_state(GoalEvent.EXECUTE)
+        self._action_server.notify_execute(self, execute_callback)
+
+    def publish_feedback(self, feedback: Any) -> None:
+        """Send feedback to the clients; raises `TypeError` for anything but the action's `Feedback`."""
+        if not isinstance(feedback, self._action_server.action_type.Feedback):
+            raise TypeError
+        with self._lock:
+            if self._destroyed:
+                return
+            message = self._action_server.action_type.Impl.FeedbackMessage()
+            message.goal_id = self.goal_id
+            message.feedback = feedback
+            self._action_server._publish_feedback(message)
+
+    def succeed(self) -> None:
+        """The goal was reached."""
+        self._update_state(GoalEvent.SUCCEED)
+
+    def abort(self) -> None:
+        """The server gave the goal up."""
+        self._update_state(GoalEvent.ABORT)
+
+    def canceled(self) -> None:
+        """The goal was given up as its client asked."""
+        self._update_state(GoalEvent.CANCELED)
+
+    def destroy(self) -> None:
+        """Let go of the goal; what is called from now on does nothing."""
+        with self._lock:
+            self._destroyed = True
