@@ -75,9 +75,10 @@ def _csv_value(value: Any, kind: Any, short: Shortening) -> str:
         return ",".join([*items, "..."] if short.cuts(value) else items)
     if isinstance(value, str) and short.no_strings:
         return _string_words(value)
-    if isinstance(value, (str, bytes)) and short.cuts(value):
-        rest = b"..." if isinstance(value, bytes) else "..."
-        return str(value[: short.length] + rest)
+    if isinstance(value, str) and short.cuts(value):
+        return value[: short.length] + "..."
+    if isinstance(value, bytes) and short.cuts(value):
+        return str(value[: short.length] + b"...")
     if isinstance(value, (str, bytes, bool, int, float)) or _is_numpy_number(value):
         return str(value)
     return _csv(value, short)

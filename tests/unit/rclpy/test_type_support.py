@@ -25,39 +25,19 @@ def test_the_right_kinds_pass() -> None:
 
 
 @pytest.mark.parametrize(
-    ("check", "cls", "words"),
+    ("check", "cls", "kind", "others"),
     [
-        (
-            check_is_valid_msg_type,
-            Trigger,
-            "The message type provided is not valid ({}), this might be a service or action",
-        ),
-        (
-            check_is_valid_msg_type,
-            Fibonacci,
-            "The message type provided is not valid ({}), this might be a service or action",
-        ),
-        (
-            check_is_valid_srv_type,
-            String,
-            "The service type provided is not valid ({}), this might be a message or action",
-        ),
-        (
-            check_is_valid_srv_type,
-            Fibonacci,
-            "The service type provided is not valid ({}), this might be a message or action",
-        ),
-        (
-            check_is_valid_action_type,
-            String,
-            "The action type provided is not valid ({}), this might be a message or service",
-        ),
+        (check_is_valid_msg_type, Trigger, "message", "service or action"),
+        (check_is_valid_msg_type, Fibonacci, "message", "service or action"),
+        (check_is_valid_srv_type, String, "service", "message or action"),
+        (check_is_valid_srv_type, Fibonacci, "service", "message or action"),
+        (check_is_valid_action_type, String, "action", "message or service"),
     ],
 )
-def test_another_kind(check: Any, cls: Any, words: str) -> None:
+def test_another_kind(check: Any, cls: Any, kind: str, others: str) -> None:
     with pytest.raises(RuntimeError) as caught:
         check(cls)
-    assert str(caught.value) == words.format(cls)
+    assert str(caught.value) == f"The {kind} type provided is not valid ({cls}), this might be a {others}"
 
 
 @pytest.mark.parametrize("thing", [int, "std_msgs/msg/String", None, String()])
