@@ -10,6 +10,7 @@ from collections.abc import Iterable
 from typing import Any
 
 import launch.logging
+from bot_console.runtime.process.event_loop import new_event_loop
 from launch.event_handlers import OnIncludeLaunchDescription, OnShutdown
 from launch.events import IncludeLaunchDescription, Shutdown
 from launch.launch_context import LaunchContext
@@ -74,7 +75,7 @@ class LaunchService:
 
     def run(self, *, shutdown_when_idle: bool = True) -> int:
         """Run in a loop of its own until the end; 1 when any exception came up to here, else 0."""
-        loop = asyncio.new_event_loop()
+        loop = new_event_loop()
         loop.set_debug(self.__debug)
         try:
             return loop.run_until_complete(self.run_async(shutdown_when_idle=shutdown_when_idle))

@@ -7,6 +7,8 @@ import selectors
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from .current import current
+
 if TYPE_CHECKING:
     from .clock_source import ClockSource, Wakeup
 
@@ -49,3 +51,9 @@ class _SteppedSelector(selectors.DefaultSelector):
             events = super().select(0)
         self._called.clear()
         return events
+
+
+def new_event_loop() -> asyncio.AbstractEventLoop:
+    """An event loop in the time of the calling thread's node process."""
+    clock = current().clock
+    return SteppedEventLoop(clock) if clock.stepped else asyncio.new_event_loop()
