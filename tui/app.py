@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from pathlib import Path
 from typing import Any
@@ -18,6 +18,7 @@ from bot_console.tui.screens.output import OutputScreen
 from bot_console.tui.terminal import SUPPORTED, AnswerGate, GatedScreen
 from bot_console.tui.theme import DARK
 from bot_console.tui.widgets.status_bar import StatusBar
+from rich.text import Text
 from textual import events
 from textual.app import App, ComposeResult
 from textual.binding import BindingType
@@ -27,6 +28,9 @@ from textual.widgets import Footer, Input, Static
 
 OVERVIEW = (100, 30)
 """Columns and lines from which several panes are shown at once."""
+
+WIDE = (170, 45)
+"""Columns and lines from which the overview has room for the graph as well."""
 
 SMALLEST = (60, 20)
 HERE = Path(__file__).parent
@@ -68,7 +72,7 @@ class BotConsoleApp(App[None]):
         """Tabs, panes, status, footer, and a word for terminals that are too small."""
         yield Static("", id="tabs", markup=False)
         with Container(id="panes"):
-            for each in PANES:
+            for each in sorted(PANES, key=lambda entry: entry.place):
                 yield each.load()(self.console_of_robot, self.launcher, id=each.id)
         yield StatusBar()
         yield Footer(show_command_palette=False)
@@ -105,7 +109,7 @@ class BotConsoleApp(App[None]):
     # Layout -------------------------------------------------------------------------------------------------------
 
     def panes(self) -> list[Pane]:
-        """All panes, in the order of their digits."""
+        """All panes, in the order in which they stand on the screen."""
         return list(self.query(Pane))
 
     def visible_panes(self) -> list[Pane]:
@@ -133,27 +137,33 @@ class BotConsoleApp(App[None]):
             self.query_one("#too-small", Static).update(
                 f"{width}x{height} is too small\nthe console needs {need}\n\nthe robot goes on; ! stops it, q quits"
             )
-        overview = self._wanted == "overview" and width >= OVERVIEW[0] and height >= OVERVIEW[1]
-        self.screen.set_class(overview, "overview")
+        overview = self._overview_size() if self._wanted == "overview" else 0
+        self.screen.set_class(overview > 0, "overview")
+        self.screen.set_class(overview > 1, "wide")
         single = self._focused_pane if self._wanted == "overview" else self._wanted
-        for each, pane in zip(PANES, self.panes(), strict=True):
+        for each in PANES:
+            pane = self.query_one(f"#{each.id}", Pane)
             before = pane.display
-            pane.display = each.overview if overview else pane.id == single
+            pane.display = 0 < each.overview <= overview if overview else each.id == single
             if pane.display and not before:
                 pane.show(self._snapshot)
-        self._tabs(overview, single)
+        self._tabs(overview > 0, single)
         pane = self.current_pane
         if pane is not None and not pane.display:
             pane = next(iter(self.visible_panes()), None)
         if pane is not None and not self._typing():
             pane.focus_target()
 
+    def _overview_size(self) -> int:
+        """Which overview fits: 2 the wide one, 1 the usual one, 0 none, so that panes are shown one at a time."""
+        width, height = self.size
+        fits = [width >= need[0] and height >= need[1] for need in (OVERVIEW, WIDE)]
+        return sum(fits) if fits[0] else 0
+
     def _tabs(self, overview: bool, single: str) -> None:
-        marks = [("0", "Overview", overview)] + [
-            (each.digit, each.title, not overview and each.id == single) for each in PANES
-        ]
-        text = " ".join(f"[{digit} {title}]" if on else f" {digit} {title} " for digit, title, on in marks)
-        self.query_one("#tabs", Static).update(text)
+        marks = [("0", "Overview", "All", overview)]
+        marks += [(each.digit, each.title, each.short or each.title, not overview and each.id == single) for each in PANES]
+        self.query_one("#tabs", Static).update(tabs_text(marks, self.size.width - 2))
 
     def _typing(self) -> bool:
         return isinstance(self.focused, Input)
@@ -164,6 +174,9 @@ class BotConsoleApp(App[None]):
         """Letters and digits belong to a text field while one has the keyboard."""
         if self._typing() and action in ("pane", "all_stop", "zoom", "next_pane"):
             return False
+        if len(self.screen_stack) > 1 and action in ("pane", "zoom", "next_pane", "help"):
+            # What lies over the panes has keys of its own.
+            return False
         return super().check_action(action, parameters)
 
     def action_pane(self, name: str) -> None:
@@ -171,7 +184,7 @@ class BotConsoleApp(App[None]):
         self._wanted = name
         if name != "overview":
             self._focused_pane = name
-        elif self._focused_pane not in {each.id for each in PANES if each.overview}:
+        elif self._focused_pane not in {each.id for each in PANES if 0 < each.overview <= self._overview_size()}:
             self._focused_pane = "parameters"
         self.set_focus(None)
         self._lay_out()
@@ -220,3 +233,18 @@ class BotConsoleApp(App[None]):
     def on_cursor_position(self, event: events.CursorPosition) -> None:
         """The terminal has drawn a frame."""
         self.gate.answered()
+
+
+def tabs_text(marks: Sequence[tuple[str, str, str, bool]], width: int) -> Text:
+    """Digits and titles of the panes; short titles, then none but the shown one's, where there is little room."""
+    text = Text(no_wrap=True)
+    for long, short in ((True, True), (False, True), (False, False)):
+        text = Text(no_wrap=True)
+        for digit, title, brief, shown in marks:
+            word = title if long else (brief if short or shown else "")
+            label = f"{digit} {word}".strip()
+            text.append(f"[{label}]" if shown else (f" {label} " if long or not short else f"{label} "),
+                        "bold reverse" if shown else "")  # fmt: skip
+        if text.cell_len <= width:
+            break
+    return text

@@ -12,13 +12,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PaneEntry:
-    """A pane: its id (also the module's name), its class, the digit that jumps to it, and whether the overview has it."""
+    """A pane: its id (also the module's name), its class, and the digit that jumps to it."""
 
     id: str
     digit: str
     title: str
     class_name: str
-    overview: bool = False
+    place: int = 9
+    """Its place among the panes on the screen, from the upper left; the overview fills its grid in this order."""
+    overview: int = 0
+    """The smallest overview that has it: 1 the usual one, 2 the one of wide terminals, 0 none."""
     short: str = ""
     """The title where there is little room; empty: the title."""
 
@@ -28,11 +31,11 @@ class PaneEntry:
 
 
 PANES = (
-    PaneEntry("parameters", "1", "Parameters", "ParametersPane", overview=True, short="Params"),
-    PaneEntry("logs", "2", "Logs", "LogsPane", overview=True),
-    PaneEntry("graph", "3", "Graph", "GraphPane"),
-    PaneEntry("plot", "4", "Plot", "PlotPane", overview=True),
-    PaneEntry("world", "5", "World", "WorldPane", overview=True),
+    PaneEntry("parameters", "1", "Parameters", "ParametersPane", place=1, overview=1, short="Params"),
+    PaneEntry("logs", "2", "Logs", "LogsPane", place=5, overview=1),
+    PaneEntry("graph", "3", "Graph", "GraphPane", place=3, overview=2),
+    PaneEntry("plot", "4", "Plot", "PlotPane", place=4, overview=1),
+    PaneEntry("world", "5", "World", "WorldPane", place=2, overview=1),
     PaneEntry("steering", "6", "Steering", "SteeringPane", short="Steer"),
     PaneEntry("profiles", "7", "Profiles", "ProfilesPane"),
     PaneEntry("launch", "8", "Launch", "LaunchPane"),

@@ -137,6 +137,10 @@ class GraphPane(Pane):
         elif event.text:
             self._save(Path(event.text).expanduser())
 
+    def action_turn_picture(self) -> None:
+        """Another direction of the arrows."""
+        self._picture.action_turn()
+
     def action_detail(self) -> None:
         """Show all about the selected node or topic."""
         item, info = self._picture.selected, self._info

@@ -63,7 +63,7 @@ class ParameterRows(RowList):
         return [head, Segment(f"  {row.count}", self._style("dim"))]
 
     def _parameter(self, row: Row, parameter: ParameterInfo, width: int) -> list[Segment]:
-        names = min(NAMES, max(12, width // 3))
+        names = min(NAMES, max(12, width * 2 // 5))
         indent = "  " * row.depth
         mark = "•" if parameter.changed else " "
         name = f"{indent}{harmless(row.name)}"[: names - 1].ljust(names)

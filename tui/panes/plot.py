@@ -15,7 +15,7 @@ from bot_console.tui.widgets.prompt import Prompt
 from textual.app import ComposeResult
 from textual.widgets import Static
 
-LEAST_FRAME = 9
+LEAST_FRAME = 8
 """Lines from which on a frame with axes leaves room for the trace."""
 
 EMPTY = "No curves. Press a and name one: /topic/field, or /node:parameter."
@@ -92,8 +92,10 @@ class PlotPane(Pane):
         picture, legend = self.query_one("#plot-picture", Picture), self.query_one("#plot-legend", Picture)
         curves = self._timeline.curves
         width, height = picture.size
-        strips = self._strips or height + len(curves) < LEAST_FRAME
-        legend.styles.height = 0 if strips or not curves else min(len(curves), 6)
+        strips = self._strips or self.size.height < LEAST_FRAME + len(curves)
+        below = 0 if strips else min(len(curves), 6)
+        if legend.styles.height is None or legend.styles.height.value != below:
+            legend.styles.height = below
         self.query_one("#plot-status", Static).update(self._status())
         if width < 16 or height < 2:
             return
@@ -129,9 +131,10 @@ class PlotPane(Pane):
             parts.append(f"y {timeline.limits[0]:g} .. {timeline.limits[1]:g}")
         return " · ".join(parts)
 
-    def on_resize(self) -> None:
+    def on_picture_resized(self, event: Picture.Resized) -> None:
         """Draw for the new size."""
-        self.call_after_refresh(self.draw)
+        event.stop()
+        self.draw()
 
     # Actions ------------------------------------------------------------------------------------------------------
 

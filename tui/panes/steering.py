@@ -59,9 +59,10 @@ class SteeringPane(Pane):
         picture.set_lines(lines(self.state, self._snapshot.drive, left, width, height))
         self.set_class(self.state.armed, "armed")
 
-    def on_resize(self) -> None:
+    def on_picture_resized(self, event: Picture.Resized) -> None:
         """Draw for the new size."""
-        self.call_after_refresh(self._draw)
+        event.stop()
+        self._draw()
 
     def tick(self) -> None:
         """Send the command again, or stop when no key has come for too long."""

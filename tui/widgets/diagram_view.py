@@ -6,6 +6,7 @@ from typing import ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.widgets.diagram.drawing import Drawing, Place, Run, draw
+from bot_console.tui.widgets.diagram.flow import DOWN, RIGHT, Flow
 from bot_console.tui.widgets.diagram.graph import Digraph
 from rich.cells import cell_len
 from rich.segment import Segment
@@ -26,11 +27,12 @@ class DiagramView(ScrollView, can_focus=True):
 
     BINDINGS = keymap.bindings("diagram")
     DEFAULT_CSS = """
-    DiagramView { height: 1fr; background: $surface; color: $text; scrollbar-size: 1 1; }
+    DiagramView { height: 1fr; background: $surface; color: $text; scrollbar-size: 1 1;
+                  scrollbar-background: $surface; scrollbar-corner-color: $surface; }
     DiagramView:focus { background: $surface; }
-    .diagram--box { color: $text; text-style: bold; }
-    .diagram--chip { color: $text; background: $panel; }
-    .diagram--line { color: $text-muted; }
+    .diagram--box { color: $foreground; text-style: bold; }
+    .diagram--chip { color: $foreground; background: $panel; }
+    .diagram--line { color: $secondary; }
     .diagram--linked { color: $primary; }
     .diagram--linked-chip { color: $primary; background: $panel; }
     .diagram--selected { color: $block-cursor-foreground; background: $block-cursor-background; text-style: bold; }
@@ -58,6 +60,8 @@ class DiagramView(ScrollView, can_focus=True):
         self.drawing = Drawing()
         self._graph = Digraph()
         self._warned: frozenset[str] = frozenset()
+        self._drawings: dict[Flow, Drawing] = {}
+        self._flow: Flow | None = None
 
     @property
     def places(self) -> dict[str, Place]:
@@ -69,11 +73,35 @@ class DiagramView(ScrollView, can_focus=True):
         self._warned = warned
         if graph != self._graph:
             self._graph = graph
-            self.drawing = draw(graph)
-            self.virtual_size = Size(self.drawing.width + 1, len(self.drawing.rows))
+            self._drawings.clear()
+        self._choose()
         if self.selected not in self.places:
             self.selected = self._first()
         self.refresh()
+
+    def _choose(self) -> None:
+        """Draw in the direction that was asked for, else in the one of which more is seen at once."""
+        flows = (self._flow,) if self._flow else (RIGHT, DOWN)
+        for each in flows:
+            if each not in self._drawings:
+                self._drawings[each] = draw(self._graph, each)
+        drawing = self._drawings[min(flows, key=self._excess)]
+        if drawing is not self.drawing:
+            self.drawing = drawing
+            self.virtual_size = Size(drawing.width + 1, len(drawing.rows))
+            self.refresh()
+
+    def _excess(self, flow: Flow) -> float:
+        width, height = max(1, self.size.width), max(1, self.size.height)
+        drawing = self._drawings[flow]
+        return max(1.0, drawing.width / width) * max(1.0, len(drawing.rows) / height)
+
+    def action_turn(self) -> None:
+        """Arrows to the right, down, or as it fits."""
+        order: tuple[Flow | None, ...] = (None, RIGHT, DOWN)
+        self._flow = order[(order.index(self._flow) + 1) % 3]
+        self._choose()
+        self.show_selected()
 
     def _first(self) -> str:
         return min(self.places, key=lambda each: (self.places[each].x, self.places[each].y), default="")
@@ -93,8 +121,16 @@ class DiagramView(ScrollView, can_focus=True):
                 segments.append(Segment(" " * (run.x - at), base))
             segments.append(Segment(run.text, base + self._style(run)))
             at = run.x + cell_len(run.text)
-        left = self.scroll_offset.x
+        left = self.scroll_offset.x - self._indent
+        if left < 0:
+            segments.insert(0, Segment(" " * -left, base))
+            left = 0
         return Strip(segments).crop_extend(left, left + width, base)
+
+    @property
+    def _indent(self) -> int:
+        """The cells by which a picture narrower than the widget is moved into its middle."""
+        return max(0, (self.size.width - self.drawing.width) // 2)
 
     def _style(self, run: Run) -> Style:
         return self.get_component_rich_style(f"diagram--{self._class(run)}", partial=True)
@@ -138,15 +174,16 @@ class DiagramView(ScrollView, can_focus=True):
             self.selected = self._first()
             return
         beyond = [each for each, place in self.places.items() if _beyond(here, place, across, down)]
-        self.selected = min(beyond, key=lambda each: self._distance(here, each, across), default=self.selected)
+        self.selected = min(beyond, key=lambda each: self._distance(here, each, across, down), default=self.selected)
 
-    def _distance(self, here: Place, item: str, across: int) -> tuple[int, str]:
+    def _distance(self, here: Place, item: str, across: int, down: int) -> tuple[int, str]:
         place = self.places[item]
-        dx = abs(place.x - here.x) if not across else max(place.x - here.x - here.width, here.x - place.x - place.width)
-        dy = abs(place.y + place.height // 2 - here.y - here.height // 2)
-        ends = (self.selected, item) if across > 0 else (item, self.selected)
-        nearer = 60 if across and ends in self._links else 0
-        return (dx + 4 * dy - nearer if across else 2 * dx + dy), item
+        # A cell is about twice as high as it is wide.
+        dx = _apart(here.x, here.width, place.x, place.width)
+        dy = 2 * _apart(here.y, here.height, place.y, place.height)
+        ends = (self.selected, item) if across + down > 0 else (item, self.selected)
+        straight, aside = (dx, dy) if across else (dy, dx)
+        return straight + 3 * aside - (60 if ends in self._links else 0), item
 
     def action_scroll_picture(self, across: int, down: int) -> None:
         """Scroll by half of what is seen."""
@@ -156,14 +193,20 @@ class DiagramView(ScrollView, can_focus=True):
 
     def on_click(self, event: MouseEvent) -> None:
         """Select what was clicked."""
-        x, y = event.x + self.scroll_offset.x, event.y + self.scroll_offset.y
+        x, y = event.x + self.scroll_offset.x - self._indent, event.y + self.scroll_offset.y
         for each, place in self.places.items():
             if place.x <= x < place.x + place.width and place.y <= y < place.y + place.height:
                 self.selected = each
 
     def on_resize(self) -> None:
-        """Keep the selected item in view."""
+        """Choose the direction anew, and keep the selected item in view."""
+        self._choose()
         self.show_selected()
+
+
+def _apart(begin: int, length: int, other: int, other_length: int) -> int:
+    """The free cells between two stretches; 0 where they overlap."""
+    return max(0, other - begin - length, begin - other - other_length)
 
 
 def _beyond(here: Place, there: Place, across: int, down: int) -> bool:

@@ -7,6 +7,7 @@ from typing import ClassVar, TypeAlias
 
 from rich.segment import Segment
 from textual.geometry import Region
+from textual.message import Message
 from textual.strip import Strip
 from textual.widget import Widget
 
@@ -25,7 +26,7 @@ class Picture(Widget):
     )  # fmt: skip
     DEFAULT_CSS = """
     Picture { height: 1fr; background: $surface; color: $text; }
-    .picture--dim { color: $text-muted; }
+    .picture--dim { color: $secondary; }
     .picture--strong { text-style: bold; }
     .picture--good { color: $success; }
     .picture--warn { color: $warning; }
@@ -40,6 +41,9 @@ class Picture(Widget):
     .picture--curve-5 { color: #c6d166; }
     """
     COMPONENT_CLASSES: ClassVar[set[str]] = {f"picture--{each}" for each in STYLES}
+
+    class Resized(Message):
+        """There is another size to draw for."""
 
     def __init__(self, *, id: str | None = None) -> None:
         super().__init__(id=id)
@@ -65,3 +69,7 @@ class Picture(Widget):
             for text, name in pieces
         ]
         return Strip(segments).adjust_cell_length(self.size.width, base)
+
+    def on_resize(self) -> None:
+        """Tell, so that lines for this size are made."""
+        self.post_message(self.Resized())

@@ -16,7 +16,7 @@ class RowList(ScrollView, can_focus=True):
 
     BINDINGS = keymap.bindings("list")
     DEFAULT_CSS = """
-    RowList { height: 1fr; background: $surface; scrollbar-size-vertical: 1; overflow-x: hidden; }
+    RowList { height: 1fr; background: $surface; scrollbar-size-vertical: 1; scrollbar-background: $surface; overflow-x: hidden; }
     RowList:focus { background: $surface; }
     """
     COMPONENT_CLASSES = {"row-list--cursor", "row-list--dim", "row-list--head", "row-list--warn", "row-list--error",

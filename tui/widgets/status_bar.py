@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bot_console.tui.console.model import ConsoleSnapshot, DriveInfo, ProcessState, Severity
+from bot_console.tui.format import harmless
 from rich.text import Text
 from textual.widgets import Static
 
@@ -33,17 +34,17 @@ def status_text(snapshot: ConsoleSnapshot, held_back: int = 0) -> str:
     if snapshot.problem:
         return snapshot.problem
     parts = ["ALL STOP (! releases)"] if snapshot.drive.stopped else []
-    parts.append(drive_text(snapshot.drive))
-    if snapshot.active_profile:
-        parts.append(snapshot.active_profile)
     dead = [each.label for each in snapshot.launch.processes if each.state is ProcessState.CRASHED]
     if dead:
-        parts.append(f"✗ ended: {', '.join(dead)}")
+        parts.append(f"✗ ended: {harmless(', '.join(dead))}")
     errors = sum(snapshot.logs.counts.get(each, 0) for each in (Severity.ERROR, Severity.FATAL))
     if errors:
         parts.append(f"{errors} error{'s' if errors > 1 else ''}")
+    parts.append(drive_text(snapshot.drive))
+    if snapshot.active_profile:
+        parts.append(harmless(snapshot.active_profile))
     if snapshot.launch.problem:
-        parts.append(snapshot.launch.problem)
+        parts.append(harmless(snapshot.launch.problem))
     if held_back:
         parts.append(f"slow link: {held_back} frames merged in 5 s")
     return "  ".join(each for each in parts if each)
@@ -56,10 +57,9 @@ def drive_text(drive: DriveInfo) -> str:
     parts: list[str] = []
     if drive.asked is not None:
         parts.append(f"asked {drive.asked[0]:+.1f}")
-    if drive.limited_by:
-        parts.append(f"limited by {drive.limited_by}")
     if drive.final is not None:
-        parts.append(f"command {drive.final[0]:+.1f} m/s {drive.final[1]:+.1f} rad/s")
+        why = f" ({harmless(drive.limited_by)})" if drive.limited_by else ""
+        parts.append(f"command {drive.final[0]:+.1f} m/s {drive.final[1]:+.1f} rad/s{why}")
     if drive.actual is not None:
         parts.append(f"actual {drive.actual[0]:+.1f} m/s")
     return " → ".join(parts)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
+from bot_console.tui.widgets.diagram.flow import RIGHT, Flow
 from bot_console.tui.widgets.diagram.graph import Digraph, Item
 from bot_console.tui.widgets.diagram.layering import Edge, Layers, layers
 from bot_console.tui.widgets.diagram.lines import Lines
@@ -14,8 +15,6 @@ from bot_console.tui.widgets.diagram.routing import Channel, Trunk, channel
 from rich.cells import cell_len
 
 ATTEMPTS = 6
-TRACK = 2
-"""Cells from one vertical line to the next."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +58,7 @@ class Drawing:
         return "\n".join(lines)
 
 
-def draw(graph: Digraph) -> Drawing:
+def draw(graph: Digraph, flow: Flow = RIGHT) -> Drawing:
     """Lay a graph out and draw it."""
     if not graph.items:
         return Drawing((), {})
@@ -70,7 +69,7 @@ def draw(graph: Digraph) -> Drawing:
     for _, b in (*found.forward, *found.back):
         arrows_in[b] = arrows_in.get(b, 0) + 1
     pushed: dict[Key, int] = {}
-    plan = _Plan(items, found, columns, placed(columns, items, arrows_in, pushed))
+    plan = _Plan(items, found, columns, placed(columns, items, arrows_in, pushed, flow), flow)
     for _ in range(ATTEMPTS):
         blocked = {key for each in plan.channels for key in each.blocked}
         if not blocked:
@@ -78,18 +77,19 @@ def draw(graph: Digraph) -> Drawing:
         # Two arrows would lie on one row: one item moves a row down.
         for key in blocked:
             pushed[key] = pushed.get(key, 0) + 1
-        plan = _Plan(items, found, columns, placed(columns, items, arrows_in, pushed))
+        plan = _Plan(items, found, columns, placed(columns, items, arrows_in, pushed, flow), flow)
     return plan.picture()
 
 
 class _Plan:
     """Rows, ports, tracks and lanes of one attempt."""
 
-    def __init__(self, items: Mapping[str, Item], found: Layers, columns: Columns, at: Placed) -> None:
+    def __init__(self, items: Mapping[str, Item], found: Layers, columns: Columns, at: Placed, flow: Flow) -> None:
         self.items = items
         self.found = found
         self.columns = columns
         self.at = at
+        self.flow = flow
         self.back: dict[str, list[str]] = {}
         for a, b in found.back:
             self.back.setdefault(a, []).append(b)
@@ -109,7 +109,7 @@ class _Plan:
             if fit == len(lanes):
                 lanes.append([])
             lanes[fit].append((begin, end))
-            rows[owner] = self.at.bottom + 1 + fit
+            rows[owner] = self.at.bottom + 1 + fit * self.flow.lane
         return rows
 
     def _ports(self) -> dict[Edge, int]:
@@ -123,9 +123,9 @@ class _Plan:
         ports: dict[Edge, int] = {}
         for target, sources in coming.items():
             key = (target, ITEM)
-            first = self.at.top[key] + (1 if self.items[target].boxed else 0)
+            first = self.flow.first_port(self.at.top[key], self.at.height[key], len(sources))
             for row, (_, source) in enumerate(sorted(sources)):
-                ports[source, target] = first + row
+                ports[source, target] = first + row * self.flow.port
         return ports
 
     def _trunks(self, column: int) -> list[Trunk]:
@@ -157,7 +157,7 @@ class _Plan:
     def picture(self) -> Drawing:
         """Draw everything."""
         widths = [self._width(column) for column in self.columns.columns]
-        lines = Lines()
+        lines = Lines(self.flow.downward)
         x = 0
         left: list[int] = []
         for at, here in enumerate(self.channels):
@@ -165,23 +165,24 @@ class _Plan:
                 left.append(0)
                 continue
             first = x
-            room = 3 if here.tracks == 0 else 2 + TRACK * here.tracks
+            room = self.flow.room(here.tracks)
             if at == len(self.channels) - 1 and not self.trunks[at]:
                 room = 0
             x += room
             left.append(x)
             for trunk in self.trunks[at]:
-                vertical = first + 1 + TRACK * here.track.get(trunk.owner, 0)
+                vertical = first + 1 + self.flow.track * here.track.get(trunk.owner, 0)
                 self._draw_trunk(lines, trunk, first, vertical, x, at - 1, widths)
             x += widths[at] if at < len(widths) else 0
         places = self._places(left, widths)
         boxes = _boxes(places, self.items)
-        rows = max([self.at.bottom, *(row + 1 for row in self.lanes.values())])
-        return Drawing(_runs(rows, lines, boxes), places, x, (*self.found.forward, *self.found.back))
+        edge = max([self.at.bottom, *(row + 1 for row in self.lanes.values())])
+        width, height = (edge, x) if self.flow.downward else (x, edge)
+        return Drawing(_runs(height, lines, boxes), places, width, (*self.found.forward, *self.found.back))
 
     def _width(self, column: Iterable[Key]) -> int:
         labels = (self.items[each] for each, kind in column if kind == ITEM)
-        return max((cell_len(item.label) + (4 if item.boxed else 2) for item in labels), default=1)
+        return max((self.flow.along(item) for item in labels), default=1)
 
     def _draw_trunk(
         self, lines: Lines, trunk: Trunk, first: int, vertical: int, end: int, column: int, widths: list[int]
@@ -216,7 +217,7 @@ class _Plan:
         item = self.items[owner]
         if column < 0 or self.found.column[owner] != column:
             return 0
-        return widths[column] - cell_len(item.label) - (4 if item.boxed else 2)
+        return widths[column] - self.flow.along(item)
 
     def _draw_lane(self, lines: Lines, trunk: Trunk, vertical: int, edges: frozenset[Edge]) -> None:
         if trunk.down is None:
@@ -235,8 +236,12 @@ class _Plan:
                 if kind == ITEM:
                     item = self.items[each]
                     key = (each, ITEM)
-                    width = cell_len(item.label) + (4 if item.boxed else 2)
-                    places[each] = Place(left[at], self.at.top[key], width, self.at.height[key], item.boxed)
+                    along, across = self.flow.along(item), self.at.height[key]
+                    places[each] = (
+                        Place(self.at.top[key], left[at], across, along, item.boxed)
+                        if self.flow.downward
+                        else Place(left[at], self.at.top[key], along, across, item.boxed)
+                    )
         return places
 
 
@@ -247,14 +252,19 @@ def _boxes(places: Mapping[str, Place], items: Mapping[str, Item]) -> dict[int, 
         middle = (place.height - 1) // 2
         for row in range(place.height):
             if not place.boxed:
-                text = f" {label} " if row == middle else " " * place.width
+                text = _centred(label, place.width) if row == middle else " " * place.width
             elif row in (0, place.height - 1):
                 ends = "╭╮" if row == 0 else "╰╯"
                 text = ends[0] + "─" * (place.width - 2) + ends[1]
             else:
-                text = f"│ {label} │" if row == middle else f"│{' ' * (place.width - 2)}│"
+                text = f"│{_centred(label if row == middle else '', place.width - 2)}│"
             rows.setdefault(place.y + row, []).append(Run(place.x, text, each))
     return rows
+
+
+def _centred(text: str, width: int) -> str:
+    free = width - cell_len(text)
+    return " " * (free // 2) + text + " " * (free - free // 2)
 
 
 def _runs(count: int, lines: Lines, boxes: Mapping[int, list[Run]]) -> tuple[tuple[Run, ...], ...]:

@@ -26,13 +26,17 @@ LETTERS = {
     RIGHT: "─",
 }
 CROSSING = "┼"
-ARROW = "▶"
+TURNED = {UP: LEFT, DOWN: RIGHT, LEFT: UP, RIGHT: DOWN}
 
 
 class Lines:
-    """Strokes by cell and by the item whose arrows they are; lines of one item join, those of two cross."""
+    """Strokes by cell and by the item whose arrows they are; lines of one item join, those of two cross.
 
-    def __init__(self) -> None:
+    Everything is given for arrows that run to the right; `downward` exchanges rows and columns.
+    """
+
+    def __init__(self, downward: bool = False) -> None:
+        self._downward = downward
         self._strokes: dict[int, dict[int, dict[str, int]]] = {}
         self._edges: dict[tuple[int, int], set[Edge]] = {}
         self._arrows: set[tuple[int, int]] = set()
@@ -41,6 +45,9 @@ class Lines:
     def _add(self, x: int, y: int, strokes: int, edges: frozenset[Edge]) -> None:
         if not edges or not strokes:
             return
+        if self._downward:
+            x, y = y, x
+            strokes = sum(turned for stroke, turned in TURNED.items() if strokes & stroke)
         owner = next(iter(edges))[0]
         cell = self._strokes.setdefault(y, {}).setdefault(x, {})
         cell[owner] = cell.get(owner, 0) | strokes
@@ -67,7 +74,7 @@ class Lines:
 
     def arrow(self, x: int, y: int, edges: frozenset[Edge]) -> None:
         """The head of an arrow."""
-        self._arrows.add((x, y))
+        self._arrows.add((y, x) if self._downward else (x, y))
         self._add(x, y, LEFT, edges)
 
     def row(self, y: int) -> Iterator[tuple[int, str, frozenset[Edge]]]:
@@ -86,7 +93,7 @@ class Lines:
 
     def _letter(self, x: int, y: int) -> str:
         if (x, y) in self._arrows:
-            return ARROW
+            return "▼" if self._downward else "▶"
         owners = self._strokes[y][x]
         if len(owners) > 1:
             return CROSSING

@@ -1,14 +1,23 @@
-"""On which rows the items stand: near the middle of their neighbours, in order, without touching. Pure."""
+"""On which rows the items stand: near the middle of their neighbours, in order, without touching. Pure.
+
+Rows and columns are meant for arrows that run to the right; with arrows that run down they are exchanged.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from bot_console.tui.widgets.diagram.flow import Flow
 from bot_console.tui.widgets.diagram.graph import Item
 from bot_console.tui.widgets.diagram.ordering import ITEM, Columns, Key
 
-SWEEPS = 6
+SWEEPS = 7
+STRAIGHT = 8.0
+"""How much more it matters to keep an arrow straight that is the only one of its item."""
+
+BEND = 6
+"""Cells by which an item is moved at most to straighten an arrow."""
 
 
 @dataclass
@@ -29,19 +38,19 @@ class Placed:
 
 
 def placed(
-    columns: Columns, items: Mapping[str, Item], arrows_in: Mapping[str, int], pushed: Mapping[Key, int]
+    columns: Columns, items: Mapping[str, Item], arrows_in: Mapping[str, int], pushed: Mapping[Key, int], flow: Flow
 ) -> Placed:
     """Rows for everything; `arrows_in` is how many arrows end at an item, `pushed` adds free rows above a key."""
     result = Placed()
     for column in columns.columns:
         for key in column:
-            inside = max(1, arrows_in.get(key[0], 1)) if key[1] == ITEM else 1
-            result.height[key] = inside + 2 if key[1] == ITEM and items[key[0]].boxed else inside
+            across = flow.across(items[key[0]], arrows_in.get(key[0], 0)) if key[1] == ITEM else 1
+            result.height[key] = across
     for column in columns.columns:
         row = 0
         for key in column:
             result.top[key] = row
-            row += result.height[key] + 1
+            row += result.height[key] + flow.gap
     before: dict[Key, list[Key]] = {}
     for source, targets in columns.steps.items():
         for target in targets:
@@ -50,17 +59,19 @@ def placed(
         order = columns.columns if sweep % 2 == 0 else columns.columns[::-1]
         neighbours: Mapping[Key, Sequence[Key]] = before if sweep % 2 == 0 else columns.steps
         for column in order:
-            _settle(column, neighbours, result, pushed)
+            _settle(column, neighbours, result, pushed, flow.gap)
+    _straighten(columns.columns, before, result, flow.gap)
     highest = min(result.top.values(), default=0)
     result.top = {key: row - highest for key, row in result.top.items()}
     return result
 
 
 def _settle(
-    column: Sequence[Key], neighbours: Mapping[Key, Sequence[Key]], result: Placed, pushed: Mapping[Key, int]
+    column: Sequence[Key], neighbours: Mapping[Key, Sequence[Key]], result: Placed, pushed: Mapping[Key, int], gap: int
 ) -> None:
     wanted: list[float] = []
     offsets: list[int] = []
+    weights: list[float] = []
     offset = 0
     for key in column:
         offset += pushed.get(key, 0)
@@ -69,19 +80,37 @@ def _settle(
         row = near[len(near) // 2] - lift if near else result.top[key]
         wanted.append(row - offset)
         offsets.append(offset)
-        offset += result.height[key] + 1
-    for key, row, below in zip(column, _monotone(wanted), offsets, strict=True):
+        weights.append(STRAIGHT if len(near) == 1 else 1.0)
+        offset += result.height[key] + gap
+    for key, row, below in zip(column, _monotone(wanted, weights), offsets, strict=True):
         result.top[key] = round(row) + below
 
 
-def _monotone(wanted: Sequence[float]) -> list[float]:
+def _straighten(
+    columns: Sequence[Sequence[Key]], neighbours: Mapping[Key, Sequence[Key]], result: Placed, gap: int
+) -> None:
+    """Take out small bends: what has one neighbour only stands on its line, where there is room."""
+    for column in columns:
+        for at, key in enumerate(column):
+            near = neighbours.get(key, ())
+            if len(near) != 1:
+                continue
+            top = result.top[key] + result.middle(near[0]) - result.middle(key)
+            above = result.top[column[at - 1]] + result.height[column[at - 1]] + gap if at > 0 else top
+            below = result.top[column[at + 1]] - gap - result.height[key] if at + 1 < len(column) else top
+            if abs(top - result.top[key]) <= BEND and above <= top <= below:
+                result.top[key] = top
+
+
+def _monotone(wanted: Sequence[float], weights: Sequence[float]) -> list[float]:
     """The non-decreasing sequence nearest to what is wanted (pooling neighbours that want to overtake)."""
-    pools: list[tuple[float, int]] = []
-    for each in wanted:
-        mean, count = each, 1
+    pools: list[tuple[float, float, int]] = []
+    for each, heft in zip(wanted, weights, strict=True):
+        mean, weight, count = each, heft, 1
         while pools and pools[-1][0] > mean:
-            other, size = pools.pop()
-            mean = (mean * count + other * size) / (count + size)
-            count += size
-        pools.append((mean, count))
-    return [mean for mean, count in pools for _ in range(count)]
+            other, size, many = pools.pop()
+            mean = (mean * weight + other * size) / (weight + size)
+            weight += size
+            count += many
+        pools.append((mean, weight, count))
+    return [mean for mean, _, count in pools for _ in range(count)]

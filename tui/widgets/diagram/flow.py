@@ -1,0 +1,55 @@
+"""Which way the arrows run, and what that means for sizes. Pure.
+
+Layout knows two directions only: along the arrows and across them. `Flow` says how many cells things take in each.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from bot_console.tui.widgets.diagram.graph import Item
+from rich.cells import cell_len
+
+
+@dataclass(frozen=True)
+class Flow:
+    """A direction of arrows and the distances that look right in it, in cells."""
+
+    downward: bool
+    track: int
+    """From one line to the next in a channel."""
+    port: int
+    """From one arrow head to the next at an item."""
+    gap: int
+    """Between two items that stand across."""
+    lane: int
+    """From one way back to the next."""
+    shortest: int
+    """The length of an arrow that runs straight."""
+
+    def along(self, item: Item) -> int:
+        """The cells of an item in the direction of the arrows."""
+        return (3 if item.boxed else 1) if self.downward else self._label(item)
+
+    def across(self, item: Item, arrows_in: int) -> int:
+        """The cells of an item across the arrows; each arrow that ends at it has a place of its own."""
+        ports = max(1, arrows_in)
+        if self.downward:
+            return max(self._label(item), self.port * (ports - 1) + 1 + (4 if item.boxed else 2))
+        return ports + (2 if item.boxed else 0)
+
+    def first_port(self, top: int, size: int, arrows_in: int) -> int:
+        """Where the first of the arrows into an item ends."""
+        return top + (size - (self.port * (arrows_in - 1) + 1)) // 2
+
+    def room(self, tracks: int) -> int:
+        """The cells of a channel with so many tracks."""
+        return max(self.shortest, 2 + self.track * tracks)
+
+    @staticmethod
+    def _label(item: Item) -> int:
+        return cell_len(item.label) + (4 if item.boxed else 2)
+
+
+RIGHT = Flow(downward=False, track=2, port=1, gap=1, lane=1, shortest=3)
+DOWN = Flow(downward=True, track=1, port=2, gap=2, lane=2, shortest=2)
