@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 import signal
 import sys
 import threading
@@ -29,6 +30,12 @@ LAST_WORD = 0.2
 READY = 20.0
 LINE_LIMIT = 15.0
 """Seconds after which a `ros2` line that does not end by itself is interrupted, as by Ctrl-C."""
+
+OWN_LOG = {"OVERRIDE_LAUNCH_PROCESS_OUTPUT": "own_log"}
+"""Launch does not repeat on its screen what processes print: the console reads it from launch's events."""
+
+LAUNCH_LINE = re.compile(r"\[([A-Z]+)\] \[([^\]]+)\]: (.*)")
+LEVELS = {"DEBUG": Severity.DEBUG, "WARNING": Severity.WARN, "ERROR": Severity.ERROR, "CRITICAL": Severity.FATAL}
 
 
 class Session:
@@ -117,10 +124,14 @@ class Launching:
     def __init__(self, target: Callable[[], None], printed: Callable[[int, str, str], None]) -> None:
         self._process = NodeProcess("launch")
 
-        def tell(severity: Severity) -> Callable[[str], None]:
-            return lambda text: printed(severity, "launch", text.rstrip("\n")) if text.strip() else None
+        def tell(text: str) -> None:
+            line = LAUNCH_LINE.match(text)
+            if line:
+                printed(LEVELS.get(line[1], Severity.INFO), line[2], line[3])
+            elif text.strip():
+                printed(Severity.INFO, "launch", text.rstrip("\n"))
 
-        self._process.start(target, stdout=tell(Severity.INFO), stderr=tell(Severity.WARN))
+        self._process.start(target, env={**os.environ, **OWN_LOG}, stdout=tell, stderr=tell)
 
     def join(self, timeout: float | None = None) -> object:
         """Wait for the end, at most so many seconds."""
