@@ -1,6 +1,5 @@
 """The embedded launch: the public API of ROS 2 Jazzy's `launch`."""
 
-from launch import actions, conditions, events, substitutions
 from launch.action import Action
 from launch.condition import Condition
 from launch.event import Event
@@ -13,6 +12,8 @@ from launch.launch_service import LaunchService
 from launch.some_entities_type import SomeEntitiesType
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
+
+from launch import actions, conditions, events, substitutions
 
 __all__ = [
     "Action",

@@ -41,7 +41,8 @@ class BaseEventHandler:
 
     def describe(self) -> tuple[str, list[Any]]:
         """A text and the entities below."""
-        return f"{type(self).__name__}(matcher='{self.matcher_description}', handler='{self.handler_description}')", []
+        text = f"matcher='{self.matcher_description}', handler='{self.handler_description}', handle_once={self.handle_once}"
+        return f"{type(self).__name__}({text})", []
 
     def handle(self, event: Any, context: Any) -> SomeEntitiesType | None:
         """Entities to visit for the event."""

@@ -47,7 +47,7 @@ class LaunchDescription(LaunchDescriptionEntity):
             path = context.get_locals_as_dict().get("current_launch_file_path", "")
             where = f"launch file [{path}]" if path else "launch description"
             reason = f": {self.__deprecated_reason}" if self.__deprecated_reason else ""
-            launch.logging.get_logger("launch").warning(f"{where} is deprecated{reason}")
+            launch.logging.get_logger().warning(f"{where} is deprecated{reason}")
         return self.__entities
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:

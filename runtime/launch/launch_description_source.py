@@ -10,7 +10,9 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 class LaunchDescriptionSource:
     """A launch description that is given, or read from a file when it is first needed."""
 
-    def __init__(self, launch_description: Any = None, location: Any = "", method: str = "unspecified mechanism from a script") -> None:
+    def __init__(
+        self, launch_description: Any = None, location: Any = "", method: str = "unspecified mechanism from a script"
+    ) -> None:
         self.__launch_description = launch_description
         self.__expanded_location: str | None = None
         self.__location = normalize_to_list_of_substitutions(location)

@@ -22,9 +22,7 @@ from launch.utilities import visit_all_entities_and_collect_futures
 class LaunchService:
     """Visits launch descriptions and handles events until nothing is left to do. May run in any thread."""
 
-    def __init__(
-        self, *, argv: Iterable[str] | None = None, noninteractive: bool = False, debug: bool = False
-    ) -> None:
+    def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False, debug: bool = False) -> None:
         self.__argv = list(argv) if argv is not None else []
         self.__debug = debug
         if debug:
@@ -159,9 +157,7 @@ class LaunchService:
             if entity is None:
                 continue
             if not hasattr(entity, "visit"):
-                raise RuntimeError(
-                    f"expected a LaunchDescriptionEntity from event_handler, got '{entity}'"
-                )
+                raise RuntimeError(f"expected a LaunchDescriptionEntity from event_handler, got '{entity}'")
             for _, future in visit_all_entities_and_collect_futures(entity, self.__context):
                 self.__pending.add(future)
 

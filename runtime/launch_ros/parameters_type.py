@@ -11,4 +11,4 @@ from launch_ros.parameter_descriptions import Parameter, ParameterFile
 
 SomeParameterFile = Union[SomeSubstitutionsType, Path]
 SomeParametersDict = Mapping[SomeSubstitutionsType, Any]
-SomeParameters = Sequence[Union[SomeParameterFile, Parameter, ParameterFile, SomeParametersDict]]
+SomeParameters = Sequence[SomeParameterFile | Parameter | ParameterFile | SomeParametersDict]

@@ -99,6 +99,8 @@ class DeclareLaunchArgument(Action):
             context.launch_configurations[self.name] = perform_substitutions(context, self.default_value)
         value = context.launch_configurations[self.name]
         if self.__choices is not None and value not in self.__choices:
-            message = f'Argument "{self.name}" provided value "{value}" is not valid. Valid options are: {self.__choices}'
+            message = (
+                f'Argument "{self.name}" provided value "{value}" is not valid. Valid options are: {self.__choices}'
+            )
             self.__logger.error(message)
             raise RuntimeError(message)

@@ -195,7 +195,9 @@ class ExecuteLocal(Action):
         return [
             OnTargetedProcess(ShutdownProcess, self, lambda event, context: self._shutdown_process(context, True)),
             OnTargetedProcess(SignalProcess, self, self.__on_signal),
-            OnProcessIO(target_action=self, on_stdin=self.__on_stdin, on_stdout=self.__on_text, on_stderr=self.__on_text),
+            OnProcessIO(
+                target_action=self, on_stdin=self.__on_stdin, on_stdout=self.__on_text, on_stderr=self.__on_text
+            ),
             OnShutdown(on_shutdown=self.__on_shutdown),
             *([OnProcessExit(target_action=self, on_exit=self.__on_exit)] if self.__on_exit else []),
             OnProcessExit(target_action=self, on_exit=self.__flush),

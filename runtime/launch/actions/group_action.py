@@ -6,8 +6,11 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from launch.action import Action
-from launch.actions.push_environment import PopEnvironment, PushEnvironment, ResetEnvironment
-from launch.actions.push_launch_configurations import PopLaunchConfigurations, PushLaunchConfigurations
+from launch.actions.pop_environment import PopEnvironment
+from launch.actions.pop_launch_configurations import PopLaunchConfigurations
+from launch.actions.push_environment import PushEnvironment
+from launch.actions.push_launch_configurations import PushLaunchConfigurations
+from launch.actions.reset_environment import ResetEnvironment
 from launch.actions.reset_launch_configurations import ResetLaunchConfigurations, parse_kept
 from launch.actions.set_launch_configuration import SetLaunchConfiguration
 from launch.frontend import expose_action

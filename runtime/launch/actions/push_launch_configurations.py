@@ -13,11 +13,3 @@ class PushLaunchConfigurations(Action):
     def execute(self, context: Any) -> None:
         """Save them."""
         context._push_launch_configurations()
-
-
-class PopLaunchConfigurations(Action):
-    """Takes the launch configurations back that were saved last."""
-
-    def execute(self, context: Any) -> None:
-        """Take them back."""
-        context._pop_launch_configurations()

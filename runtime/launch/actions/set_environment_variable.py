@@ -1,15 +1,13 @@
-"""Changing environment variables."""
+"""Setting an environment variable."""
 
 from __future__ import annotations
 
-import os
 from typing import Any
 
 from launch.action import Action
 from launch.frontend import expose_action
 from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
-from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
 
 
 @expose_action("set_env")
@@ -43,87 +41,3 @@ class SetEnvironmentVariable(Action):
         """Set it."""
         name = perform_substitutions(context, self.__name)
         context.environment[name] = perform_substitutions(context, self.__value)
-
-
-@expose_action("unset_env")
-class UnsetEnvironmentVariable(Action):
-    """Unsets a variable for processes that are visited later."""
-
-    def __init__(self, name: Any, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.__name = normalize_to_list_of_substitutions(name)
-
-    @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[type[UnsetEnvironmentVariable], dict[str, Any]]:
-        """From XML or YAML."""
-        _, kwargs = super().parse(entity, parser)
-        kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
-        return cls, kwargs
-
-    @property
-    def name(self) -> list[Substitution]:
-        """Its name."""
-        return self.__name
-
-    def execute(self, context: Any) -> None:
-        """Unset it, if it is set."""
-        context.environment.pop(perform_substitutions(context, self.__name), None)
-
-
-@expose_action("append_env")
-class AppendEnvironmentVariable(Action):
-    """Adds to a variable, behind what it has or before it."""
-
-    def __init__(
-        self, name: Any, value: Any, prepend: Any = False, separator: Any = os.pathsep, **kwargs: Any
-    ) -> None:
-        super().__init__(**kwargs)
-        self.__name = normalize_to_list_of_substitutions(name)
-        self.__value = normalize_to_list_of_substitutions(value)
-        self.__prepend = normalize_typed_substitution(prepend, bool)
-        self.__separator = normalize_to_list_of_substitutions(separator)
-
-    @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[type[AppendEnvironmentVariable], dict[str, Any]]:
-        """From XML or YAML."""
-        _, kwargs = super().parse(entity, parser)
-        kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
-        kwargs["value"] = parser.parse_substitution(entity.get_attr("value"))
-        prepend = entity.get_attr("prepend", optional=True, data_type=bool, can_be_str=True)
-        if prepend is not None:
-            kwargs["prepend"] = parser.parse_if_substitutions(prepend)
-        separator = entity.get_attr("separator", optional=True)
-        if separator is not None:
-            kwargs["separator"] = parser.parse_substitution(separator)
-        return cls, kwargs
-
-    @property
-    def name(self) -> list[Substitution]:
-        """Its name."""
-        return self.__name
-
-    @property
-    def value(self) -> list[Substitution]:
-        """What is added."""
-        return self.__value
-
-    @property
-    def prepend(self) -> Any:
-        """Whether it goes before what is there."""
-        return self.__prepend
-
-    @property
-    def separator(self) -> list[Substitution]:
-        """What goes between."""
-        return self.__separator
-
-    def execute(self, context: Any) -> None:
-        """Add it."""
-        name = perform_substitutions(context, self.__name)
-        value = perform_substitutions(context, self.__value)
-        before = perform_typed_substitution(context, self.__prepend, bool)
-        separator = perform_substitutions(context, self.__separator)
-        if name in context.environment:
-            old = context.environment[name]
-            value = f"{value}{separator}{old}" if before else f"{old}{separator}{value}"
-        context.environment[name] = value

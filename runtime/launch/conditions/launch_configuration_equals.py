@@ -28,10 +28,3 @@ class LaunchConfigurationEquals(Condition):
     def _holds(self, context: Any) -> bool:
         expected = None if self.__expected is None else perform_substitutions(context, self.__expected)
         return context.launch_configurations.get(self.__name) == expected
-
-
-class LaunchConfigurationNotEquals(LaunchConfigurationEquals):
-    """Holds when a launch configuration does not have a value."""
-
-    def _holds(self, context: Any) -> bool:
-        return not super()._holds(context)

@@ -36,7 +36,9 @@ class Executable:
         self.__prefix = normalize_to_list_of_substitutions(
             LaunchConfiguration("launch-prefix", default="") if prefix is None else prefix
         )
-        self.__prefix_filter = normalize_to_list_of_substitutions(LaunchConfiguration("launch-prefix-filter", default=""))
+        self.__prefix_filter = normalize_to_list_of_substitutions(
+            LaunchConfiguration("launch-prefix-filter", default="")
+        )
         self.__name = name if name is None else normalize_to_list_of_substitutions(name)
         self.__cwd = cwd if cwd is None else normalize_to_list_of_substitutions(cwd)
         self.__env = _pairs(env)

@@ -22,7 +22,9 @@ class OnActionEventBase(BaseEventHandler):
         handle_once: bool = False,
         **kwargs: Any,
     ) -> None:
-        if action_matcher is not None and not (isinstance(action_matcher, target_action_cls) or callable(action_matcher)):
+        if action_matcher is not None and not (
+            isinstance(action_matcher, target_action_cls) or callable(action_matcher)
+        ):
             raise TypeError(f"action_matcher must be an '{target_action_cls.__name__}' instance or a callable")
         self.__target_event_cls = target_event_cls
         self.__action_matcher = action_matcher
@@ -59,9 +61,7 @@ class OnActionEventBase(BaseEventHandler):
         """A text and the entities."""
         if self.__entities is not None:
             return super().describe()[0], list(self.__entities)
-        action = repr(self.__callback)
-        text = f"{type(self).__name__}(matcher='{self.matcher_description}', handler={action})"
-        return text, []
+        return super().describe()
 
     @property
     def handler_description(self) -> str:

@@ -5,7 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from launch.launch_description_source import LaunchDescriptionSource
-from launch.launch_description_sources.python_launch_file_utilities import get_launch_description_from_python_launch_file
+from launch.launch_description_sources.python_launch_file_utilities import (
+    get_launch_description_from_python_launch_file,
+)
 
 
 class PythonLaunchDescriptionSource(LaunchDescriptionSource):

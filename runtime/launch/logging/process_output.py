@@ -26,7 +26,9 @@ WORDS: Mapping[str, Mapping[str, frozenset[str]]] = {
 }
 
 
-def get_output_loggers(process_name: str, output_config: Any, main_log_file_name: str = "launch.log") -> tuple[Any, Any]:
+def get_output_loggers(
+    process_name: str, output_config: Any, main_log_file_name: str = "launch.log"
+) -> tuple[Any, Any]:
     """Loggers for lines of a process's stdout and stderr; raises `ValueError` for settings that mean nothing."""
     places = _normalized(os.environ.get(OVERRIDE) or output_config)
     loggers = []

@@ -10,7 +10,7 @@ from launch.substitutions.boolean_substitution import (
 )
 from launch.substitutions.command import Command
 from launch.substitutions.environment_variable import EnvironmentVariable
-from launch.substitutions.equals_substitution import EqualsSubstitution, NotEqualsSubstitution
+from launch.substitutions.equals_substitution import EqualsSubstitution
 from launch.substitutions.file_content import FileContent
 from launch.substitutions.find_executable import FindExecutable
 from launch.substitutions.for_loop_index import ForEachVar, ForLoopIndex
@@ -18,6 +18,7 @@ from launch.substitutions.if_else_substitution import IfElseSubstitution
 from launch.substitutions.launch_configuration import LaunchConfiguration
 from launch.substitutions.launch_log_dir import LaunchLogDir
 from launch.substitutions.local_substitution import LocalSubstitution
+from launch.substitutions.not_equals_substitution import NotEqualsSubstitution
 from launch.substitutions.path_join_substitution import PathJoinSubstitution, PathSubstitution
 from launch.substitutions.python_expression import PythonExpression
 from launch.substitutions.string_join_substitution import StringJoinSubstitution

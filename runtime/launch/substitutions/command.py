@@ -53,9 +53,7 @@ class Command(Substitution):
         command = command if os.name == "nt" else shlex.split(command)
         on_stderr = perform_substitutions(context, self.__on_stderr)
         if on_stderr not in WORDS:
-            raise SubstitutionFailure(
-                "expected 'on_stderr' to be one of: 'fail', 'ignore', 'warn' or 'capture'"
-            )
+            raise SubstitutionFailure("expected 'on_stderr' to be one of: 'fail', 'ignore', 'warn' or 'capture'")
         errors = subprocess.STDOUT if on_stderr == "capture" else subprocess.PIPE
         environment = dict(context.environment)
         try:

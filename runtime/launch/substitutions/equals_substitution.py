@@ -77,14 +77,3 @@ class EqualsSubstitution(Substitution):
     def perform(self, context: Any) -> str:
         """`true` or `false`."""
         return word(self.equal(context))
-
-
-@expose_substitution("not-equals")
-class NotEqualsSubstitution(EqualsSubstitution):
-    """Whether two values differ."""
-
-    _name = "not-equals"
-
-    def perform(self, context: Any) -> str:
-        """`true` or `false`."""
-        return word(not self.equal(context))

@@ -50,7 +50,9 @@ def _pieces(default: Any) -> list[Substitution]:
     if isinstance(default, (str, Substitution)):
         return normalize_to_list_of_substitutions(default)
     if isinstance(default, Iterable):
-        return normalize_to_list_of_substitutions([each if isinstance(each, Substitution) else str(each) for each in default])
+        return normalize_to_list_of_substitutions(
+            [each if isinstance(each, Substitution) else str(each) for each in default]
+        )
     return normalize_to_list_of_substitutions(str(default))
 
 

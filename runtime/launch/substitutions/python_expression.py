@@ -59,4 +59,3 @@ class PythonExpression(Substitution):
 
 def _each(modules: Any) -> Iterable[Any]:
     return (modules,) if isinstance(modules, (str, Substitution)) else modules
-

@@ -47,7 +47,9 @@ class Node(ExecuteProcess):
         arguments: Iterable[Any] | None = None,
         **kwargs: Any,
     ) -> None:
-        cmd: list[Any] = [executable if package is None else ExecutableInPackage(package=package, executable=executable)]
+        cmd: list[Any] = [
+            executable if package is None else ExecutableInPackage(package=package, executable=executable)
+        ]
         cmd += [] if arguments is None else arguments
         if ros_arguments is not None:
             cmd += ["--ros-args"] + ros_arguments  # type: ignore[operator]  # noqa: RUF005 (fails as upstream does)

@@ -52,7 +52,11 @@ def _named(entity: Any, parser: Any) -> dict[Any, Any]:
         raise RuntimeError("nested parameters and value attributes are mutually exclusive")
     if value is not None:
         parsed = parser.parse_if_substitutions(value)
-        result = parsed if kind_name is None and not isinstance(value, str) else ParameterValue(parsed, value_type=_kind(kind_name))
+        result = (
+            parsed
+            if kind_name is None and not isinstance(value, str)
+            else ParameterValue(parsed, value_type=_kind(kind_name))
+        )
         entity.assert_entity_completely_parsed()
         return {name: result}
     if not nested:

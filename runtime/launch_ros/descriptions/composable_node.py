@@ -39,8 +39,10 @@ class ComposableNode:
         """From XML or YAML."""
         from launch_ros.actions.parse_parameters import parse_nested_parameters, parse_remappings
 
-        kwargs: dict[str, Any] = {name: parser.parse_substitution(entity.get_attr(attribute)) for name, attribute in (
-            ("package", "pkg"), ("plugin", "plugin"), ("name", "name"))}
+        kwargs: dict[str, Any] = {
+            name: parser.parse_substitution(entity.get_attr(attribute))
+            for name, attribute in (("package", "pkg"), ("plugin", "plugin"), ("name", "name"))
+        }
         condition = parser.parse_condition(entity)
         if condition is not None:
             kwargs["condition"] = condition
@@ -56,7 +58,11 @@ class ComposableNode:
         extra = entity.get_attr("extra_arg", data_type=list, optional=True)
         if extra is not None:
             kwargs["extra_arguments"] = [
-                {tuple(parser.parse_substitution(each.get_attr("name"))): parser.parse_substitution(each.get_attr("value"))}
+                {
+                    tuple(parser.parse_substitution(each.get_attr("name"))): parser.parse_substitution(
+                        each.get_attr("value")
+                    )
+                }
                 for each in extra
             ]
             for each in extra:

@@ -47,7 +47,6 @@ class ParameterFile:
 
     def _substituted(self, context: Any, path: Path) -> Path:
         import yaml
-
         from launch.frontend.parse_substitution import parse_substitution
         from launch.substitutions import SubstitutionFailure
 

@@ -27,20 +27,3 @@ class RegisterEventHandler(Action):
         """What the handler does."""
         _, entities = self.__event_handler.describe()
         return [(f"{self.__event_handler}", entities)] if entities else []
-
-
-class UnregisterEventHandler(Action):
-    """Lets a handler be asked no more."""
-
-    def __init__(self, event_handler: Any, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.__event_handler = event_handler
-
-    @property
-    def event_handler(self) -> Any:
-        """The handler."""
-        return self.__event_handler
-
-    def execute(self, context: Any) -> None:
-        """Unregister it."""
-        context.unregister_event_handler(self.__event_handler)

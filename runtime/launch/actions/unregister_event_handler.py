@@ -1,0 +1,24 @@
+"""Unregistering event handlers."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.action import Action
+
+
+class UnregisterEventHandler(Action):
+    """Lets a handler be asked no more."""
+
+    def __init__(self, event_handler: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__event_handler = event_handler
+
+    @property
+    def event_handler(self) -> Any:
+        """The handler."""
+        return self.__event_handler
+
+    def execute(self, context: Any) -> None:
+        """Unregister it."""
+        context.unregister_event_handler(self.__event_handler)

@@ -1,0 +1,35 @@
+"""Unsetting an environment variable."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.action import Action
+from launch.frontend import expose_action
+from launch.substitution import Substitution
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+@expose_action("unset_env")
+class UnsetEnvironmentVariable(Action):
+    """Unsets a variable for processes that are visited later."""
+
+    def __init__(self, name: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__name = normalize_to_list_of_substitutions(name)
+
+    @classmethod
+    def parse(cls, entity: Any, parser: Any) -> tuple[type[UnsetEnvironmentVariable], dict[str, Any]]:
+        """From XML or YAML."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
+        return cls, kwargs
+
+    @property
+    def name(self) -> list[Substitution]:
+        """Its name."""
+        return self.__name
+
+    def execute(self, context: Any) -> None:
+        """Unset it, if it is set."""
+        context.environment.pop(perform_substitutions(context, self.__name), None)

@@ -1,0 +1,59 @@
+"""Launch descriptions as a tree of text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from launch.actions import EmitEvent, ExecuteProcess, LogInfo, RegisterEventHandler
+from launch.launch_description import LaunchDescription
+from launch.utilities import normalize_to_list_of_substitutions
+from launch.utilities.type_utils import is_normalized_substitution
+
+
+class LaunchIntrospector:
+    """Writes a launch description as `ros2 launch --print` does: what needs a context is not evaluated."""
+
+    def format_launch_description(self, launch_description: LaunchDescription) -> str:
+        """The tree, one line per entity."""
+        return "\n".join([f"{launch_description!r}", *_tree(launch_description.entities)])
+
+
+def _tree(entities: Sequence[Any]) -> list[str]:
+    lines: list[str] = []
+    for number, entity in enumerate(entities):
+        last = number == len(entities) - 1
+        first, *below = _lines(entity)
+        lines.append(f"{'└── ' if last else '├── '}{first}")
+        lines += [f"{'    ' if last else '│   '}{each}" for each in below]
+    return lines
+
+
+def _lines(entity: Any) -> list[str]:
+    if isinstance(entity, LogInfo):
+        return [f"LogInfo({_described(entity.msg)})"]
+    if isinstance(entity, EmitEvent):
+        return [f"EmitEvent(event='{entity.event.name}')"]
+    if isinstance(entity, ExecuteProcess):
+        return [_process(entity)]
+    if isinstance(entity, RegisterEventHandler):
+        text, entities = entity.event_handler.describe()
+        return [
+            f"RegisterEventHandler('{entity.event_handler!r}'):",
+            f"├── {text}",
+            *(f"    {each}" for each in _tree(list(entities))),
+        ]
+    return [f"Action('{entity!r}')"]
+
+
+def _process(action: ExecuteProcess) -> str:
+    words = ", ".join(_described(each) for each in action.process_description.cmd)
+    cwd = None if action.cwd is None else f"'{_described(action.cwd)}'"
+    env = action.env
+    shown = None if env is None else {_described(name): _described(value) for name, value in env}
+    return f"ExecuteProcess(cmd=[{words}], cwd={cwd}, env={shown}, shell={action.shell})"
+
+
+def _described(value: Iterable[Any] | str) -> str:
+    subs = list(value) if is_normalized_substitution(value) else normalize_to_list_of_substitutions(value)
+    return " + ".join(each.describe() for each in subs)

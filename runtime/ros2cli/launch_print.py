@@ -1,0 +1,20 @@
+"""`ros2 launch --print`."""
+
+from __future__ import annotations
+
+import sys
+
+
+def print_description(path: str) -> int:
+    """Print the tree of a launch file; 1 when the file cannot be read."""
+    from launch.launch_description_sources import get_launch_description_from_any_launch_file
+    from launch.launch_introspector import LaunchIntrospector
+
+    try:
+        description = get_launch_description_from_any_launch_file(path)
+        text = LaunchIntrospector().format_launch_description(description)
+    except Exception as error:  # a launch file is a program: what it raises is told without a traceback
+        print(f"{type(error).__name__}: {error}", file=sys.stderr)
+        return 1
+    print(text)
+    return 0

@@ -1,0 +1,36 @@
+"""`ros2 launch --show-args`."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+HEADER = "Arguments (pass arguments as '<name>:=<value>'):"
+
+
+def show_args(path: str) -> int:
+    """Print the arguments of a launch file with their defaults; 1 when the file cannot be read."""
+    from launch.launch_description_sources import get_launch_description_from_any_launch_file
+
+    try:
+        description = get_launch_description_from_any_launch_file(path)
+        print(HEADER)
+        arguments = description.get_launch_arguments()
+    except Exception as error:  # a launch file is a program: what it raises is told without a traceback
+        print(f"{type(error).__name__}: {error}", file=sys.stderr)
+        return 1
+    if not arguments:
+        print("\n  No arguments.")
+    for each in arguments:
+        print(_text(each))
+    if any(each._conditionally_included for each in arguments):
+        print("\n* argument(s) which are only used if specific conditions occur")
+    return 0
+
+
+def _text(argument: Any) -> str:
+    star = "*" if argument._conditionally_included else ""
+    lines = ["", f"    '{argument.name}':{star}", f"        {argument.description}"]
+    if argument.default_value is not None:
+        lines.append(f"        (default: {' + '.join(each.describe() for each in argument.default_value)})")
+    return "\n".join(lines)

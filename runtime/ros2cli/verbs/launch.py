@@ -1,0 +1,137 @@
+"""`ros2 launch`: a launch file, by its path or by package and name."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+
+from ament_index_python.packages import PackageNotFoundError
+from ros2cli.command import Command, Result
+from ros2cli.launch_file import LaunchFileError, find_launch_file, parse_launch_arguments
+
+
+def _arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "-n",
+        "--noninteractive",
+        default=not sys.stdin or not sys.stdin.isatty(),
+        action="store_true",
+        help="Run the launch system non-interactively, with no terminal associated",
+    )
+    parser.add_argument(
+        "-d",
+        "--debug",
+        default=False,
+        action="store_true",
+        help="Put the launch system in debug mode, provides more verbose output.",
+    )
+    what = parser.add_mutually_exclusive_group()
+    what.add_argument(
+        "-p",
+        "--print",
+        "--print-description",
+        default=False,
+        action="store_true",
+        dest="print",
+        help="Print the launch description to the console without launching it.",
+    )
+    what.add_argument(
+        "-s",
+        "--show-args",
+        "--show-arguments",
+        default=False,
+        action="store_true",
+        dest="show_args",
+        help="Show arguments that may be given to the launch file.",
+    )
+    parser.add_argument(
+        "-a",
+        "--show-all-subprocesses-output",
+        action="store_true",
+        help="Show all launched subprocesses' output by overriding their output configuration.",
+    )
+    parser.add_argument(
+        "--launch-prefix",
+        help="Prefix command, which should go before all executables. Command must be wrapped in quotes if it contains spaces.",
+    )
+    parser.add_argument(
+        "--launch-prefix-filter",
+        help="Regex pattern for filtering which executables the --launch-prefix is applied to.",
+    )
+    parser.add_argument(
+        "package_name", help="Name of the ROS package which contains the launch file, or the path of a launch file"
+    )
+    parser.add_argument("launch_file_name", nargs="?", help="Name of the launch file")
+    parser.add_argument(
+        "launch_arguments",
+        nargs="*",
+        help="Arguments to the launch file; '<name>:=<value>' (for duplicates, last one wins)",
+    )
+
+
+def _launch(arguments: argparse.Namespace) -> Result:
+    words = list(arguments.launch_arguments)
+    try:
+        if os.path.isfile(arguments.package_name):
+            path = arguments.package_name
+            words = [*([arguments.launch_file_name] if arguments.launch_file_name is not None else []), *words]
+        else:
+            path = find_launch_file(arguments.package_name, arguments.launch_file_name)
+    except PackageNotFoundError as error:
+        return f"Package '{arguments.package_name}' not found: {error}"
+    except LaunchFileError as error:
+        return str(error)
+    except ValueError as error:
+        return _no_package_name(arguments.package_name, error)
+    if arguments.show_all_subprocesses_output:
+        os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] = "both"
+    try:
+        return _act(arguments, path, words)
+    except LaunchFileError as error:
+        return str(error)
+
+
+def _act(arguments: argparse.Namespace, path: str, words: list[str]) -> Result:
+    if arguments.show_args:
+        from ros2cli.launch_show_args import show_args
+
+        return show_args(path)
+    if arguments.print:
+        from ros2cli.launch_print import print_description
+
+        return print_description(path)
+    given = parse_launch_arguments(words)
+    if arguments.launch_prefix_filter is not None and arguments.launch_prefix is None:
+        return "--launch-prefix must be specified if --launch-prefix-filter is provided"
+    for name, value in (
+        ("launch-prefix", arguments.launch_prefix),
+        ("launch-prefix-filter", arguments.launch_prefix_filter),
+    ):
+        if value is not None:
+            given[name] = value
+    return launch(path, given, noninteractive=arguments.noninteractive, debug=arguments.debug)
+
+
+def launch(path: str, arguments: dict[str, str], *, noninteractive: bool = False, debug: bool = False) -> int:
+    """Run a launch file to its end; 1 when the launch itself failed, whatever became of its processes."""
+    from launch.actions import IncludeLaunchDescription
+    from launch.launch_description_sources import AnyLaunchDescriptionSource
+
+    from launch import LaunchDescription, LaunchService
+
+    service = LaunchService(argv=sys.argv[1:], noninteractive=noninteractive, debug=debug)
+    include = IncludeLaunchDescription(AnyLaunchDescriptionSource(path), launch_arguments=arguments.items())
+    service.include_launch_description(LaunchDescription([include]))
+    return service.run()
+
+
+def _no_package_name(name: str, error: ValueError) -> str:
+    """What upstream's users see for a mistyped path, with what it means in between."""
+    kind = "a folder" if os.path.isdir(name) else "no file here"
+    return (
+        f"Traceback (most recent call last):\n  {name} is {kind}, so it was read as a package name\nValueError: {error}"
+    )
+
+
+COMMAND = Command("launch", "Run a launch file", arguments=_arguments, main=_launch)
