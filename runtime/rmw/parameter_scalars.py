@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 import re
-from fractions import Fraction
 
 Scalar = bool | int | float | str
 
@@ -78,7 +77,11 @@ def _double(text: str) -> float | None:
 
 def _lost_digits(text: str, value: float) -> bool:
     """Whether a number is so small that a double cannot hold it exactly, which `strtod` calls a range error."""
-    return abs(value) < 2.0**-1022 and Fraction(_shortened(text)) != Fraction(value)
+    if abs(value) >= 2.0**-1022:
+        return False
+    from fractions import Fraction
+
+    return Fraction(_shortened(text)) != Fraction(value)
 
 
 def _shortened(text: str) -> str:
