@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping, Sequence
-from importlib.abc import InspectLoader, MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder
-from importlib.util import spec_from_loader
-from pathlib import Path
 from types import ModuleType
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 KINDS = ("msg", "srv", "action")
+NEVER_OURS = sys.stdlib_module_names | {"org"}
+"""Names for which no workspace is read; `org` is Jython's, which the standard library's `copy` asks for."""
 
 
 def interface_folders() -> Mapping[str, Path]:
@@ -20,8 +23,8 @@ def interface_folders() -> Mapping[str, Path]:
     return {name: each.folder for name, each in workspace().packages.items() if each.has_interfaces}
 
 
-class InterfaceFinder(MetaPathFinder):
-    """Finds what the path does not have: interface packages, and in Python packages of that name the `msg` modules."""
+class InterfaceFinder:
+    """A finder of `sys.meta_path`: interface packages that the path lacks, and `msg` modules of Python packages."""
 
     def __init__(self) -> None:
         self._modules: dict[str, ModuleType] = {}
@@ -31,7 +34,7 @@ class InterfaceFinder(MetaPathFinder):
     ) -> ModuleSpec | None:
         """The spec of a generated module; None for every other name."""
         top, *inside = fullname.split(".")
-        if top in sys.stdlib_module_names or len(inside) > 2 or (inside and inside[0] not in KINDS):
+        if top in NEVER_OURS or len(inside) > 2 or (inside and inside[0] not in KINDS):
             return None
         spec = PathFinder.find_spec(fullname, path)
         if spec is not None and spec.loader is not None:
@@ -39,7 +42,8 @@ class InterfaceFinder(MetaPathFinder):
         folder = interface_folders().get(top)
         if folder is None or not _exists(folder, inside):
             return spec
-        return spec_from_loader(fullname, InterfaceLoader(folder, self._modules))
+        loader = InterfaceLoader(folder, self._modules)
+        return ModuleSpec(fullname, loader, origin=str(folder), is_package=loader.is_package(fullname))
 
 
 def _exists(folder: Path, inside: Sequence[str]) -> bool:
@@ -55,7 +59,7 @@ def _definition(folder: Path, kind: str, module: str) -> Path | None:
     return next((each for each in files if module_name(each.stem) == module), None)
 
 
-class InterfaceLoader(InspectLoader):
+class InterfaceLoader:
     """Generates a module when it is imported; all node processes get the same one, as they exchange its messages."""
 
     def __init__(self, folder: Path, modules: dict[str, ModuleType]) -> None:
@@ -110,5 +114,6 @@ class InterfaceLoader(InspectLoader):
         if self._kept is not None:
             module.__spec__ = self._kept
             return
-        super().exec_module(module)
+        code = compile(self.get_source(module.__name__), f"<{module.__name__}>", "exec", dont_inherit=True)
+        exec(code, vars(module))
         self._modules[module.__name__] = module

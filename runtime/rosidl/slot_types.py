@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from bot_console.runtime.rosidl.definition import Type, parse_type
+if TYPE_CHECKING:
+    from bot_console.runtime.rosidl.definition import Type
 
 
 def nested_class(owner: Any, item: str) -> Any:
@@ -23,6 +24,8 @@ class SlotTypes:
 
     def __get__(self, message: Any, owner: Any) -> Sequence[Any]:
         if owner not in self._made:
+            from bot_console.runtime.rosidl.definition import parse_type
+
             texts = owner._fields_and_field_types.values()
             self._made[owner] = tuple(_parser_type(parse_type(text), owner) for text in texts)
         return self._made[owner]

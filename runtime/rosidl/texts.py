@@ -2,28 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
+
+from bot_console.runtime.rosidl.sources import added_folders
 
 PREFIX = Path(__file__).resolve().parent / "generated" / "ament-prefix"
 """The prefix in which the standard packages are installed, in ament's sense; their definitions lie below `share`."""
 
 KINDS = ("msg", "srv", "action")
-Folders = Callable[[], Mapping[str, Path]]
-_sources: list[Folders] = []
-
-
-def add_source(folders: Folders) -> None:
-    """Let what `folders` gives count as well: package names with the folders in which `msg`, `srv`, `action` lie."""
-    if folders not in _sources:
-        _sources.append(folders)
 
 
 def package_folder(package: str) -> Path | None:
     """The folder in which a package's `msg`, `srv` and `action` lie; None for an unknown package."""
     if (PREFIX / "share" / package).is_dir():
         return PREFIX / "share" / package
-    return next((found[package] for each in _sources if package in (found := each())), None)
+    return added_folders().get(package)
 
 
 def standard_packages() -> Sequence[str]:
@@ -33,7 +27,7 @@ def standard_packages() -> Sequence[str]:
 
 def known_packages() -> Sequence[str]:
     """Names of all packages that define interfaces, sorted."""
-    return sorted({*standard_packages(), *(name for each in _sources for name in each())})
+    return sorted({*standard_packages(), *added_folders()})
 
 
 def interface_names(package: str) -> Sequence[str]:

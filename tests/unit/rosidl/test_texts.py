@@ -6,7 +6,7 @@ import importlib
 from pathlib import Path
 
 import pytest
-from bot_console.runtime.rosidl import texts
+from bot_console.runtime.rosidl import sources, texts
 from bot_console.runtime.rosidl.parse import parse
 from bot_console.runtime.rosidl.write import written
 
@@ -51,7 +51,7 @@ def test_comments_are_kept() -> None:
 def test_other_packages_can_be_added(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "srv").mkdir()
     (tmp_path / "srv" / "Ask.srv").write_text("---\n")
-    monkeypatch.setattr(texts, "_sources", [lambda: {"my_msgs": tmp_path}])
+    monkeypatch.setattr(sources, "_sources", [lambda: {"my_msgs": tmp_path}])
     assert "my_msgs" in texts.known_packages()
     assert texts.interface_names("my_msgs") == ["srv/Ask"]
     assert texts.definition_text("my_msgs", "srv", "Ask") == "---\n"

@@ -1,0 +1,27 @@
+"""Who adds interface packages to the standard ones; imported at start-up, so it needs nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+Folders = Callable[[], Mapping[str, "Path"]]
+_sources: list[Folders] = []
+
+
+def add_source(folders: Folders) -> None:
+    """Let what `folders` gives count as well: package names with the folders in which `msg`, `srv`, `action` lie."""
+    if folders not in _sources:
+        _sources.append(folders)
+
+
+def added_folders() -> Mapping[str, Path]:
+    """The packages that were added, with their folders; the first of a name wins."""
+    found: dict[str, Path] = {}
+    for each in _sources:
+        for name, folder in each().items():
+            found.setdefault(name, folder)
+    return found
