@@ -236,7 +236,7 @@ class ActionServer(ActionEntity):
         if handle.is_active:
             self._logger.warning(f"Goal state not set, assuming aborted. Goal ID: {uuid}")
             handle.abort()
-        self._debug("Goal with ID {uuid} finished with state {}", handle.status)
+        self._debug("Goal with ID {} finished with state {}", uuid, handle.status)
         response = self._action_type.Impl.GetResultService.Response()
         response.status = handle.status
         response.result = result

@@ -1,0 +1,20 @@
+"""Managed nodes: nodes with states such as inactive and active, led from one to another by whoever launches them."""
+
+from rclpy.lifecycle.managed_entity import ManagedEntity, SimpleManagedEntity
+from rclpy.lifecycle.node import LifecycleNode, LifecycleNodeMixin, LifecycleState
+from rclpy.lifecycle.publisher import LifecyclePublisher
+from rclpy.lifecycle.transition_callback_return import TransitionCallbackReturnType
+
+Node = LifecycleNode
+State = LifecycleState
+Publisher = LifecyclePublisher
+TransitionCallbackReturn = TransitionCallbackReturnType
+
+__all__ = [
+    "LifecycleNode",
+    "LifecycleNodeMixin",
+    "LifecyclePublisher",
+    "LifecycleState",
+    "ManagedEntity",
+    "SimpleManagedEntity",
+]

@@ -1,0 +1,176 @@
+"""Managed nodes."""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from lifecycle_msgs.msg import State, Transition
+from rclpy._rclpy_pybind11 import RCLError
+from rclpy.lifecycle.managed_entity import ManagedEntity
+from rclpy.lifecycle.publisher import LifecyclePublisher
+from rclpy.lifecycle.services import LifecycleServices
+from rclpy.lifecycle.state_machine import LifecycleStateMachine
+from rclpy.lifecycle.transition_callback_return import TransitionCallbackReturnType as TransitionCallbackReturn
+from rclpy.node import Node
+
+
+class LifecycleState(NamedTuple):
+    """A state, as transition callbacks get it."""
+
+    label: str
+    state_id: int
+
+
+_SHUTDOWNS = {
+    "unconfigured": Transition.TRANSITION_UNCONFIGURED_SHUTDOWN,
+    "inactive": Transition.TRANSITION_INACTIVE_SHUTDOWN,
+    "active": Transition.TRANSITION_ACTIVE_SHUTDOWN,
+}
+
+
+class LifecycleNodeMixin(ManagedEntity):
+    """What makes a node a managed one; only for inheritance together with `Node`.
+
+    The default transition callbacks ask all managed entities, up to the first that does not say SUCCESS.
+    """
+
+    _logger: Any
+
+    def __init__(self, *, enable_communication_interface: bool = True, callback_group: Any = None) -> None:
+        self._callbacks: dict[int, Callable[[LifecycleState], TransitionCallbackReturn]] = {
+            State.TRANSITION_STATE_CONFIGURING: self.on_configure,
+            State.TRANSITION_STATE_CLEANINGUP: self.on_cleanup,
+            State.TRANSITION_STATE_SHUTTINGDOWN: self.on_shutdown,
+            State.TRANSITION_STATE_ACTIVATING: self.on_activate,
+            State.TRANSITION_STATE_DEACTIVATING: self.on_deactivate,
+            State.TRANSITION_STATE_ERRORPROCESSING: self.on_error,
+        }
+        self._managed_entities: dict[ManagedEntity, None] = {}
+        self._state_machine = LifecycleStateMachine(self, enable_communication_interface)
+        if enable_communication_interface:
+            services = LifecycleServices(self, self._state_machine, self.__change_state, callback_group)
+            self._service_change_state = services.change_state
+            self._service_get_state = services.get_state
+            self._service_get_available_states = services.get_available_states
+            self._service_get_available_transitions = services.get_available_transitions
+            self._service_get_transition_graph = services.get_transition_graph
+
+    # Transitions -------------------------------------------------------------------------------------------------
+
+    def trigger_configure(self) -> TransitionCallbackReturn:
+        """From unconfigured to inactive; raises `RCLError` in another state, as all of these do."""
+        return self.__change_state(Transition.TRANSITION_CONFIGURE)
+
+    def trigger_cleanup(self) -> TransitionCallbackReturn:
+        """From inactive to unconfigured."""
+        return self.__change_state(Transition.TRANSITION_CLEANUP)
+
+    def trigger_activate(self) -> TransitionCallbackReturn:
+        """From inactive to active."""
+        return self.__change_state(Transition.TRANSITION_ACTIVATE)
+
+    def trigger_deactivate(self) -> TransitionCallbackReturn:
+        """From active to inactive."""
+        return self.__change_state(Transition.TRANSITION_DEACTIVATE)
+
+    def trigger_shutdown(self) -> TransitionCallbackReturn:
+        """From unconfigured, inactive or active to finalized."""
+        transition = _SHUTDOWNS.get(self._state_machine.current_state[1])
+        if transition is None:
+            raise RCLError("Shutdown transtion not possible")
+        return self.__change_state(transition)
+
+    def __change_state(self, transition_id: int) -> TransitionCallbackReturn:
+        """Enter the transition state, call back, and go where the callback's answer leads."""
+        machine = self._state_machine
+        number, label = machine.current_state
+        before = LifecycleState(label=label, state_id=number)
+        machine.trigger_transition_by_id(transition_id, True)
+        answer = self.__call_back(before)
+        machine.trigger_transition_by_label(answer.to_label(), True)
+        if answer is TransitionCallbackReturn.ERROR:
+            machine.trigger_transition_by_label(self.__call_back(before).to_label(), True)
+        return answer
+
+    def __call_back(self, before: LifecycleState) -> TransitionCallbackReturn:
+        """Call what belongs to the current transition state."""
+        callback = self._callbacks[self._state_machine.current_state[0]]
+        try:
+            return callback(before)
+        except Exception as error:  # the border to a callback: upstream makes it an ERROR in silence, here it is told
+            place = traceback.extract_tb(error.__traceback__)[-1]
+            name = getattr(callback, "__name__", repr(callback))
+            self._logger.warning(
+                f"{name} raised {type(error).__name__}: {error}, at {place.filename}:{place.lineno}; "
+                "this counts as TransitionCallbackReturn.ERROR"
+            )
+            return TransitionCallbackReturn.ERROR
+
+    # Callbacks ---------------------------------------------------------------------------------------------------
+
+    def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """The node is being configured."""
+        return self.__ask_entities("on_configure", state)
+
+    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """The node is being cleaned up."""
+        return self.__ask_entities("on_cleanup", state)
+
+    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """The node is being shut down."""
+        return self.__ask_entities("on_shutdown", state)
+
+    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """The node is being activated."""
+        return self.__ask_entities("on_activate", state)
+
+    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """The node is being deactivated."""
+        return self.__ask_entities("on_deactivate", state)
+
+    def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """A transition has ended in an error; SUCCESS leads back to unconfigured, all else to finalized."""
+        return self.__ask_entities("on_error", state)
+
+    def __ask_entities(self, name: str, state: LifecycleState) -> TransitionCallbackReturn:
+        for entity in list(self._managed_entities):
+            answer = getattr(entity, name)(state)
+            if not isinstance(answer, TransitionCallbackReturn):
+                raise TypeError(
+                    f"{name}() return value of class {type(entity)} should be `TransitionCallbackReturn`.\n"
+                    f"Instance of the class that caused the failure: {entity}"
+                )
+            if answer is not TransitionCallbackReturn.SUCCESS:
+                return answer
+        return TransitionCallbackReturn.SUCCESS
+
+    # Managed entities --------------------------------------------------------------------------------------------
+
+    def add_managed_entity(self, entity: ManagedEntity) -> None:
+        """Let an entity take part in the transitions; raises `TypeError` for anything else."""
+        if not isinstance(entity, ManagedEntity):
+            raise TypeError("Expected a rclpy.lifecycle.ManagedEntity instance.")
+        self._managed_entities[entity] = None
+
+    def create_lifecycle_publisher(self, *args: Any, **kwargs: Any) -> LifecyclePublisher:
+        """Make a publisher that is silent while the node is not active; arguments as of `create_publisher`."""
+        if "publisher_class" in kwargs:
+            raise TypeError("create_publisher() got an unexpected keyword argument 'publisher_class'")
+        publisher: Any = Node.create_publisher(self, *args, **kwargs, publisher_class=LifecyclePublisher)  # type: ignore[arg-type]
+        self._managed_entities[publisher] = None
+        return publisher
+
+    def destroy_lifecycle_publisher(self, publisher: LifecyclePublisher) -> bool:
+        """Destroy such a publisher; whether it was one of this node."""
+        self._managed_entities.pop(publisher, None)
+        return Node.destroy_publisher(self, publisher)  # type: ignore[arg-type]
+
+
+class LifecycleNode(LifecycleNodeMixin, Node):
+    """A managed node: its state starts as unconfigured, and others change it by its services."""
+
+    def __init__(self, node_name: str, *, enable_communication_interface: bool = True, **kwargs: Any) -> None:
+        Node.__init__(self, node_name, **kwargs)
+        LifecycleNodeMixin.__init__(self, enable_communication_interface=enable_communication_interface)

@@ -1,0 +1,82 @@
+"""The five services by which others see and change a managed node's state."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from lifecycle_msgs.msg import State, Transition, TransitionDescription
+from lifecycle_msgs.srv import ChangeState, GetAvailableStates, GetAvailableTransitions, GetState
+from rclpy._rclpy_pybind11 import RCLError
+from rclpy.lifecycle.state_machine import Described, LifecycleStateMachine
+from rclpy.lifecycle.transition_callback_return import TransitionCallbackReturnType as TransitionCallbackReturn
+
+
+class LifecycleServices:
+    """Serves `~/change_state`, `~/get_state` and the three that list states and transitions."""
+
+    def __init__(
+        self,
+        node: Any,
+        machine: LifecycleStateMachine,
+        change_state: Callable[[int], TransitionCallbackReturn],
+        group: Any,
+    ) -> None:
+        self._machine = machine
+        self._change_state = change_state
+        self.change_state = _serve(node, ChangeState, "change_state", self._on_change_state, group)
+        self.get_state = _serve(node, GetState, "get_state", self._on_get_state, group)
+        self.get_available_states = _serve(
+            node, GetAvailableStates, "get_available_states", self._on_get_available_states, group
+        )
+        self.get_available_transitions = _serve(
+            node, GetAvailableTransitions, "get_available_transitions", self._on_get_available_transitions, group
+        )
+        self.get_transition_graph = _serve(
+            node, GetAvailableTransitions, "get_transition_graph", self._on_get_transition_graph, group
+        )
+
+    def _on_change_state(self, request: Any, response: Any) -> Any:
+        """A label wins over an id; an unknown label is no success, an id that does not fit raises out of spin."""
+        transition = request.transition.id
+        if request.transition.label:
+            try:
+                transition = self._machine.get_transition_by_label(request.transition.label)
+            except RCLError:
+                response.success = False
+                return response
+        response.success = self._change_state(transition) is TransitionCallbackReturn.SUCCESS
+        return response
+
+    def _on_get_state(self, request: Any, response: Any) -> Any:
+        number, label = self._machine.current_state
+        response.current_state = State(id=number, label=label)
+        return response
+
+    def _on_get_available_states(self, request: Any, response: Any) -> Any:
+        response.available_states = [State(id=number, label=label) for number, label in self._machine.available_states]
+        return response
+
+    def _on_get_available_transitions(self, request: Any, response: Any) -> Any:
+        response.available_transitions = [_message(each) for each in self._machine.available_transitions]
+        return response
+
+    def _on_get_transition_graph(self, request: Any, response: Any) -> Any:
+        response.available_transitions = [_message(each) for each in self._machine.transition_graph]
+        return response
+
+
+def _serve(node: Any, kind: Any, name: str, callback: Callable[..., Any], group: Any) -> Any:
+    service = node.create_service(kind, f"~/{name}", callback, callback_group=group)
+    # Upstream makes these in rcl, where only the full name is known.
+    service.srv_name = service.service_name
+    return service
+
+
+def _message(transition: Described) -> Any:
+    number, label, start, start_label, goal, goal_label = transition
+    return TransitionDescription(
+        transition=Transition(id=number, label=label),
+        start_state=State(id=start, label=start_label),
+        goal_state=State(id=goal, label=goal_label),
+    )

@@ -1,0 +1,99 @@
+"""The state machine of a managed node, with its services and its topic."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from bot_console.runtime.rmw.bus import Endpoint
+from bot_console.runtime.rmw.local import new_gid
+from bot_console.runtime.rosidl.conversion import type_name
+from lifecycle_msgs.msg import State, TransitionEvent
+from rclpy._rclpy_pybind11 import RCLError
+from rclpy.impl.topic_names import checked
+from rclpy.lifecycle.transition_map import STATES, TRANSITIONS, TransitionRow
+from rclpy.logging import get_logger
+from rclpy.qos import QoSProfile
+
+Described = tuple[int, str, int, str, int, str]
+"""A transition: id and label of itself, of its start and of its goal."""
+
+
+class LifecycleStateMachine:
+    """Knows the current state, and tells the topic `~/transition_event` of each change."""
+
+    def __init__(self, node: Any, enable_com_interface: bool) -> None:
+        if not isinstance(enable_com_interface, bool):
+            raise TypeError(f"enable_communication_interface must be a bool, not {type(enable_com_interface)}")
+        self._state: int = State.PRIMARY_STATE_UNCONFIGURED
+        self._publish: Callable[[Any], None] | None = None
+        if enable_com_interface:
+            topic = checked(node, "~/transition_event")
+            kind = type_name(TransitionEvent)
+            endpoint = Endpoint(node._id, topic, kind, QoSProfile(depth=10), new_gid(), TransitionEvent)
+            self._publish = node._bus.create_publisher(endpoint, lambda kind, what: None).publish
+
+    @property
+    def initialized(self) -> bool:
+        """Whether the machine can be used: from the start."""
+        return True
+
+    @property
+    def current_state(self) -> tuple[int, str]:
+        """Id and label."""
+        return self._state, STATES[self._state]
+
+    @property
+    def available_states(self) -> list[tuple[int, str]]:
+        """Id and label of all states."""
+        return list(STATES.items())
+
+    @property
+    def available_transitions(self) -> list[Described]:
+        """The transitions from the current state."""
+        return [_described(each) for each in self._valid()]
+
+    @property
+    def transition_graph(self) -> list[Described]:
+        """All transitions."""
+        return [_described(each) for each in TRANSITIONS]
+
+    def get_transition_by_label(self, label: str) -> int:
+        """The id of a transition from the current state; raises `RCLError`."""
+        found = self._find(lambda each: each.label == label, label)
+        if found is None:
+            raise RCLError("Failed to get transition from label")
+        return found.id
+
+    def trigger_transition_by_id(self, transition_id: int, publish_update: bool) -> None:
+        """Make a transition; raises `RCLError` for one that does not start in the current state."""
+        self._trigger(self._find(lambda each: each.id == transition_id, transition_id), publish_update)
+
+    def trigger_transition_by_label(self, label: str, publish_update: bool) -> None:
+        """Make a transition; raises `RCLError` for one that does not start in the current state."""
+        self._trigger(self._find(lambda each: each.label == label, label), publish_update)
+
+    def _valid(self) -> list[TransitionRow]:
+        return [each for each in TRANSITIONS if each.start == self._state]
+
+    def _find(self, fits: Callable[[TransitionRow], bool], what: int | str) -> TransitionRow | None:
+        for each in self._valid():
+            if fits(each):
+                return each
+        state = STATES[self._state]
+        get_logger("rcl_lifecycle").warning(f"No transition matching {what} found for current state {state}")
+        return None
+
+    def _trigger(self, transition: TransitionRow | None, publish_update: bool) -> None:
+        if transition is None:
+            raise RCLError("Failed to trigger lifecycle state machine transition: Transition is not registered.")
+        self._state = transition.goal
+        if publish_update and self._publish is not None:
+            event = TransitionEvent()
+            event.start_state = State(id=transition.start, label=STATES[transition.start])
+            event.goal_state = State(id=transition.goal, label=STATES[transition.goal])
+            self._publish(event)
+
+
+def _described(row: TransitionRow) -> Described:
+    return row.id, row.label, row.start, STATES[row.start], row.goal, STATES[row.goal]
