@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from rcl_interfaces.msg import ListParametersResult, ParameterDescriptor, ParameterValue
+from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.exceptions import (
     InvalidParameterTypeException,
     InvalidParameterValueException,
@@ -19,6 +19,9 @@ from rclpy.impl.parameter_descriptors import refusal
 from rclpy.impl.parameter_names import listed
 from rclpy.impl.parameter_setting import NOT_SET, ParameterSetting
 from rclpy.parameter import PARAMETER_SEPARATOR_STRING, Parameter
+
+if TYPE_CHECKING:
+    from rcl_interfaces.msg import ListParametersResult, ParameterValue
 
 
 class NodeParameters(ParameterSetting):
@@ -171,6 +174,8 @@ class NodeParameters(ParameterSetting):
 
         Raises `TypeError` and `ValueError`.
         """
+        from rcl_interfaces.msg import ListParametersResult
+
         names = listed(self._parameters, prefixes, depth)
         found = dict.fromkeys(name.rpartition(PARAMETER_SEPARATOR_STRING)[0] for name in names if "." in name)
         return ListParametersResult(names=names, prefixes=list(found))
