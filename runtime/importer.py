@@ -63,10 +63,15 @@ class RosFinder:
 
 
 def _own_package() -> ModuleSpec | None:
+    """`intelligent_robot` where the workspace has a package of that name, else our own nodes."""
     from importlib.util import spec_from_file_location
 
-    nodes = os.path.join(os.path.dirname(RUNTIME), "nodes")
-    return spec_from_file_location(OWN_PACKAGE, os.path.join(nodes, "__init__.py"), submodule_search_locations=[nodes])
+    from bot_console.runtime.workspace.discover import workspace
+
+    theirs = workspace().packages[OWN_PACKAGE].modules.get(OWN_PACKAGE)
+    folder = os.path.join(os.path.dirname(RUNTIME), "nodes") if theirs is None else os.fspath(theirs)
+    init = os.path.join(folder, "__init__.py")
+    return spec_from_file_location(OWN_PACKAGE, init, submodule_search_locations=[folder])
 
 
 class _AliasLoader:
@@ -107,6 +112,7 @@ def install() -> None:
     """Make the ROS names mean the embedded runtime; a second call does nothing."""
     if _finder in sys.meta_path:
         return
+    os.environ.setdefault("ROS_DISTRO", "jazzy")  # as in a shell that has sourced ROS 2
     sys.meta_path.insert(0, _finder)
     # Just before the path: a folder `my_interfaces` without `__init__.py` would be a namespace package there.
     place = sys.meta_path.index(PathFinder) if PathFinder in sys.meta_path else len(sys.meta_path)

@@ -5,19 +5,15 @@ Nothing is virtual here: the node has the real main thread, signals and standard
 
 from __future__ import annotations
 
-import ast
-import importlib
-import runpy
 import sys
-import traceback
 from collections.abc import Sequence
 from pathlib import Path
-from types import TracebackType
 
 from bot_console.runtime.importer import install
-from bot_console.runtime.workspace.executables import Executable, executables
+from bot_console.runtime.workspace.program import Program, program, python_file
 
-HERE = str(Path(__file__).resolve().parent)
+INTERRUPTED = 130
+"""What a shell says of a program that SIGINT has ended."""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -28,119 +24,62 @@ def main(argv: Sequence[str] | None = None) -> int:
         return _refuse("name a file or a package: bot-console run FILE.py, or bot-console run PACKAGE EXECUTABLE")
     if words[0].endswith(".py") or Path(words[0]).is_file():
         return run_file(Path(words[0]), words[1:])
-    if len(words) == 1:
-        return _refuse(f"'{words[0]}' is no file here; for a package name the executable as well")
-    return run_package(words[0], words[1], words[2:])
+    return run_package(words[0], words[1:])
 
 
-def run_package(package: str, name: str, words: Sequence[str]) -> int:
-    """Run an executable of a package."""
+def run_package(package: str, words: Sequence[str]) -> int:
+    """Run an executable of a package; `words` are its name and its arguments."""
     from ament_index_python.packages import PackageNotFoundError
+    from bot_console.runtime.workspace.executables import executables
 
     try:
         found = executables(package)
     except (PackageNotFoundError, ValueError):
-        return _refuse(f"Package '{package}' not found")
+        return _refuse(f"Package '{package}' not found, and there is no such file")
+    choices = ", ".join(sorted(found)) or "none"
+    if not words or words[0].startswith("-"):
+        return _refuse(f"name an executable of package '{package}' as well; it has: {choices}")
+    name, *arguments = words
     if name not in found:
-        choices = ", ".join(sorted(found)) or "none"
         return _refuse(f"No executable found: '{name}' is not in package '{package}', which has: {choices}")
-    executable = found[name]
-    if executable.entry_point:
-        return run_entry_point(executable, words)
-    if executable.path and _is_python(executable.path):
-        return run_file(executable.path, words)
+    runs = program(found[name])
+    if runs is not None:
+        return _run(runs, [name, *arguments])
     from ros2cli.verbs.run import run
 
-    return run(executable, list(words))
+    return run(found[name], arguments)
 
 
 def run_file(path: Path, words: Sequence[str]) -> int:
-    """Run a Python file as `python FILE` does, with the embedded runtime behind the ROS names."""
+    """Run a Python file as `python FILE` does; where it only defines `main()`, that is called as `ros2 run` would."""
+    from bot_console.runtime.plain_file import examine
+
     if not path.is_file():
         return _refuse(f"{path} does not exist")
-    problem, hint = examine(path)
-    if problem:
-        return _refuse(problem)
-    if hint:
-        print(f"[WARN] [bot-console]: {hint}", file=sys.stderr)
-    sys.argv = [str(path), *words]
-    sys.path.insert(0, str(path.resolve().parent))
-    return _guarded(lambda: runpy.run_path(str(path), run_name="__main__"))
+    found = examine(path)
+    if found.problem:
+        return _refuse(found.problem)
+    if found.hint:
+        print(f"[WARN] [bot-console]: {found.hint}", file=sys.stderr)
+    runs = python_file(path)
+    return _run(_then_main(runs) if found.calls_main else runs, [str(path), *words])
 
 
-def run_entry_point(executable: Executable, words: Sequence[str]) -> int:
-    """Run a console script's function; what it returns is the exit code, as setuptools' scripts do it."""
-    entry = executable.entry_point
-    if entry is None:
-        raise ValueError(f"{executable} has no entry point")
-    sys.argv = [executable.name, *words]
+def _then_main(runs: Program) -> Program:
+    def run() -> None:
+        runs()
+        sys.exit(sys.modules["__main__"].main())
 
-    def start() -> None:
-        function = getattr(importlib.import_module(entry.module), entry.function)
-        sys.exit(function())
-
-    return _guarded(start)
+    return run
 
 
-def _guarded(start: object) -> int:
-    """Run to the end; a traceback begins in the user's own file."""
-    try:
-        start()  # type: ignore[operator]
-    except SystemExit as stop:
-        if isinstance(stop.code, str):
-            print(stop.code, file=sys.stderr)
-        return stop.code if isinstance(stop.code, int) else int(stop.code is not None)
-    except KeyboardInterrupt as error:
-        _print_traceback(error)
-        return 130
-    except Exception as error:  # the border to the user's program
-        _print_traceback(error)
-        return 1
-    return 0
+def _run(runs: Program, argv: Sequence[str]) -> int:
+    """Run to the end; an uncaught exception is a traceback that begins in the user's own file."""
+    from bot_console.runtime.process.main_thread import SIGINT_EXIT, exit_code_of
 
-
-def _print_traceback(error: BaseException) -> None:
-    error.__traceback__ = _trimmed(error.__traceback__)
-    sys.stdout.flush()
-    traceback.print_exception(type(error), error, error.__traceback__)
-
-
-def _trimmed(trace: TracebackType | None) -> TracebackType | None:
-    """Without the frames of this file and of runpy that stand before the user's."""
-    first = trace
-    while trace and (trace.tb_frame.f_code.co_filename == __file__ or "runpy" in trace.tb_frame.f_code.co_filename):
-        trace = trace.tb_next
-    return trace or first
-
-
-def examine(path: Path) -> tuple[str, str]:
-    """Why a file cannot be run, and what its reader should know; each empty when there is nothing to say."""
-    try:
-        tree = ast.parse(path.read_bytes(), str(path))
-    except SyntaxError as error:
-        return f"{path}:{error.lineno}: {error.msg}", ""
-    except ValueError as error:
-        return f"{path} is not a Python file: {error}", ""
-    mains = [each for each in tree.body if isinstance(each, ast.FunctionDef) and each.name == "main"]
-    if len(mains) > 1:
-        lines = ", ".join(str(each.lineno) for each in mains)
-        return "", f"{path} defines main() {len(mains)} times (lines {lines}); Python keeps the last one"
-    quiet = (ast.Import, ast.ImportFrom, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef, ast.Assign, ast.AnnAssign)
-    acting = [each for each in tree.body if not isinstance(each, quiet) and not _is_text(each)]
-    if acting:
-        return "", ""
-    mend = "call main() below `if __name__ == '__main__':`" if mains else "give it a main() that makes and spins the node"
-    return "", f"{path} only defines things, so running it does nothing; {mend}"
-
-
-def _is_text(statement: ast.stmt) -> bool:
-    return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
-
-
-def _is_python(path: Path) -> bool:
-    with path.open("rb") as file:
-        first = file.readline(200)
-    return path.suffix == ".py" or (first.startswith(b"#!") and b"python" in first)
+    sys.argv = list(argv)
+    code = exit_code_of(runs)
+    return INTERRUPTED if code == SIGINT_EXIT else code
 
 
 def _refuse(text: str) -> int:

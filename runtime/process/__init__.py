@@ -22,6 +22,7 @@ A node process
     callback first. All three return a callable that takes the callback away.
     Exit codes: 0; n of `sys.exit(n)`; 1 for a text (on its stderr) or an uncaught exception (traceback on its stderr);
     -2 for `KeyboardInterrupt`; -15, -9, -n for a signal.
+    `explain_with(hook(exception) -> text | None)`: cause and mend of an uncaught exception, given as a notice after it.
     `on_notice(hook(process, text))`: what a node does that cannot be virtual, and lines that hang; to be shown as WARN.
 
 Stepped runs
@@ -40,6 +41,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from .clock_source import ClockSource, RealTime, Wakeup
+from .crashes import explain_with
 from .current import MAIN, NodeProcess, ProcessLocal, current, running_as
 from .node_process import ProcessState
 from .notices import on_notice
@@ -78,6 +80,7 @@ __all__ = [
     "Wakeup",
     "current",
     "entry_point_program",
+    "explain_with",
     "file_program",
     "on_notice",
     "running_as",

@@ -8,8 +8,10 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from . import child_threads
+from .crashes import explanation
 from .frames import print_exception
-from .thread_state import ProcessKilled
+from .notices import notify
+from .thread_state import ProcessKilled, local
 
 if TYPE_CHECKING:
     from .node_process import NodeProcess
@@ -72,6 +74,8 @@ def exit_code_of(target: Callable[[], object]) -> int:
         return SIGINT_EXIT
     except BaseException as exception:  # the border of the process
         print_exception(exception)
+        if text := explanation(exception):
+            notify(local.process, text)
         return 1
     return 0
 

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
-from bot_console.runtime.process import ProcessLocal
+from bot_console.runtime.process import ProcessLocal, explain_with
 from rclpy.context import Context as Context
 from rclpy.parameter import Parameter as Parameter
 from rclpy.signals import SignalHandlerOptions as SignalHandlerOptions
@@ -27,6 +27,15 @@ if TYPE_CHECKING:
     from rclpy.node import Node
 
 _global_executor: ProcessLocal[list[Any]] = ProcessLocal(list)
+
+
+def _explain(exception: BaseException) -> str | None:
+    from rclpy.impl.explanations import explain
+
+    return explain(exception)
+
+
+explain_with(_explain)
 
 
 class InitContextManager:

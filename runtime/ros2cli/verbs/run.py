@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import shlex
+import signal
 import subprocess
 import sys
 
@@ -49,29 +50,39 @@ def _run(arguments: argparse.Namespace) -> Result:
 
 def run(executable: Executable, words: list[str], prefix: str | None = None) -> int:
     """Run an executable in this process where it is Python and no prefix is asked for, else as one of its own."""
-    if executable.entry_point and not prefix:
-        from bot_console.runtime.run import run_entry_point
+    from bot_console.runtime.process.main_thread import exit_code_of
+    from bot_console.runtime.workspace.program import program
 
-        return run_entry_point(executable, words)
-    command = [*shlex.split(prefix or ""), *_command(executable), *words]
-    process = subprocess.Popen(command, env={**os.environ, "PYTHONUNBUFFERED": "1"})
-    while True:
-        try:
-            code = process.wait()
-            break
-        except KeyboardInterrupt:
-            # The child has had the same signal and ends in its own time.
-            continue
-    if os.name != "nt" and code < 0:
-        code += 256
-        print(f"[ros2run]: Process exited with failure {code}", file=sys.stderr)
+    runs = None if prefix else program(executable)
+    if runs is None:
+        code = _wait_for([*shlex.split(prefix or ""), *_command(executable), *words])
+    else:
+        sys.argv = [executable.name, *words]
+        code = exit_code_of(runs)
+    if code < 0 and os.name == "posix":
+        print("[ros2run]:", signal.strsignal(-code))
+    elif code:
+        print(f"[ros2run]: Process exited with failure {code}")
     return code
 
 
+def _wait_for(command: list[str]) -> int:
+    process = subprocess.Popen(command, env={**os.environ, "PYTHONUNBUFFERED": "1"})
+    while True:
+        try:
+            return process.wait()
+        except KeyboardInterrupt:
+            # The child has had the same signal and ends in its own time.
+            continue
+
+
 def _command(executable: Executable) -> list[str]:
-    if executable.path:
-        return [str(executable.path)]
-    return [sys.executable, "-m", "bot_console.runtime.run", executable.package, executable.name]
+    from bot_console.runtime.workspace.program import is_python
+
+    runner = [sys.executable, "-m", "bot_console.runtime.run"]
+    if executable.path is None:
+        return [*runner, executable.package, executable.name]
+    return [*runner, str(executable.path)] if is_python(executable.path) else [str(executable.path)]
 
 
 COMMAND = Command("run", "Run a package specific executable", arguments=_arguments, main=_run)

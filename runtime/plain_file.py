@@ -1,0 +1,60 @@
+"""Looks at a Python file before it is run as a node: whether it starts anything, and what to say where it does not."""
+
+from __future__ import annotations
+
+import ast
+from dataclasses import dataclass
+from pathlib import Path
+
+QUIET = (ast.Import, ast.ImportFrom, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef, ast.Assign, ast.AnnAssign)
+"""Statements that only define something."""
+
+
+@dataclass(frozen=True)
+class PlainFile:
+    """`problem` says why a file cannot be run, `hint` what its reader should know; empty where there is none."""
+
+    problem: str = ""
+    hint: str = ""
+    calls_main: bool = False
+    """Whether `main()` has to be called because the file itself does not."""
+
+
+def examine(path: Path) -> PlainFile:
+    """Read a file without running it."""
+    try:
+        tree = ast.parse(path.read_bytes(), str(path))
+    except SyntaxError as error:
+        return PlainFile(f"{path}:{error.lineno}: {error.msg}")
+    except ValueError as error:
+        return PlainFile(f"{path} is not a Python file: {error}")
+    mains = [each for each in tree.body if isinstance(each, ast.FunctionDef) and each.name == "main"]
+    hint = ""
+    if len(mains) > 1:
+        lines = ", ".join(str(each.lineno) for each in mains)
+        hint = (
+            f"{path} defines main() {len(mains)} times (lines {lines}); the last one counts. Keep one, or give the "
+            "others names of their own"
+        )
+    if any(not isinstance(each, QUIET) and not _is_text(each) for each in tree.body):
+        return PlainFile(hint=hint)
+    return PlainFile(hint=hint, calls_main=True) if mains else PlainFile(_no_main(path, tree))
+
+
+def _no_main(path: Path, tree: ast.Module) -> str:
+    nodes = [each.name for each in tree.body if isinstance(each, ast.ClassDef) and _is_node(each)]
+    made = f"{nodes[0]}()" if nodes else "YourNode()"
+    also = f" It has the node classes {', '.join(nodes)}." if len(nodes) > 1 else ""
+    return (
+        f"{path} has no main() and starts nothing, so there is nothing to run (ros2 run cannot start it either).{also} "
+        f"Add: def main(): rclpy.init(); rclpy.spin({made}) - and below it: if __name__ == '__main__': main()"
+    )
+
+
+def _is_node(definition: ast.ClassDef) -> bool:
+    bases = [ast.unparse(each) for each in definition.bases]
+    return any(each == "Node" or each.endswith((".Node", "Node")) for each in bases)
+
+
+def _is_text(statement: ast.stmt) -> bool:
+    return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)

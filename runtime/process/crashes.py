@@ -1,0 +1,25 @@
+"""Explanations of exceptions that ended a node process, by those who know the usual cause."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+Explain = Callable[[BaseException], "str | None"]
+"""Names cause and mend of an exception, or gives None for one that it does not know."""
+
+_explainers: list[Explain] = []
+
+
+def explain_with(explain: Explain) -> None:
+    """Ask `explain` about each uncaught exception of a node process; a second time for the same one does nothing."""
+    if explain not in _explainers:
+        _explainers.append(explain)
+
+
+def explanation(exception: BaseException) -> str | None:
+    """The first explanation that somebody has; None where nobody has one."""
+    for explain in _explainers:
+        text = explain(exception)
+        if text:
+            return text
+    return None

@@ -1,0 +1,57 @@
+"""Mistakes that end a node with an exception whose words do not tell the cause."""
+
+from __future__ import annotations
+
+import linecache
+from collections.abc import Callable
+
+WRONG_PARAMETER = (
+    "Parameter is imported from rcl_interfaces.msg here, where it is the message class: it has no Parameter.Type and "
+    "takes no positional arguments. Import the class of rclpy instead: from rclpy.parameter import Parameter"
+)
+NO_RESULT = (
+    "A callback of add_on_set_parameters_callback returned nothing. It must return a SetParametersResult on every "
+    "path: end it with  return SetParametersResult(successful=True)"
+)
+
+
+def explain(exception: BaseException) -> str | None:
+    """Cause and mend with file and line, for the mistakes known here; None for all others."""
+    for is_it, text in _KNOWN:
+        if is_it(exception):
+            return f"{_users_line(exception)}{text}"
+    return None
+
+
+def _wrong_parameter(exception: BaseException) -> bool:
+    if isinstance(exception, AttributeError):
+        owner = exception.obj
+        return isinstance(owner, type) and _is_message(owner) and exception.name == "Type"
+    return isinstance(exception, TypeError) and str(exception).startswith("Parameter.__init__() takes 1 positional")
+
+
+def _is_message(owner: type) -> bool:
+    return owner.__name__ == "Parameter" and owner.__module__.startswith("rcl_interfaces.")
+
+
+def _no_result(exception: BaseException) -> bool:
+    return isinstance(exception, AttributeError) and exception.obj is None and exception.name == "successful"
+
+
+_KNOWN: tuple[tuple[Callable[[BaseException], bool], str], ...] = (
+    (_wrong_parameter, WRONG_PARAMETER),
+    (_no_result, NO_RESULT),
+)
+
+
+def _users_line(exception: BaseException) -> str:
+    """`file.py:12: ` of the innermost frame that is not of the runtime; empty where there is none."""
+    found = ""
+    trace = exception.__traceback__
+    while trace is not None:
+        name = trace.tb_frame.f_code.co_filename
+        module = str(trace.tb_frame.f_globals.get("__name__", ""))
+        if module.partition(".")[0] not in ("rclpy", "bot_console") and linecache.getline(name, trace.tb_lineno):
+            found = f"{name}:{trace.tb_lineno}: "
+        trace = trace.tb_next
+    return found

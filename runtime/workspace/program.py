@@ -1,0 +1,46 @@
+"""The program behind an executable of the workspace, as a node process or the real process runs it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from bot_console.runtime.importer import node_modules
+from bot_console.runtime.process import entry_point_program, file_program
+from bot_console.runtime.workspace.discover import workspace
+from bot_console.runtime.workspace.executables import Executable
+
+Program = Callable[[], object]
+
+
+def program(executable: Executable) -> Program | None:
+    """What runs an executable as the process that calls it; None where it is not Python."""
+    entry = executable.entry_point
+    if entry is not None:
+        return entry_point_program(f"{entry.module}:{entry.function}", node_modules(source_folders(executable.package)))
+    if executable.path is not None and is_python(executable.path):
+        return python_file(executable.path)
+    return None
+
+
+def python_file(path: Path) -> Program:
+    """What runs a Python file as the process that calls it; it can import what the workspace's packages have."""
+    return file_program(str(path), node_modules([str(path.resolve().parent), *source_folders()]))
+
+
+def source_folders(first: str = "") -> list[str]:
+    """Folders in which the workspace's Python packages lie, those of the package `first` before the others."""
+    packages = workspace().packages
+    ordered = sorted(packages, key=lambda name: name != first)
+    folders = (str(path.parent) for name in ordered for path in packages[name].modules.values())
+    return list(dict.fromkeys(folders))
+
+
+def is_python(path: Path) -> bool:
+    """Whether a file is a Python program by its name or its first line; False for one that cannot be read."""
+    try:
+        with path.open("rb") as file:
+            first = file.readline(200)
+    except OSError:
+        return False
+    return path.suffix == ".py" or (first.startswith(b"#!") and b"python" in first)
