@@ -276,7 +276,7 @@ class ExecuteLocal(Action):
         }
         if self.__log_cmd:
             words = " ".join(each for each in command if each.strip())
-            custom = description.final_env is not None
+            custom = description.env is not None or description.additional_env is not None
             self.__logger.info(f"process details: cmd='{words}', cwd='{description.final_cwd}', custom_env?={custom}")
         child = await self.__start(context, command, details)
         if child is None:
@@ -301,7 +301,7 @@ class ExecuteLocal(Action):
             kind = ProcessStdout if fd == 1 else ProcessStderr
             context.emit_event_sync(kind(text=data, action=self, **details))
 
-        environment = dict(context.environment) if details["env"] is None else details["env"]
+        environment = details["env"]
         program = self.in_process_program(command)
         if program is not None:
             child: Child = start_node_child(

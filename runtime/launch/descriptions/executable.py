@@ -96,7 +96,7 @@ class Executable:
 
     @property
     def final_env(self) -> dict[str, str] | None:
-        """The environment; None: that of the launch."""
+        """The whole environment; None before it was prepared."""
         return self.__final_env
 
     @property
@@ -121,9 +121,7 @@ class Executable:
             return []
         return words
 
-    def _environment(self, context: Any) -> dict[str, str] | None:
-        if self.__env is None and self.__additional_env is None:
-            return None
+    def _environment(self, context: Any) -> dict[str, str]:
         found = dict(context.environment) if self.__env is None else {}
         for name, value in [*(self.__env or ()), *(self.__additional_env or ())]:
             found[perform_substitutions(context, name)] = perform_substitutions(context, value)

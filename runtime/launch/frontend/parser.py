@@ -59,9 +59,12 @@ class Parser:
         """The root element, with its parser; raises `InvalidFrontendLaunchFileError` where no parser can read it."""
         cls.load_launch_extensions()
         path = file if isinstance(file, str) else getattr(file, "name", "")
-        text = _read(path) if isinstance(file, str) else file.read()
         extension = os.path.splitext(path)[1].removeprefix(".")
         errors: list[BaseException] = []
+        try:
+            text = _read(path) if isinstance(file, str) else file.read()
+        except UnicodeDecodeError as error:
+            raise InvalidFrontendLaunchFileError("", likely_errors=[error]) from error
         for parser in cls._parsers_for(path):
             try:
                 return parser.load(io.StringIO(text))

@@ -49,8 +49,8 @@ class Command(Substitution):
 
     def perform(self, context: Any) -> str:
         """The output with its last newline; raises `SubstitutionFailure` where the command fails."""
-        command: Any = perform_substitutions(context, self.__command)
-        command = command if os.name == "nt" else shlex.split(command)
+        text = perform_substitutions(context, self.__command)
+        command = text if os.name == "nt" else shlex.split(text)
         on_stderr = perform_substitutions(context, self.__on_stderr)
         if on_stderr not in WORDS:
             raise SubstitutionFailure("expected 'on_stderr' to be one of: 'fail', 'ignore', 'warn' or 'capture'")
@@ -62,13 +62,13 @@ class Command(Substitution):
             )
         except FileNotFoundError as error:
             raise SubstitutionFailure(f"file not found: {error}") from error
-        said = f"Command: {' '.join(command) if isinstance(command, list) else command}"
+        said = f"Command: {text}"
         if done.returncode != 0:
             captured = f"\nCaptured stderr output: {done.stderr}" if done.stderr else ""
             raise SubstitutionFailure(f"executed command failed. {said}{captured}")
         if done.stderr and on_stderr != "ignore":
-            text = f"executed command showed stderr output. {said}\nCaptured stderr output:\n{done.stderr}"
+            problem = f"executed command showed stderr output. {said}\nCaptured stderr output:\n{done.stderr}"
             if on_stderr == "fail":
-                raise SubstitutionFailure(text)
-            launch.logging.get_logger().warning(text)
+                raise SubstitutionFailure(problem)
+            launch.logging.get_logger().warning(problem)
         return done.stdout

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
 from typing import Any
 
 from launch.frontend import expose_substitution
@@ -16,8 +15,9 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 class PathJoinSubstitution(Substitution):
     """Pieces of a path, joined; `/` adds a piece."""
 
-    def __init__(self, substitutions: Iterable[Any]) -> None:
-        self.__pieces = [normalize_to_list_of_substitutions(each) for each in substitutions]
+    def __init__(self, substitutions: Any) -> None:
+        pieces = [substitutions] if isinstance(substitutions, (str, Substitution)) else substitutions
+        self.__pieces = [normalize_to_list_of_substitutions(each) for each in pieces]
 
     @classmethod
     def parse(cls, data: Any) -> tuple[type[Substitution], dict[str, Any]]:

@@ -1,0 +1,82 @@
+"""An element of a launch file in YAML."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.frontend import Entity as BaseEntity
+from launch.frontend.entity import wants_entities
+from launch.utilities.type_utils import is_instance_of
+
+
+class Entity(BaseEntity):
+    """A map or list with the name of its kind; it remembers what of it was read."""
+
+    def __init__(self, element: Any, type_name: str | None = None, *, parent: Entity | None = None) -> None:
+        self.__element = element
+        self.__type_name = type_name or ""
+        self.__parent = parent
+        self.__read_keys: set[str] = set()
+        self.__children_read = False
+
+    @property
+    def type_name(self) -> str:
+        """Its kind."""
+        return self.__type_name
+
+    @property
+    def parent(self) -> Entity | None:
+        """The element that it is in."""
+        return self.__parent
+
+    @property
+    def children(self) -> list[BaseEntity]:
+        """The elements in it; raises `ValueError` where there can be none."""
+        if not isinstance(self.__element, (dict, list)):
+            raise TypeError(f"Expected list or dict, got {type(self.__element)} in Entity '{self.type_name}'")
+        children = self.__element
+        if isinstance(children, dict):
+            if "children" not in children:
+                raise ValueError(
+                    f"Expected entity `{self.type_name}` to have children entities."
+                    "That can be a list of subentities or a dictionary with a `children` list element"
+                )
+            self.__read_keys.add("children")
+            children = children["children"]
+        self.__children_read = True
+        return [self.__child(each) for each in children]
+
+    def __child(self, child: Any) -> Entity:
+        if len(child) != 1:
+            raise RuntimeError("Subentities must be a dictionary with only one key, which is the entity type")
+        type_name = list(child.keys())[0]
+        return Entity(child[type_name], type_name, parent=self)
+
+    def assert_entity_completely_parsed(self) -> None:
+        """Raise `ValueError` for keys that nobody has asked for."""
+        if isinstance(self.__element, list):
+            if not self.__children_read:
+                raise ValueError(f"Unexpected nested entity(ies) found in `{self.type_name}`: {self.__element}")
+            return
+        unread = set(self.__element or ()) - self.__read_keys
+        if unread:
+            raise ValueError(f"Unexpected key(s) found in `{self.type_name}`: {unread}")
+
+    def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
+        """A value of a type, or the elements of a key; raises `AttributeError` and `TypeError`."""
+        if not isinstance(self.__element, dict) or name not in self.__element:
+            if optional:
+                return None
+            raise AttributeError(f"Can not find attribute '{name}' in Entity '{self.type_name}'")
+        self.__read_keys.add(name)
+        data = self.__element[name]
+        if wants_entities(data_type):
+            if isinstance(data, list) and data and isinstance(data[0], dict):
+                return [Entity(each, name, parent=self) for each in data]
+            raise TypeError(f"Attribute '{name}' of Entity '{self.type_name}' expected to be a list of dictionaries.")
+        if not is_instance_of(data, data_type, can_be_str=can_be_str):
+            raise TypeError(
+                f"Attribute '{name}' of Entity '{self.type_name}' expected to be of type '{data_type}', "
+                f"got '{type(data)}'"
+            )
+        return data

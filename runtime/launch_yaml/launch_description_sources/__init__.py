@@ -1,0 +1,5 @@
+"""Launch files in YAML as sources."""
+
+from launch_yaml.source import YAMLLaunchDescriptionSource
+
+__all__ = ["YAMLLaunchDescriptionSource"]
