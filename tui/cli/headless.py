@@ -110,7 +110,5 @@ def _launch(options: Options) -> int:
     return service.run()
 
 
-
-
 def _to_stderr(text: str) -> None:
     sys.__stderr__.write(text) if sys.__stderr__ else None

@@ -19,7 +19,7 @@ from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.workspaces import choose, launch_files
 from bot_console.tui.console.connection import RosConsole
 from bot_console.tui.console.launcher import RosLauncher
-from bot_console.tui.console.model import Severity
+from bot_console.tui.console.model import LaunchInfo, Severity
 from bot_console.tui.console.process_output import FORMAT_VARIABLE, MARKED_FORMAT
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -45,7 +45,7 @@ class Session:
         self._options = options
         self._closed = False
         self.console = RosConsole(
-            launch_info=lambda: self.launcher.info(),
+            launch_info=self._launch_info,
             profile_folders=[ROOT / "profiles"],
             active_profile="" if options.launch else options.profile,
             run_line=run_line,
@@ -54,6 +54,9 @@ class Session:
         self.app = BotConsoleApp(
             self.console, self.launcher, start_pane=options.pane, on_first_frame=self._on_first_frame
         )
+
+    def _launch_info(self) -> LaunchInfo:
+        return self.launcher.info()
 
     def run(self) -> int:
         """Show the console until it is quit; the robot stands still when this returns, however it ended."""
@@ -94,13 +97,13 @@ class Session:
 
     @contextlib.contextmanager
     def _ended_by_signals(self) -> Iterator[None]:
-        """SIGTERM and SIGHUP (a closed terminal) stop the robot first, then end the app."""
+        """Ctrl-C from elsewhere, SIGTERM and SIGHUP (a closed terminal) stop the robot first, then end the app."""
 
         def end(number: int, frame: FrameType | None) -> None:
             self.console.all_stop(True)
             self.app.exit(return_code=128 + number)
 
-        before = {each: signal.signal(each, end) for each in (signal.SIGTERM, signal.SIGHUP)}
+        before = {each: signal.signal(each, end) for each in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
         try:
             yield
         finally:
@@ -115,7 +118,7 @@ class Session:
         self.console.all_stop(True)
         threading.Event().wait(LAST_WORD)
         self.launcher.close()
-        self.console.close()
+        self.console.close()  # whose own zero is the last word to a robot that outlives this program
 
 
 class Launching:

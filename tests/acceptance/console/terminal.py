@@ -1,0 +1,73 @@
+"""A pseudo-terminal with a program in it, driven by tests."""
+
+from __future__ import annotations
+
+import contextlib
+import fcntl
+import os
+import pty
+import select
+import struct
+import subprocess
+import sys
+import termios
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+PATIENCE = 60.0
+"""Seconds after which a test gives up; nothing is measured by it."""
+
+
+class Terminal:
+    """A program in a terminal of a given size."""
+
+    def __init__(self, words: Sequence[str], folder: Path, size: tuple[int, int] = (120, 40)) -> None:
+        self.master, slave = pty.openpty()
+        fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack("HHHH", size[1], size[0], 0, 0))
+        self.settings = termios.tcgetattr(slave)
+        self._slave = slave
+        environment = {**os.environ, "TERM": "xterm-256color", "COLORTERM": "truecolor", "ROS_HOME": str(folder)}
+        environment.pop("RCUTILS_CONSOLE_OUTPUT_FORMAT", None)
+        self.process = subprocess.Popen(
+            [sys.executable, *words], cwd=folder, env=environment, start_new_session=True,
+            stdin=slave, stdout=slave, stderr=slave,
+        )  # fmt: skip
+        self.output = b""
+
+    def read_until(self, condition: Callable[[], bool], what: str) -> None:
+        """Take the program's output until a condition holds."""
+        deadline = time.monotonic() + PATIENCE
+        while not condition():
+            assert time.monotonic() < deadline, f"no {what}; the screen ended with {self.output[-800:]!r}"
+            self._read(0.05)
+
+    def _read(self, seconds: float) -> None:
+        if select.select([self.master], [], [], seconds)[0]:
+            with contextlib.suppress(OSError):
+                self.output += os.read(self.master, 65536)
+
+    def type(self, keys: str) -> None:
+        """Press keys."""
+        os.write(self.master, keys.encode())
+
+    def wait(self) -> int:
+        """The exit code, once the program has ended."""
+        self.read_until(lambda: self.process.poll() is not None, "the end of the program")
+        self._read(0.2)
+        return self.process.returncode
+
+    def is_usable(self) -> bool:
+        """Whether the program has left the alternate screen, shows the cursor and has given the line back."""
+        left = self.output.rfind(b"\x1b[?1049l") > self.output.rfind(b"\x1b[?1049h")
+        shown = self.output.rfind(b"\x1b[?25h") > self.output.rfind(b"\x1b[?25l")
+        modes = termios.tcgetattr(self._slave)[3]
+        return left and shown and modes == self.settings[3]
+
+    def close(self) -> None:
+        """End the program, whatever state it is in."""
+        if self.process.poll() is None:
+            self.process.kill()
+            self.process.wait()
+        os.close(self.master)
+        os.close(self._slave)

@@ -1,0 +1,98 @@
+"""However the console ends, the robot gets a zero velocity and the terminal is usable."""
+
+import os
+import signal
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))
+from terminal import Terminal
+
+WHEELS = """
+import rclpy
+from geometry_msgs.msg import Twist
+from rclpy.executors import ExternalShutdownException
+
+rclpy.init()
+node = rclpy.create_node("wheels")
+file = open("{folder}/received", "a", buffering=1)
+node.create_subscription(Twist, "cmd_vel", lambda message: file.write(f"{{message.linear.x}}\\n"), 10)
+drive = node.create_publisher(Twist, "cmd_vel", 10)
+command = Twist()
+command.linear.x = 1.0
+node.create_timer(0.2, lambda: drive.publish(command))
+try:
+    rclpy.spin(node)
+except (KeyboardInterrupt, ExternalShutdownException):
+    pass
+"""
+
+LAUNCH = """
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+def generate_launch_description():
+    return LaunchDescription([Node(executable="{folder}/wheels.py")])
+"""
+
+CRASH = """
+import sys
+from pathlib import Path
+from bot_console.tui import cli
+from bot_console.tui.app import BotConsoleApp
+
+pull = BotConsoleApp.pull
+
+def crash(self):
+    if Path("{folder}/crash").exists():
+        raise ZeroDivisionError("a fault of the console")
+    pull(self)
+
+BotConsoleApp.pull = crash
+sys.exit(cli.main(sys.argv[1:]))
+"""
+
+
+@pytest.fixture
+def console(tmp_path):
+    """The console on a launch file with a robot that drives."""
+    (tmp_path / "wheels.py").write_text(WHEELS.format(folder=tmp_path))
+    (tmp_path / "one.launch.py").write_text(LAUNCH.format(folder=tmp_path))
+    (tmp_path / "program.py").write_text(CRASH.format(folder=tmp_path))
+    terminal = Terminal(["program.py", "--launch", "one.launch.py"], tmp_path)
+    terminal.folder = tmp_path
+    received = tmp_path / "received"
+    terminal.read_until(lambda: received.exists() and received.read_text().count("1.0") >= 3, "the driving robot")
+    yield terminal
+    terminal.close()
+
+
+ENDS = {
+    "q": lambda terminal: terminal.type("q"),
+    "ctrl-c": lambda terminal: terminal.type("\x03"),
+    "SIGTERM": lambda terminal: terminal.process.send_signal(signal.SIGTERM),
+    "SIGHUP": lambda terminal: terminal.process.send_signal(signal.SIGHUP),
+    "SIGINT": lambda terminal: terminal.process.send_signal(signal.SIGINT),
+    "crash": lambda terminal: (terminal.folder / "crash").touch(),
+}
+CODES = {"q": 0, "ctrl-c": 0, "SIGTERM": 143, "SIGHUP": 129, "SIGINT": 130, "crash": 1}
+
+
+@pytest.mark.parametrize("how", ENDS)
+def test_robot_is_stopped_and_terminal_usable(console, how):
+    before = len((console.folder / "received").read_text().splitlines())
+    ENDS[how](console)
+    assert console.wait() == CODES[how]
+    commands = (console.folder / "received").read_text().splitlines()[before:]
+    assert commands[-1] == "0.0"
+    assert console.is_usable()
+
+
+def test_a_second_signal_does_not_break_the_end(console):
+    console.process.send_signal(signal.SIGTERM)
+    os.kill(console.process.pid, signal.SIGHUP)
+    assert console.wait() in (143, 129)
+    assert (console.folder / "received").read_text().splitlines()[-1] == "0.0"
+    assert console.is_usable()
