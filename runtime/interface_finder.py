@@ -53,10 +53,12 @@ def _exists(folder: Path, inside: Sequence[str]) -> bool:
 
 
 def _definition(folder: Path, kind: str, module: str) -> Path | None:
+    from bot_console.runtime.rosidl.emit import PARTS_SUFFIX
     from bot_console.runtime.rosidl.names import module_name
 
     files = (folder / kind).glob(f"*.{kind}")
-    return next((each for each in files if module_name(each.stem) == module), None)
+    wanted = module.removesuffix(PARTS_SUFFIX) if kind == "srv" else module
+    return next((each for each in files if module_name(each.stem) == wanted), None)
 
 
 class InterfaceLoader:
@@ -73,7 +75,8 @@ class InterfaceLoader:
 
     def get_source(self, fullname: str) -> str:
         """The Python source; raises `ImportError` that names file, line and fault of a definition."""
-        from bot_console.runtime.rosidl.emit import module, package_module
+        from bot_console.runtime.rosidl.emit import modules
+        from bot_console.runtime.rosidl.emit_holder import package_module
         from bot_console.runtime.rosidl.parse import DefinitionError, parse
 
         package, *inside = fullname.split(".")
@@ -86,7 +89,7 @@ class InterfaceLoader:
             if path is None:
                 raise ImportError(f"no definition of {fullname}", name=fullname)
             text = path.read_text(encoding="utf-8")
-            return module(parse(text, package, inside[0], path.stem, str(path)))
+            return modules(parse(text, package, inside[0], path.stem, str(path)))[inside[1]]
         except (DefinitionError, OSError, UnicodeDecodeError) as error:
             raise ImportError(str(error), name=fullname) from None
 

@@ -31,7 +31,8 @@ def check_is_valid_msg_type(msg_type: Any) -> None:
 def check_is_valid_srv_type(srv_type: Any) -> None:
     """Raise `RuntimeError` for a message or action, `AttributeError` for what is no interface class at all."""
     check_for_type_support(srv_type)
-    if not all(hasattr(srv_type, part) for part in ("Response", "Request", "Event")):
+    parts = ("Response", "Request", "Event")
+    if not all(part in getattr(srv_type, "_later", ()) or hasattr(srv_type, part) for part in parts):
         raise RuntimeError(f"The service type provided is not valid ({srv_type}), this might be a message or action")
 
 

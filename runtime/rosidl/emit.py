@@ -1,11 +1,12 @@
-"""Writes the Python module of an interface."""
+"""Writes the Python modules of an interface."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from bot_console.runtime.rosidl.definition import DTYPES, INTEGERS, TYPECODES, Definition, Field, Interface, Type
 from bot_console.runtime.rosidl.emit_copy import copy_lines
+from bot_console.runtime.rosidl.emit_holder import action, service, service_module
 from bot_console.runtime.rosidl.names import module_name
 from bot_console.runtime.rosidl.parts import companions
 
@@ -31,8 +32,19 @@ SCALARS = {"boolean": "bool", "octet": "bytes", "float": "float", "double": "flo
 ZEROS = {"boolean": "False", "octet": "b'\\x00'", "float": "0.0", "double": "0.0", "string": "''", "wstring": "''"}
 
 
-def module(interface: Interface) -> str:
-    """The source of the module that defines an interface and its companions."""
+PARTS_SUFFIX = "__parts"
+"""What follows the module name of a service in that of its request, response and event."""
+
+
+def modules(interface: Interface) -> dict[str, str]:
+    """Sources by module name: one module, for a service two, as its name is often all that is wanted of it."""
+    file = module_name(interface.name)
+    if interface.kind != "srv":
+        return {file: _module(interface)}
+    return {file: service_module(interface, file + PARTS_SUFFIX), file + PARTS_SUFFIX: _module(interface)}
+
+
+def _module(interface: Interface) -> str:
     definitions = [*interface.parts, *companions(interface)]
     here = {each.name for each in definitions}
     lines = [HEAD.format(package=interface.package, kind=interface.kind, name=interface.name)]
@@ -44,17 +56,22 @@ def module(interface: Interface) -> str:
         if known[item] != name:
             lines.append(f"from {package}.msg.{module_name(name)} import {name} as {known[item]}")
     lines.append("\n_new = object.__new__\n_MISSING: Any = object()\n")
+    shown = f"{interface.package}.srv.{module_name(interface.name)}" if interface.kind == "srv" else ""
     for each in definitions:
-        lines += ["", *_message(each, known)]
-    lines += _holder(interface)
+        lines += ["", *_message(each, known, shown)]
+    if interface.kind == "action":
+        lines += [*service(f"{interface.name}_SendGoal"), *service(f"{interface.name}_GetResult")]
+        lines += action(interface.name)
     return "\n".join(lines) + "\n"
 
 
-def _message(definition: Definition, known: dict[str, str]) -> Iterator[str]:
+def _message(definition: Definition, known: dict[str, str], shown: str) -> Iterator[str]:
     name = definition.name
     yield f"class {name}(_Message):"
     yield f'    """Message class \'{name}\'."""'
     yield ""
+    if shown:
+        yield f"    __module__ = {shown!r}"
     slots = [f"_{each.name}" for each in definition.fields]
     yield f"    __slots__ = {[*slots, '_check_fields']!r}"
     types = {each.name: each.type.text for each in definition.fields}
@@ -184,74 +201,3 @@ def _property(field: Field, known: dict[str, str]) -> Iterator[str]:
         yield f"            self._{name} = value"
         yield "            return"
     yield f"    self._{name} = {converted}  # type: ignore[assignment]"
-
-
-def _holder(interface: Interface) -> Sequence[str]:
-    """The class that holds the parts of a service or an action."""
-    name = interface.name
-    if interface.kind == "srv":
-        return _service(name, interface.package)
-    if interface.kind == "action":
-        return [*_service(f"{name}_SendGoal", interface.package), *_service(f"{name}_GetResult", interface.package),
-                *_action(name)]  # fmt: skip
-    return ()
-
-
-def _service(name: str, package: str) -> list[str]:
-    return [
-        "",
-        f"class {name}(metaclass=_ServiceType):",
-        f'    """Service class \'{name}\'."""',
-        "",
-        f"    Request = {name}_Request",
-        f"    Response = {name}_Response",
-        f"    Event = {name}_Event",
-        "",
-    ]
-
-
-def _action(name: str) -> list[str]:
-    return [
-        "",
-        f"class {name}(metaclass=_ServiceType):",
-        f'    """Action class \'{name}\'."""',
-        "",
-        f"    Goal = {name}_Goal",
-        f"    Result = {name}_Result",
-        f"    Feedback = {name}_Feedback",
-        "",
-        "    class Impl:",
-        '        """The services and messages that an action is made of."""',
-        "",
-        "        from action_msgs.msg._goal_status_array import GoalStatusArray as GoalStatusMessage",
-        "        from action_msgs.srv._cancel_goal import CancelGoal as CancelGoalService",
-        "",
-        f"        SendGoalService = {name}_SendGoal",
-        f"        GetResultService = {name}_GetResult",
-        f"        FeedbackMessage = {name}_FeedbackMessage",
-        "",
-    ]
-
-
-def package_module(classes: dict[str, str]) -> str:
-    """The `__init__` of a `msg`, `srv` or `action` folder: classes by name, each imported when it is asked for."""
-    lines = ["from typing import TYPE_CHECKING", "", "if TYPE_CHECKING:"]
-    rows = sorted(classes.items())
-    lines += [f"    from .{file} import {name} as {name}" for name, file in rows] or ["    pass"]
-    lines += ["", f"_FILES = {dict(rows)!r}", f"__all__ = {[name for name, _ in rows]!r}", "", LAZY]
-    return "\n".join(lines)
-
-
-LAZY = """\
-def __getattr__(name: str):
-    if name not in _FILES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    from importlib import import_module
-
-    value = globals()[name] = getattr(import_module(f"{__name__}.{_FILES[name]}"), name)
-    return value
-
-
-def __dir__():
-    return sorted([*globals(), *_FILES])
-"""

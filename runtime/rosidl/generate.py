@@ -15,7 +15,8 @@ PREFIX = "ament-prefix"
 def main() -> None:
     """Write all modules afresh."""
     _make_importable()
-    from bot_console.runtime.rosidl.emit import module, package_module
+    from bot_console.runtime.rosidl.emit import modules
+    from bot_console.runtime.rosidl.emit_holder import package_module
     from bot_console.runtime.rosidl.names import module_name
     from bot_console.runtime.rosidl.standard import interfaces
 
@@ -27,7 +28,8 @@ def main() -> None:
         folder = fresh / each.package / each.kind
         folder.mkdir(parents=True, exist_ok=True)
         file = module_name(each.name)
-        (folder / f"{file}.py").write_text(module(each), encoding="utf-8")
+        for module, source in modules(each).items():
+            (folder / f"{module}.py").write_text(source, encoding="utf-8")
         share = fresh / PREFIX / "share" / each.package / each.kind
         share.mkdir(parents=True, exist_ok=True)
         (share / f"{each.name}.{each.kind}").write_text(text, encoding="utf-8")

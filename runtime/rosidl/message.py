@@ -67,7 +67,19 @@ def _equal(one: Any, other: Any) -> bool:
 
 
 class ServiceType(type):
-    """The type of service and action classes, which only hold others."""
+    """The type of service and action classes, which only hold others; `_later` names those that come when asked for."""
+
+    _later: tuple[str, ...] = ()
+
+    def __getattr__(cls, name: str) -> Any:
+        """Import a part of a service."""
+        if name not in cls._later:
+            raise AttributeError(f"type object {cls.__name__!r} has no attribute {name!r}")
+        from importlib import import_module
+
+        part = getattr(import_module(f"{cls.__module__}__parts"), f"{cls.__name__}_{name}")
+        setattr(cls, name, part)
+        return part
 
     def __call__(cls, *args: Any, **kwargs: Any) -> Any:
         """Refuse to be made, as upstream does."""
