@@ -5,6 +5,7 @@ from __future__ import annotations
 import weakref
 from typing import Any
 
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import ROSClock
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -97,11 +98,9 @@ class TimeSource:
             clock.set_ros_time_override(self._last)
 
     def _on_parameter_event(self, parameters: list[Parameter]) -> Any:
-        from rcl_interfaces.msg import SetParametersResult
-
         for parameter in parameters:
             if parameter.name == USE_SIM_TIME_NAME:
                 if parameter.type_ != Parameter.Type.BOOL:
                     return SetParametersResult(successful=False, reason=WRONG_TYPE)
                 self.ros_time_is_active = parameter.value
-        return SetParametersResult(successful=True)
+        return SetParametersResult(successful=True, check_fields=False)

@@ -28,6 +28,8 @@ from rcl_interfaces.msg import (  # noqa: E402
     SetParametersResult,
 )
 from rcl_interfaces.msg import Parameter as ParameterMsg  # noqa: E402
+from rcl_interfaces.srv import SetParameters  # noqa: E402
+from rclpy.executors import SingleThreadedExecutor  # noqa: E402
 from rclpy.parameter import Parameter  # noqa: E402
 
 SETS = 5_000
@@ -80,6 +82,27 @@ def local_set(watched: bool) -> float:
     return cost
 
 
+def service_call() -> float:
+    """Request and reply of `SetParameters` between two nodes of one executor."""
+    server, client = node_with_speed(), rclpy.create_node("asker")
+    executor = SingleThreadedExecutor()
+    for node in (server, client):
+        executor.add_node(node)
+    asker = client.create_client(SetParameters, "/bench/set_parameters")
+    request = SetParameters.Request(parameters=[Parameter("speed", value=2.0).to_parameter_msg()])
+
+    def call(number: int) -> None:
+        future = asker.call_async(request)
+        while not future.done():
+            executor.spin_once()
+
+    cost = per_call(call, SETS // 5)
+    executor.shutdown()
+    for node in (server, client):
+        node.destroy_node()
+    return cost
+
+
 def read() -> float:
     """`get_parameter(...).value`."""
     node = node_with_speed()
@@ -106,6 +129,7 @@ MEASURES: dict[str, Callable[[], float]] = {
     "floor_us": floor_of_a_change,
     "local_set_us": lambda: local_set(False),
     "local_set_watched_us": lambda: local_set(True),
+    "service_call_us": service_call,
     "get_parameter_us": read,
     "file_and_declare_us_each": parameter_file,
 }
