@@ -52,10 +52,8 @@ def start(running: System, words: Sequence[str]) -> Program:
     return running.python(*words[1:]) if words[0] == "python" else running.ros2(*words[1:])
 
 
-LIBRARY_FRAME = re.compile(
-    r'^  File "(?!<course>|<string>", line 1, in <module>).*", line .*, in .*\n(?:    .*\n)*', re.M
-)
-MARKS = re.compile(r"^    [ ]*[\^~]+\n", re.M)
+USERS_FRAME = re.compile(r'  File "(?:<course>/.*|<string>)", line')
+MARKS = re.compile(r"    [ ]*[~^]+[~^ ]*\n")
 
 
 def normal(text: str, folder: Path) -> str:
@@ -71,22 +69,22 @@ def normal(text: str, folder: Path) -> str:
     # How many reports come before the command is stopped depends on how long the interpreter took to start.
     text = re.sub(r"average rate: (?:9\.[5-9]|10\.[0-4])\d*", "average rate: ~10", text)
     text = re.sub(r"(average rate: ~10\n.*\n)\1+", r"\1", text)
-    if "Traceback (most recent call last):" in text:
-        text = LIBRARY_FRAME.sub("", text)
-        syntax_error = "SyntaxError" in text
-        text = text if syntax_error else _without_marks(text)
-    return text
+    return without_library_frames(text)
 
 
-def _without_marks(text: str) -> str:
-    """Without the marks that newer interpreters put below a traceback's lines; those of YAML's errors stay."""
-    head, at, tail = text.rpartition("\n  File ")
-    return MARKS.sub("", head + at) + (_without_marks_in_frame(tail) if at else tail)
-
-
-def _without_marks_in_frame(frame: str) -> str:
-    lines = frame.splitlines(keepends=True)
-    return "".join(line for at, line in enumerate(lines) if at != 2 or not MARKS.fullmatch(line))
+def without_library_frames(text: str) -> str:
+    """Tracebacks with the frames of the course's files alone, and without the marks that newer interpreters add."""
+    kept: list[str] = []
+    inside = users = False
+    for line in text.splitlines(keepends=True):
+        if inside and line.startswith("  "):
+            users = USERS_FRAME.match(line) is not None if line.startswith("  File ") else users
+            if users and not MARKS.fullmatch(line):
+                kept.append(line)
+            continue
+        inside, users = line == "Traceback (most recent call last):\n", False
+        kept.append(line)
+    return "".join(kept)
 
 
 def usage_of_other_interpreter(row: Row) -> bool:
