@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
-from pathlib import Path
-from typing import Any
+from pathlib import Path, PurePath
+from typing import Any, ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.commands import KeyCommands
@@ -13,18 +13,22 @@ from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Console, Launcher
 from bot_console.tui.pane_table import PANES
 from bot_console.tui.panes.pane import Pane
+from bot_console.tui.panes.plot import PlotPane
 from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.screens.output import OutputScreen
 from bot_console.tui.terminal import SUPPORTED, AnswerGate, GatedScreen
 from bot_console.tui.theme import DARK
+from bot_console.tui.widgets.key_bar import KeyBar
 from bot_console.tui.widgets.status_bar import StatusBar
+from rich.style import Style
 from rich.text import Text
 from textual import events
 from textual.app import App, ComposeResult
 from textual.binding import BindingType
+from textual.command import Provider
 from textual.containers import Container
 from textual.screen import Screen
-from textual.widgets import Footer, Input, Static
+from textual.widgets import Input, Static
 
 OVERVIEW = (100, 30)
 """Columns and lines from which several panes are shown at once."""
@@ -32,6 +36,7 @@ OVERVIEW = (100, 30)
 WIDE = (170, 45)
 """Columns and lines from which the overview has room for the graph as well."""
 
+PLOT = "plot"
 SMALLEST = (60, 20)
 HERE = Path(__file__).parent
 
@@ -40,9 +45,12 @@ class BotConsoleApp(App[None]):
     """rqt for the terminal."""
 
     TITLE = "bot-console"
-    CSS_PATH = [HERE / "app.tcss", *(HERE / "panes" / f"{each.id}.tcss" for each in PANES)]
-    COMMANDS = {KeyCommands}
-    BINDINGS: list[BindingType] = [*keymap.bindings("app")]
+    CSS_PATH: ClassVar[list[str | PurePath]] = [
+        HERE / "app.tcss",
+        *(HERE / "panes" / f"{each.id}.tcss" for each in PANES),
+    ]
+    COMMANDS: ClassVar[set[type[Provider] | Callable[[], type[Provider]]]] = {KeyCommands}
+    BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("app")]
     ENABLE_COMMAND_PALETTE = True
 
     def __init__(
@@ -75,7 +83,7 @@ class BotConsoleApp(App[None]):
             for each in sorted(PANES, key=lambda entry: entry.place):
                 yield each.load()(self.console_of_robot, self.launcher, id=each.id)
         yield StatusBar()
-        yield Footer(show_command_palette=False)
+        yield KeyBar()
         yield Static("", id="too-small", markup=False)
 
     def on_mount(self) -> None:
@@ -153,6 +161,17 @@ class BotConsoleApp(App[None]):
             pane = next(iter(self.visible_panes()), None)
         if pane is not None and not self._typing():
             pane.focus_target()
+        self.show_keys()
+
+    def on_descendant_focus(self) -> None:
+        """Another part of the screen has the keyboard: show its keys."""
+        self.show_keys()
+
+    def show_keys(self) -> None:
+        """Show the keys of the pane that has the keyboard."""
+        if self.screen_stack and len(self.screen_stack) == 1:
+            pane = self.current_pane
+            self.query_one(KeyBar).show(pane.id or "" if pane else "", self._typing(), DARK.primary)
 
     def _overview_size(self) -> int:
         """Which overview fits: 2 the wide one, 1 the usual one, 0 none, so that panes are shown one at a time."""
@@ -162,7 +181,9 @@ class BotConsoleApp(App[None]):
 
     def _tabs(self, overview: bool, single: str) -> None:
         marks = [("0", "Overview", "All", overview)]
-        marks += [(each.digit, each.title, each.short or each.title, not overview and each.id == single) for each in PANES]
+        marks += [
+            (each.digit, each.title, each.short or each.title, not overview and each.id == single) for each in PANES
+        ]
         self.query_one("#tabs", Static).update(tabs_text(marks, self.size.width - 2))
 
     def _typing(self) -> bool:
@@ -201,7 +222,7 @@ class BotConsoleApp(App[None]):
             self.action_pane(self._focused_pane)
 
     def action_zoom(self) -> None:
-        """This pane alone, or the overview again."""
+        """One pane alone, or the overview again."""
         pane = self.current_pane
         self.action_pane("overview" if self._wanted != "overview" or pane is None else pane.id or "overview")
 
@@ -221,6 +242,14 @@ class BotConsoleApp(App[None]):
         """Draw everything anew."""
         self.refresh(repaint=True, layout=True)
 
+    def on_pane_plot_wanted(self, event: Pane.PlotWanted) -> None:
+        """Plot a path that another pane names."""
+        event.stop()
+        plot = self.query_one(f"#{PLOT}", PlotPane)
+        plot.add(event.path)
+        if not plot.display:
+            self.action_pane(PLOT)
+
     def run_ros2(self, line: str) -> None:
         """Run a `ros2` line and show what it prints."""
         answer = self.console_of_robot.run_line(line)
@@ -237,14 +266,14 @@ class BotConsoleApp(App[None]):
 
 def tabs_text(marks: Sequence[tuple[str, str, str, bool]], width: int) -> Text:
     """Digits and titles of the panes; short titles, then none but the shown one's, where there is little room."""
-    text = Text(no_wrap=True)
-    for long, short in ((True, True), (False, True), (False, False)):
-        text = Text(no_wrap=True)
+    for form in ("long", "short", "digits"):
+        parts: list[Text] = []
         for digit, title, brief, shown in marks:
-            word = title if long else (brief if short or shown else "")
+            word = title if form == "long" else (brief if form == "short" or shown else "")
             label = f"{digit} {word}".strip()
-            text.append(f"[{label}]" if shown else (f" {label} " if long or not short else f"{label} "),
-                        "bold reverse" if shown else "")  # fmt: skip
+            padded = f"[{label}]" if shown else (label if form == "short" else f" {label} ")
+            parts.append(Text(padded, Style(color=DARK.primary, bold=True, reverse=True) if shown else ""))
+        text = Text(" ", no_wrap=True).join(parts)
         if text.cell_len <= width:
-            break
-    return text
+            return text
+    return Text()

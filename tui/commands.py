@@ -5,8 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, cast
 
-from bot_console.tui.keymap import TABLE
-from bot_console.tui.screens.help import key_text
+from bot_console.tui.keymap import TABLE, key_text
 from textual.command import DiscoveryHit, Hit, Hits, Provider
 
 if TYPE_CHECKING:

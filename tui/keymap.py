@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from textual.binding import Binding
+from textual.binding import Binding, BindingType
 
 
 @dataclass(frozen=True)
@@ -87,6 +87,7 @@ TABLE: Mapping[str, tuple[Key, ...]] = {
         Key("parameters.fold", "left", "fold(True)", "Close the node"),
         Key("parameters.unfold", "right", "fold(False)", "Open the node"),
         Key("parameters.fold_all", "C", "fold_all", "Close or open all nodes", shown="C"),
+        Key("parameters.plot", "p", "plot", "Plot this parameter"),
         Key("parameters.copy", "y", "copy", "Copy the ros2 command of this parameter"),
         Key("parameters.save", "s", "save", "Save to a ROS parameter file"),
     ),
@@ -114,7 +115,15 @@ TABLE: Mapping[str, tuple[Key, ...]] = {
         Key("graph.detail", "enter", "detail", "All about this node or topic", footer=True, short="Details"),
         Key("graph.mode", "m", "mode", "Topics in use, all topics, or nodes only", footer=True, short="Mode"),
         Key("graph.filter", "slash", "filter", "Filter", footer=True, shown="/"),
-        Key("graph.debug", "D", "toggle('debug')", "Show debug topics and hidden nodes", footer=True, shown="D", short="Debug"),
+        Key(
+            "graph.debug",
+            "D",
+            "toggle('debug')",
+            "Show debug topics and hidden nodes",
+            footer=True,
+            shown="D",
+            short="Debug",
+        ),
         Key("graph.sinks", "d", "toggle('dead_sinks')", "Hide topics that nobody listens to"),
         Key("graph.leaves", "L", "toggle('leaves')", "Hide topics with a single connection", shown="L"),
         Key("graph.turn", "o", "turn_picture", "Arrows to the right, down, or as it fits"),
@@ -222,7 +231,7 @@ TABLE: Mapping[str, tuple[Key, ...]] = {
 }
 
 
-def bindings(scope: str) -> list[Binding]:
+def bindings(scope: str) -> list[BindingType]:
     """The bindings of one scope of the table, for a class's `BINDINGS`."""
     return [
         Binding(
@@ -236,3 +245,32 @@ def bindings(scope: str) -> list[Binding]:
         )
         for key in TABLE[scope]
     ]
+
+
+NAMES = {
+    "question_mark": "?",
+    "colon": ":",
+    "exclamation_mark": "!",
+    "slash": "/",
+    "plus": "+",
+    "equals_sign": "=",
+    "minus": "-",
+    "greater_than_sign": ">",
+    "less_than_sign": "<",
+    "escape": "esc",
+    "up": "↑",
+    "down": "↓",
+    "left": "←",
+    "right": "→",
+}
+
+
+def key_text(key: Key, most: int = 9) -> str:
+    """The keys of an action, at most so many, as they are written on the keyboard."""
+    return " ".join(_written(each) for each in key.keys.split(",")[:most])
+
+
+def _written(key: str) -> str:
+    shift = "⇧" if key.startswith("shift+") else ""
+    name = key.removeprefix("shift+")
+    return shift + NAMES.get(name, name.replace("ctrl+", "^"))

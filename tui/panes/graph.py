@@ -52,7 +52,7 @@ class GraphPane(Pane):
     def compose(self) -> ComposeResult:
         """The picture, a line on what is selected, a prompt."""
         yield DiagramView()
-        yield Static("", id="graph-status", markup=False)
+        yield Static("", id="graph-status", classes="status", markup=False)
         yield Prompt(id="graph-prompt")
 
     @property
@@ -148,9 +148,9 @@ class GraphPane(Pane):
             return
         if item.startswith(TOPIC):
             name = item.removeprefix(TOPIC)
-            self.app.push_screen(FactsScreen(name, topic_facts(info, name)))
+            self.host.push_screen(FactsScreen(name, topic_facts(info, name)))
         else:
-            self.app.push_screen(FactsScreen(item, node_facts(info, item)))
+            self.host.push_screen(FactsScreen(item, node_facts(info, item)))
 
     def action_export(self) -> None:
         """Ask where to export to."""

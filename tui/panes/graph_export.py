@@ -7,7 +7,7 @@ from bot_console.tui.widgets.diagram.graph import Digraph
 
 
 def exported(graph: Digraph, drawing: Drawing, suffix: str) -> str:
-    """The graph in the form that a file name's ending asks for: `.mmd` Mermaid, `.dot` or `.gv` DOT, else the picture."""
+    """The graph as a file name's ending asks: `.mmd` Mermaid, `.dot` or `.gv` DOT, else the picture."""
     if suffix in (".mmd", ".mermaid"):
         return _mermaid(graph)
     return _dot(graph) if suffix in (".dot", ".gv") else drawing.text() + "\n"

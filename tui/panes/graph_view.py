@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
@@ -30,7 +30,7 @@ class GraphView:
     """How a person wants to see the graph."""
 
     mode: Mode = Mode.ALL
-    query: Query = Query()
+    query: Query = field(default_factory=Query)
     debug: bool = False
     dead_sinks: bool = True
     leaves: bool = True

@@ -1,4 +1,4 @@
-"""The launch pane: processes as a tree, started and stopped one by one, and launch files opened with their arguments."""
+"""The launch pane: processes as a tree, started and stopped one by one; launch files opened with arguments."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class LaunchPane(Pane):
     def compose(self) -> ComposeResult:
         """The tree, a line on the process at the cursor, the newest events."""
         yield ProcessRows()
-        yield Static("", id="launch-status", markup=False)
+        yield Static("", id="launch-status", classes="status", markup=False)
         yield Picture(id="launch-events")
 
     @property
@@ -144,13 +144,13 @@ class LaunchPane(Pane):
         if row.process is None:
             self.action_fold(not row.folded)
         else:
-            self.app.push_screen(FactsScreen(row.process.label, facts(row.process, self._info or LaunchInfo())))
+            self.host.push_screen(FactsScreen(row.process.label, facts(row.process, self._info or LaunchInfo())))
 
     def action_timeline(self) -> None:
         """Show all launch events, the newest first."""
         events = (self._info or LaunchInfo()).timeline
         lines = [event_text(each) for each in reversed(events)] or ["nothing yet"]
-        self.app.push_screen(FactsScreen("Launch events", [("Newest first", lines)]))
+        self.host.push_screen(FactsScreen("Launch events", [("Newest first", lines)]))
 
     def action_do(self, verb: str) -> None:
         """Start, stop, restart or kill what is at the cursor."""
@@ -163,14 +163,14 @@ class LaunchPane(Pane):
         if verb == "kill" or (row.process is None and verb != "start"):
             names = "\n".join(each.label for each in chosen) or "nothing runs"
             question = f"{verb.capitalize()} {counted(len(chosen), 'process').replace('processs', 'processes')}?"
-            self.app.push_screen(ConfirmScreen(question, names), lambda yes: self._do(verb, chosen) if yes else None)
+            self.host.push_screen(ConfirmScreen(question, names), lambda yes: self._do(verb, chosen) if yes else None)
         else:
             self._do(verb, chosen)
 
     def _do(self, verb: str, processes: list[ProcessInfo]) -> None:
         for each in processes:
             answer: Future[Answer] = getattr(self.launcher, verb)(each.key)
-            answer.add_done_callback(lambda done: self.app.call_later(self._answered, done))
+            answer.add_done_callback(lambda done: self.host.call_later(self._answered, done))
 
     def _answered(self, done: Future[Answer]) -> None:
         error = done.exception()
@@ -183,7 +183,7 @@ class LaunchPane(Pane):
         if self.launcher is None or self._why_not:
             self.notify(self._why_not or "There is no launcher.", severity="warning", markup=False)
             return
-        self.app.push_screen(PickerScreen(self.launcher.files()), self._chosen)
+        self.host.push_screen(PickerScreen(self.launcher.files()), self._chosen)
 
     def _chosen(self, path: str | None) -> None:
         if path:
@@ -197,17 +197,17 @@ class LaunchPane(Pane):
         try:
             arguments = await asyncio.to_thread(launcher.arguments, path)
         except ValueError as error:
-            self.app.push_screen(FactsScreen("This launch file cannot be read", [("", str(error).splitlines())]))
+            self.host.push_screen(FactsScreen("This launch file cannot be read", [("", str(error).splitlines())]))
             return
         if arguments:
-            self.app.push_screen(ArgumentsScreen(path, arguments), partial(self._launch, path))
+            self.host.push_screen(ArgumentsScreen(path, arguments), partial(self._launch, path))
         else:
             self._launch(path, {})
 
     def _launch(self, path: str, values: Mapping[str, str] | None) -> None:
         if values is not None and self.launcher is not None:
             answer = self.launcher.launch(path, values)
-            answer.add_done_callback(lambda done: self.app.call_later(self._answered, done))
+            answer.add_done_callback(lambda done: self.host.call_later(self._answered, done))
 
 
 def row_is_pointless(verb: str, process: ProcessInfo) -> bool:

@@ -27,8 +27,6 @@ NODE = 18
 class LogRows(RowList):
     """The lines that pass the filter; holds their numbers only."""
 
-    COMPONENT_CLASSES = RowList.COMPONENT_CLASSES
-
     def __init__(self, console: Console) -> None:
         super().__init__()
         self.console = console
@@ -77,7 +75,7 @@ class LogsPane(Pane):
     def compose(self) -> ComposeResult:
         """The lines, what is filtered, a prompt."""
         yield LogRows(self.console)
-        yield Static("", id="log-status", markup=False)
+        yield Static("", id="log-status", classes="status", markup=False)
         yield Prompt(id="log-prompt")
 
     @property
@@ -240,7 +238,7 @@ class LogsPane(Pane):
         """Show the whole message."""
         record = self._record()
         if record is not None:
-            self.app.push_screen(DetailScreen(record))
+            self.host.push_screen(DetailScreen(record))
 
     def action_clear(self) -> None:
         """Clear the log."""
@@ -252,7 +250,7 @@ class LogsPane(Pane):
         """Copy the message through the terminal (OSC 52)."""
         record = self._record()
         if record is not None:
-            self.app.copy_to_clipboard(record.text)
+            self.host.copy_to_clipboard(record.text)
             self.notify("Copied.")
 
     def action_save(self) -> None:

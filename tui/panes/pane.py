@@ -6,7 +6,9 @@ from typing import ClassVar
 
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Console, Launcher
+from textual.app import App
 from textual.containers import Container
+from textual.message import Message
 
 
 class Pane(Container):
@@ -21,11 +23,23 @@ class Pane(Container):
     HELP: ClassVar[str] = ""
     """What the pane is for, in a few lines; the keys are listed from the key table."""
 
+    class PlotWanted(Message):
+        """Somebody wants to see a path over time."""
+
+        def __init__(self, path: str) -> None:
+            super().__init__()
+            self.path = path
+
     def __init__(self, console: Console, launcher: Launcher | None = None, *, id: str | None = None) -> None:
         super().__init__(id=id)
         self.console = console
         self.launcher = launcher
         self.border_title = self.TITLE
+
+    @property
+    def host(self) -> App[object]:
+        """The app; what Textual's own property leaves unsaid of its type is said here once."""
+        return self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Draw what is new in the snapshot; compare parts by identity and do nothing where they are the same."""

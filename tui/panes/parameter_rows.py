@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from bot_console.tui.console.model import ParameterInfo, ParameterTree
 from bot_console.tui.console.query import Query
@@ -29,7 +29,7 @@ class Row:
 class View:
     """How a person wants to see the parameters."""
 
-    query: Query = Query()
+    query: Query = field(default_factory=Query)
     only_changed: bool = False
     built_in: bool = False
     folded: Collection[str] = ()

@@ -81,9 +81,6 @@ class ParameterRows(RowList):
         return segments
 
 
-ParameterRows.COMPONENT_CLASSES = RowList.COMPONENT_CLASSES | {"row-list--plain"}
-
-
 def bar(parameter: ParameterInfo) -> str:
     """Where a number stands in its range."""
     limits, value = parameter.range, parameter.value
@@ -208,7 +205,7 @@ class ParametersPane(Pane):
 
     def _set(self, parameter: ParameterInfo, value: Value, source: ChangeSource = ChangeSource.EDIT) -> None:
         answer = self.console.set_parameters(parameter.node, {parameter.name: value}, source)
-        answer.add_done_callback(lambda done: self.app.call_later(self._outcome, done))
+        answer.add_done_callback(lambda done: self.host.call_later(self._outcome, done))
 
     def _outcome(self, done: Future[tuple[SetOutcome, ...]]) -> None:
         error = done.exception()
@@ -247,11 +244,11 @@ class ParametersPane(Pane):
 
     def action_undo(self) -> None:
         """Undo the last change made here."""
-        self.console.undo().add_done_callback(lambda done: self.app.call_later(self._tell, done))
+        self.console.undo().add_done_callback(lambda done: self.host.call_later(self._tell, done))
 
     def action_redo(self) -> None:
         """Redo."""
-        self.console.redo().add_done_callback(lambda done: self.app.call_later(self._tell, done))
+        self.console.redo().add_done_callback(lambda done: self.host.call_later(self._tell, done))
 
     def _tell(self, done: Future[Answer]) -> None:
         answer = done.result()
@@ -316,12 +313,18 @@ class ParametersPane(Pane):
         self._view = replace(self._view, folded=frozenset() if self._view.folded else nodes)
         self._arrange()
 
+    def action_plot(self) -> None:
+        """Plot this parameter."""
+        parameter = self._at()
+        if parameter is not None:
+            self.post_message(self.PlotWanted(f"{parameter.node}:{parameter.name}"))
+
     def action_copy(self) -> None:
         """Copy the command that sets this parameter, through the terminal (OSC 52)."""
         parameter = self._at()
         if parameter is not None:
             text = command_of(parameter, parameter.value)
-            self.app.copy_to_clipboard(text)
+            self.host.copy_to_clipboard(text)
             self.notify(text, title="Copied", markup=False)
 
     def action_save(self) -> None:

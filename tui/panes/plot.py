@@ -13,7 +13,6 @@ from bot_console.tui.panes.plot_parts import DEFAULTS, WINDOWS, Timeline, limits
 from bot_console.tui.widgets.picture import Line, Picture
 from bot_console.tui.widgets.prompt import Prompt
 from textual.app import ComposeResult
-from textual.widgets import Static
 
 LEAST_FRAME = 8
 """Lines from which on a frame with axes leaves room for the trace."""
@@ -27,7 +26,7 @@ class PlotPane(Pane):
     TITLE = "Plot"
     HELP = (
         "Numbers over time: a field of a topic such as /odom/twist.twist.linear.x or /scan/ranges[0], or a parameter\n"
-        "such as /robot_navigator:max_speed. On the time axis ▲ marks a changed parameter and ✗ a refused one. A value\n"
+        "such as /robot_navigator:max_speed. ▲ on the time axis marks a changed parameter, ✗ a refused one. A value\n"
         "that is not finite leaves a gap. Space pauses the picture; left and right then move through time."
     )
     BINDINGS = keymap.bindings("plot")
@@ -43,10 +42,9 @@ class PlotPane(Pane):
         self._parameters: object = None
 
     def compose(self) -> ComposeResult:
-        """The picture, the legend, a line of state, a prompt."""
+        """The picture, the legend, a prompt."""
         yield Picture(id="plot-picture")
         yield Picture(id="plot-legend")
-        yield Static("", id="plot-status", markup=False)
         yield Prompt(id="plot-prompt")
         self.can_focus = True
 
@@ -88,7 +86,7 @@ class PlotPane(Pane):
     # Drawing ------------------------------------------------------------------------------------------------------
 
     def draw(self) -> None:
-        """Draw the picture, its legend and the line of state."""
+        """Draw the picture and its legend, and say which window is shown."""
         picture, legend = self.query_one("#plot-picture", Picture), self.query_one("#plot-legend", Picture)
         curves = self._timeline.curves
         width, height = picture.size
@@ -96,7 +94,7 @@ class PlotPane(Pane):
         below = 0 if strips else min(len(curves), 6)
         if legend.styles.height is None or legend.styles.height.value != below:
             legend.styles.height = below
-        self.query_one("#plot-status", Static).update(self._status())
+        self.border_subtitle = self._status()
         if width < 16 or height < 2:
             return
         if not curves:

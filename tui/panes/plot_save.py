@@ -31,7 +31,7 @@ def samples(path: Path, curves: Sequence[Curve]) -> int:
 def picture(path: Path, curves: Sequence[Curve], axes: Axes) -> None:
     """Write what is seen as `.html`, else as plain text; raises `OSError`."""
     # plotext takes longer to import than all panes together, and is needed here alone.
-    import plotext
+    import plotext  # pyright: ignore[reportMissingTypeStubs]
 
     kit: Any = plotext
     kit.terminal.limit(False, False)

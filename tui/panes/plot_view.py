@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from bot_console.tui.panes.plot_curves import Array, Curve, Reach, reach
-from bot_console.tui.widgets.braille import BrailleCanvas
-from bot_console.tui.widgets.picture import Line, Piece
+from bot_console.tui.panes.plot_curves import Curve, Reach, reach
+from bot_console.tui.widgets.braille import BrailleCanvas, layered
+from bot_console.tui.widgets.picture import Line
 
 LABEL = 9
 """Cells of the value axis with its labels."""
@@ -39,10 +39,12 @@ def framed(curves: Sequence[Curve], marks: Sequence[Mark], axes: Axes, width: in
     reaches = [_reach(curve, axes, across) for curve in curves]
     low, high = axes.limits or limits(reaches)
     layers = [_canvas(each, low, high, across, down) for each in reaches]
-    rows = _merged(layers, [curve.colour for curve in curves], across, down)
+    rows = layered(layers, [_style(curve) for curve in curves], across, down)
     labels = _labels(low, high, down)
-    lines: list[Line] = [((f"{labels.get(row, ''):>{LABEL - 2}} ", "dim"), ("┤" if row in labels else "│", "dim"), *pieces)
-                         for row, pieces in enumerate(rows)]  # fmt: skip
+    lines: list[Line] = []
+    for row, pieces in enumerate(rows):
+        edge = "┤" if row in labels else "│"
+        lines.append(((f"{labels.get(row, ''):>{LABEL - 2}} {edge}", "dim"), *pieces))
     return [*lines, *_time_axis(marks, axes, across)]
 
 
@@ -54,9 +56,13 @@ def strips(curves: Sequence[Curve], axes: Axes, width: int, height: int, chosen:
         seen = _reach(curve, axes, width)
         low, high = axes.limits or limits([seen])
         lines.append(legend(curve, axes, width, at == chosen))
-        rows = _merged([_canvas(seen, low, high, width, room - 1)], [curve.colour], width, room - 1)
+        rows = layered([_canvas(seen, low, high, width, room - 1)], [_style(curve)], width, room - 1)
         lines += [tuple(row) for row in rows]
     return lines[:height]
+
+
+def _style(curve: Curve) -> str:
+    return f"curve-{curve.colour % 6}"
 
 
 def _reach(curve: Curve, axes: Axes, across: int) -> Reach:
@@ -96,37 +102,6 @@ def _canvas(seen: Reach, low: float, high: float, across: int, down: int) -> npt
         rows = np.arange(dots)[:, None]
         canvas.mask((rows >= top[None, :]) & (rows <= bottom[None, :]))
     return canvas.codes()
-
-
-def _merged(
-    layers: Sequence[npt.NDArray[np.uint8]], colours: Sequence[int], across: int, down: int
-) -> list[list[Piece]]:
-    """One picture of all traces; where they meet, the first one gives the colour."""
-    if not layers:
-        return [[(" " * across, "")] for _ in range(down)]
-    codes = np.bitwise_or.reduce(np.stack(layers), axis=0)
-    owner = np.full(codes.shape, -1)
-    for at in range(len(layers) - 1, -1, -1):
-        owner[layers[at] > 0] = at
-    rows: list[list[Piece]] = []
-    for row in range(down):
-        text = "".join(" " if code == 0 else chr(0x2800 + code) for code in codes[row].tolist())
-        rows.append(_pieces(text, owner[row], colours))
-    return rows
-
-
-def _pieces(text: str, owner: Array, colours: Sequence[int]) -> list[Piece]:
-    """Runs of one colour; blanks belong to the run before them, since a change of colour costs bytes."""
-    pieces: list[Piece] = []
-    begin, now = 0, -1
-    for at, each in enumerate(owner.tolist()):
-        if each >= 0 and each != now:
-            if now >= 0:
-                pieces.append((text[begin:at], f"curve-{colours[now] % 6}"))
-                begin = at
-            now = each
-    pieces.append((text[begin:], f"curve-{colours[now] % 6}" if now >= 0 else ""))
-    return pieces
 
 
 def _labels(low: float, high: float, down: int) -> dict[int, str]:
@@ -176,7 +151,7 @@ def _time_axis(marks: Sequence[Mark], axes: Axes, across: int) -> list[Line]:
 
 def legend(curve: Curve, axes: Axes, width: int, chosen: bool) -> Line:
     """Name, newest value, and least, greatest and mean value of what is seen."""
-    start, style = ("▸ " if chosen else "  "), f"curve-{curve.colour % 6}"
+    start, style = ("▸ " if chosen else "  "), _style(curve)
     latest = "" if curve.latest is None else short_number(curve.latest)
     facts = "  " + (curve.problem or (_facts(curve, axes) if width >= 60 else ""))
     if curve.latest is None and not curve.problem:

@@ -39,9 +39,9 @@ class ProfilesPane(Pane):
     def compose(self) -> ComposeResult:
         """The profiles, the differences, a line that sums them up."""
         yield ProfileRows()
-        yield Static("", id="profile-head", markup=False)
+        yield Static("", id="profile-head", classes="status", markup=False)
         yield DifferenceRows()
-        yield Static("", id="profile-status", markup=False)
+        yield Static("", id="profile-status", classes="status", markup=False)
 
     @property
     def _list(self) -> ProfileRows:
@@ -127,12 +127,12 @@ class ProfilesPane(Pane):
             if yes:
                 self._apply(profile.name, reset_world)
 
-        self.app.push_screen(ConfirmScreen(f"Apply {profile.name}?", "\n".join(reasons)), answered)
+        self.host.push_screen(ConfirmScreen(f"Apply {profile.name}?", "\n".join(reasons)), answered)
 
     def _apply(self, name: str, reset_world: bool) -> None:
         self._told = f"applying {name} ..."
         answer = self.console.apply_profile(name, reset_world=reset_world)
-        answer.add_done_callback(lambda done: self.app.call_later(self._outcome, name, reset_world, done))
+        answer.add_done_callback(lambda done: self.host.call_later(self._outcome, name, reset_world, done))
         self._compare()
 
     def _outcome(self, name: str, reset_world: bool, done: Future[tuple[SetOutcome, ...]]) -> None:
@@ -149,7 +149,7 @@ class ProfilesPane(Pane):
 
     def action_undo(self) -> None:
         """Undo the last change made here."""
-        self.console.undo().add_done_callback(lambda done: self.app.call_later(self._undone, done))
+        self.console.undo().add_done_callback(lambda done: self.host.call_later(self._undone, done))
 
     def _undone(self, done: Future[Answer]) -> None:
         answer = done.result()

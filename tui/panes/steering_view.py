@@ -8,6 +8,8 @@ from bot_console.tui.panes.steering_state import Steering
 from bot_console.tui.widgets.picture import Line
 
 BAR = 10
+PAD = (37, 13)
+"""Cells of the plane of both velocities, odd so that it has a middle."""
 WORDS = 9
 
 
@@ -23,7 +25,8 @@ def lines(state: Steering, drive: DriveInfo, left: float, width: int, height: in
     compact: list[Line] = [*top, *sliders, deadman, *chain]
     roomy: list[Line] = [*top, (), *sliders, (), deadman, (), *chain]
     full: list[Line] = [*roomy, (), *_keys(width)]
-    return next((each for each in (full, roomy) if len(each) <= height), compact)[:height]
+    pad = [*full, (), *_pad(state)] if width >= PAD[0] + 8 else full
+    return next((each for each in (pad, full, roomy) if len(each) <= height), compact)[:height]
 
 
 def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
@@ -72,6 +75,26 @@ def _chain(drive: DriveInfo) -> list[Line]:
         if velocity is not None or word in ("final", "actual"):
             rows.append(((f" {word:<{WORDS}}", "dim"), (text, "" if velocity else "dim"), (why, "warn")))
     return rows
+
+
+def _pad(state: Steering) -> list[Line]:
+    """Both velocities as a point in a plane: forward is up, a left turn is left."""
+    width, height = PAD
+    across, down = width // 2, height // 2
+    x = across - round(state.angular / state.greatest[1] * across) if state.greatest[1] else across
+    y = down - round(state.linear / state.greatest[0] * down) if state.greatest[0] else down
+    lines: list[Line] = [((" " * (WORDS + 1) + "╭" + "forward".center(width, "─") + "╮", "dim"),)]
+    for row in range(height):
+        cells = list("─" * width if row == down else " " * width)
+        cells[across] = "┼" if row == down else "│"
+        edge = " left    │" if row == down else " " * WORDS + "│"
+        if row != y:
+            lines.append(((" " + edge[:WORDS] + "│" + "".join(cells) + "│", "dim"),))
+            continue
+        moving = bool(state.linear or state.angular)
+        lines.append(((" " + edge[:WORDS] + "│" + "".join(cells[:x]), "dim"), ("●", "accent" if moving else "strong"),
+                      ("".join(cells[x + 1 :]) + "│", "dim")))  # fmt: skip
+    return [*lines, ((" " * (WORDS + 1) + "╰" + "backward".center(width, "─") + "╯", "dim"),)]
 
 
 def _keys(width: int) -> list[Line]:

@@ -2,28 +2,28 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, WorldInfo
 from bot_console.tui.panes.pane import Pane
-from rich.segment import Segment
+from bot_console.tui.widgets.picture import Picture
 from textual.app import ComposeResult
-from textual.strip import Strip
-from textual.widget import Widget
 from textual.widgets import Static
+
+if TYPE_CHECKING:
+    from bot_console.tui.panes.world_view import WorldDrawing
 
 ZOOMS = (1.0, 2.0, 4.0, 8.0)
 
 
-class WorldMap(Widget):
-    """The drawing itself; only lines that have changed are drawn anew."""
-
-    DEFAULT_CSS = "WorldMap { height: 1fr; background: $surface; color: $text; }"
+class WorldMap(Picture):
+    """The drawing itself."""
 
     def __init__(self) -> None:
         super().__init__()
         self._world = WorldInfo()
-        self._lines: list[str] = []
-        self._drawing: object = None
+        self._drawing: WorldDrawing | None = None
         self.zoom = 1.0
         self.scale = ""
 
@@ -33,37 +33,17 @@ class WorldMap(Widget):
         self.draw()
 
     def draw(self) -> None:
-        """Make the lines and refresh those that differ."""
+        """Make the lines for the size that there is."""
         width, height = self.size
         if width < 4 or height < 2:
             return
         # NumPy is imported after the first frame: it is a third of the start-up time.
         from bot_console.tui.panes.world_view import WorldDrawing, following, scale_text
 
-        drawing = self._drawing if isinstance(self._drawing, WorldDrawing) else WorldDrawing()
-        self._drawing = drawing
+        self._drawing = self._drawing or WorldDrawing()
         window = following(self._world, width, height, self.zoom)
-        lines = drawing.rows(self._world, window, width, height)
+        self.set_lines(self._drawing.rows(self._world, window, width, height))
         self.scale = scale_text(window, width)
-        old, self._lines = self._lines, lines
-        if len(old) != len(lines):
-            self.refresh()
-            return
-        from textual.geometry import Region
-
-        changed = [Region(0, y, width, 1) for y, (a, b) in enumerate(zip(old, lines, strict=True)) if a != b]
-        if changed:
-            self.refresh(*changed)
-
-    def render_line(self, y: int) -> Strip:
-        """One line, in one style."""
-        text = self._lines[y] if y < len(self._lines) else ""
-        return Strip([Segment(text.ljust(self.size.width), self.rich_style)], self.size.width)
-
-    def on_resize(self) -> None:
-        """Draw for the new size."""
-        self._lines = []
-        self.draw()
 
 
 class WorldPane(Pane):
@@ -76,15 +56,16 @@ class WorldPane(Pane):
     WorldPane #world-facts { height: 1; padding: 0 1; color: $text-muted; background: $surface; }
     """
 
-    def __init__(self, *args: object, **kwargs: object) -> None:
-        super().__init__(*args, **kwargs)  # type: ignore[arg-type]
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
         self._world: WorldInfo | None = None
+        self._snapshot = ConsoleSnapshot()
         self.can_focus = True
 
     def compose(self) -> ComposeResult:
         """The map and a line of facts."""
         yield WorldMap()
-        yield Static("", id="world-facts", markup=False)
+        yield Static("", id="world-facts", classes="status", markup=False)
 
     def focus_target(self) -> None:
         """The pane itself takes the keys."""
@@ -92,15 +73,23 @@ class WorldPane(Pane):
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Draw the world anew when it is another object."""
+        self._snapshot = snapshot
         if snapshot.world is not self._world:
             self._world = snapshot.world
             self.query_one(WorldMap).show(snapshot.world)
-            self._facts(snapshot)
+            self._facts()
 
-    def _facts(self, snapshot: ConsoleSnapshot) -> None:
-        world = snapshot.world
+    def on_picture_resized(self, event: Picture.Resized) -> None:
+        """Draw for the new size."""
+        event.stop()
+        self.query_one(WorldMap).draw()
+        self._facts()
+
+    def _facts(self) -> None:
+        snapshot, world = self._snapshot, self._snapshot.world
         if world.pose is None and world.map is None:
             text = snapshot.capabilities.world or "No map and no pose yet: no node publishes OccupancyGrid or Odometry."
+            text = snapshot.problem or text
         else:
             pose = world.pose
             near = "free" if world.nearest is None else f"{world.nearest:.1f} m"
@@ -114,9 +103,11 @@ class WorldPane(Pane):
         at = ZOOMS.index(drawn.zoom)
         drawn.zoom = ZOOMS[min(max(0, at + step), len(ZOOMS) - 1)]
         drawn.draw()
+        self._facts()
 
     def action_fit(self) -> None:
         """The whole map, or near the robot."""
         drawn = self.query_one(WorldMap)
         drawn.zoom = 1.0 if drawn.zoom > 1 else 4.0
         drawn.draw()
+        self._facts()

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 from bot_console.tui.console.model import GridMap, Pose, WorldInfo
-from bot_console.tui.widgets.braille import BrailleCanvas
+from bot_console.tui.widgets.braille import BrailleCanvas, layered
+from bot_console.tui.widgets.picture import Line, Piece
 
 OCCUPIED = 50
 """Percent from which a cell of an occupancy grid counts as a wall."""
@@ -51,22 +53,22 @@ class WorldDrawing:
         self._key: object = None
         self._walls: npt.NDArray[np.bool_] | None = None
 
-    def rows(self, world: WorldInfo, window: Window, width: int, height: int) -> list[str]:
+    def rows(self, world: WorldInfo, window: Window, width: int, height: int) -> list[Line]:
         """Walls, trail, LIDAR hits, goal, and the robot as an arrow."""
-        canvas = BrailleCanvas(width, height)
+        walls, trail, hits = (BrailleCanvas(width, height) for _ in range(3))
         if world.map is not None:
-            canvas.mask(self._wall_dots(world.map, window, width, height))
-        for points in (world.trail, world.hits):
+            walls.mask(self._wall_dots(world.map, window, width, height))
+        for points, canvas in ((world.trail, trail), (world.hits, hits)):
             if points:
-                x, y = _dots(np.asarray(points, float), window, width, height)
-                canvas.points(x, y)
-        lines = canvas.rows()
-        for place, letter in _letters(world):
+                canvas.points(*_dots(np.asarray(points, float), window, width, height))
+        layers = [hits.codes(), trail.codes(), walls.codes()]
+        rows = layered(layers, ("warn", "accent", ""), width, height)
+        for place, letter, style in _letters(world):
             x, y = _dots(np.array([place]), window, width, height)
             column, row = int(x[0]) // 2, int(y[0]) // 4
             if 0 <= row < height and 0 <= column < width:
-                lines[row] = lines[row][:column] + letter + lines[row][column + 1 :]
-        return lines
+                rows[row] = _written(rows[row], column, letter, style)
+        return [tuple(row) for row in rows]
 
     def _wall_dots(self, grid: GridMap, window: Window, width: int, height: int) -> npt.NDArray[np.bool_]:
         key = (id(grid), window, width, height)
@@ -78,7 +80,8 @@ class WorldDrawing:
 
 def _sample(grid: GridMap, window: Window, width: int, height: int) -> npt.NDArray[np.bool_]:
     """Which dots show a wall: a dot does when any of the cells below it is occupied."""
-    cells = np.frombuffer(grid.cells, np.uint8).reshape(grid.height, grid.width)
+    flat: Any = np.frombuffer(grid.cells, np.uint8)
+    cells: npt.NDArray[np.uint8] = flat.reshape(grid.height, grid.width)
     rows, columns = np.nonzero((cells >= OCCUPIED) & (cells != UNKNOWN))
     picture = np.zeros((height * 4, width * 2), np.bool_)
     reach = max(1, math.ceil(grid.resolution * window.scale))
@@ -101,12 +104,26 @@ def _dots(
     return np.floor(x), np.floor(y)
 
 
-def _letters(world: WorldInfo) -> list[tuple[tuple[float, float], str]]:
-    letters: list[tuple[tuple[float, float], str]] = []
+def _written(pieces: list[Piece], column: int, letter: str, style: str) -> list[Piece]:
+    """A row with one letter put over what stands there."""
+    result: list[Piece] = []
+    at = 0
+    for text, name in pieces:
+        inside = column - at
+        if 0 <= inside < len(text):
+            result += [(text[:inside], name), (letter, style), (text[inside + 1 :], name)]
+        else:
+            result.append((text, name))
+        at += len(text)
+    return [each for each in result if each[0]]
+
+
+def _letters(world: WorldInfo) -> list[tuple[tuple[float, float], str, str]]:
+    letters: list[tuple[tuple[float, float], str, str]] = []
     if world.goal is not None:
-        letters.append((world.goal, "✚"))
+        letters.append((world.goal, "✚", "good"))
     if world.pose is not None:
-        letters.append(((world.pose.x, world.pose.y), arrow(world.pose.heading)))
+        letters.append(((world.pose.x, world.pose.y), arrow(world.pose.heading), "robot"))
     return letters
 
 

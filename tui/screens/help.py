@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import ClassVar
 
-from bot_console.tui.keymap import TABLE, Key
+from bot_console.tui.keymap import TABLE, Key, key_text
 from bot_console.tui.screens.overlay import Overlay
 from rich.console import RenderableType
 from rich.table import Table
@@ -30,7 +30,7 @@ class HelpScreen(Overlay):
         if self._scope in TABLE:
             yield _keys(TABLE[self._scope])
         yield Text("\nEverywhere", "bold")
-        yield _keys((*TABLE["app"], *TABLE["list"]))
+        yield _keys((*TABLE["app"], *TABLE["diagram" if self._scope == "graph" else "list"]))
 
 
 def _keys(rows: tuple[Key, ...]) -> Table:
@@ -40,21 +40,3 @@ def _keys(rows: tuple[Key, ...]) -> Table:
     for key in rows:
         table.add_row(Text(key_text(key)), Text(key.text))
     return table
-
-
-NAMES = {
-    "question_mark": "?",
-    "colon": ":",
-    "exclamation_mark": "!",
-    "slash": "/",
-    "plus": "+",
-    "equals_sign": "=",
-    "minus": "-",
-    "greater_than_sign": ">",
-    "less_than_sign": "<",
-}
-
-
-def key_text(key: Key) -> str:
-    """The keys of an action as they are written on the keyboard."""
-    return " ".join(NAMES.get(each, each.replace("ctrl+", "^")) for each in key.keys.split(","))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import ClassVar
 
@@ -16,7 +16,7 @@ from textual.suggester import SuggestFromList
 from textual.widgets import Input, Static
 
 
-class ArgumentsScreen(ModalScreen["Mapping[str, str] | None"]):
+class ArgumentsScreen(ModalScreen["dict[str, str] | None"]):
     """The values that differ from their defaults, or None when nothing shall be launched."""
 
     BINDINGS: ClassVar[list[BindingType]] = [

@@ -34,11 +34,9 @@ class FileRows(RowList):
         """One file."""
         path = Path(self.files[index])
         mark = "▸ " if index == self.cursor else "  "
-        style = self.get_component_rich_style(
-            "row-list--strong" if index == self.cursor else "row-list--dim", partial=True
-        )
-        return [Segment(f"{mark}{harmless(path.name)}  ", style),
-                Segment(harmless(str(path.parent)), self.get_component_rich_style("row-list--dim", partial=True))]  # fmt: skip
+        dim = self.get_component_rich_style("row-list--dim", partial=True)
+        style = self.get_component_rich_style("row-list--strong", partial=True) if index == self.cursor else dim
+        return [Segment(f"{mark}{harmless(path.name)}  ", style), Segment(harmless(str(path.parent)), dim)]
 
 
 class PickerScreen(ModalScreen["str | None"]):

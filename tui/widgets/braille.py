@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
+from bot_console.tui.widgets.picture import Piece
 
 BITS = np.array([[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]], np.uint8)
 """The bit of each dot, by row and column in the cell (U+2800 and following)."""
@@ -42,7 +46,8 @@ class BrailleCanvas:
 
     def codes(self) -> npt.NDArray[np.uint8]:
         """The dots of each cell as bits, by row and column of cells."""
-        cells = self._dots.reshape(self.height, 4, self.width, 2)
+        dots: Any = self._dots
+        cells: Any = dots.reshape(self.height, 4, self.width, 2)
         return (cells * BITS[None, :, None, :]).sum(axis=(1, 3)).astype(np.uint8)
 
     def rows(self) -> list[str]:
@@ -50,3 +55,37 @@ class BrailleCanvas:
         codes = self.codes().astype(np.uint32)
         letters = np.where(codes == 0, 0x20, 0x2800 + codes)
         return ["".join(map(chr, row)) for row in letters.tolist()]
+
+
+def layered(
+    layers: Sequence[npt.NDArray[np.uint8]], styles: Sequence[str], across: int, down: int
+) -> list[list[Piece]]:
+    """One picture of several canvases' codes; where they share a cell, the first one gives the style.
+
+    Blanks belong to the run before them, since each change of style costs bytes.
+    """
+    if not layers:
+        return [[(" " * across, "")] for _ in range(down)]
+    codes = np.zeros_like(layers[0])
+    owner = np.full(codes.shape, -1)
+    for at in range(len(layers) - 1, -1, -1):
+        owner[layers[at] > 0] = at
+        codes |= layers[at]
+    rows: list[list[Piece]] = []
+    for row in range(down):
+        text = "".join(" " if code == 0 else chr(0x2800 + code) for code in codes[row].tolist())
+        rows.append(_pieces(text, owner[row].tolist(), styles))
+    return rows
+
+
+def _pieces(text: str, owner: Sequence[int], styles: Sequence[str]) -> list[Piece]:
+    pieces: list[Piece] = []
+    begin, now = 0, -1
+    for at, each in enumerate(owner):
+        if each >= 0 and each != now:
+            if now >= 0:
+                pieces.append((text[begin:at], styles[now]))
+                begin = at
+            now = each
+    pieces.append((text[begin:], styles[now] if now >= 0 else ""))
+    return pieces

@@ -21,7 +21,7 @@ class Picture(Widget):
     """Shows lines; `Picture.STYLES` are the names that pieces may use."""
 
     STYLES: ClassVar[tuple[str, ...]] = (
-        "dim", "strong", "good", "warn", "error", "accent", "cursor",
+        "dim", "strong", "good", "warn", "error", "accent", "robot",
         "curve-0", "curve-1", "curve-2", "curve-3", "curve-4", "curve-5",
     )  # fmt: skip
     DEFAULT_CSS = """
@@ -32,7 +32,7 @@ class Picture(Widget):
     .picture--warn { color: $warning; }
     .picture--error { color: $error; }
     .picture--accent { color: $primary; }
-    .picture--cursor { color: $block-cursor-foreground; background: $block-cursor-background; text-style: bold; }
+    .picture--robot { color: $background; background: $success; text-style: bold; }
     .picture--curve-0 { color: #6cb6ff; }
     .picture--curve-1 { color: #e0a458; }
     .picture--curve-2 { color: #57ab9a; }

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from bot_console.tui import keymap
 from rich.segment import Segment
+from rich.style import Style
 from textual.geometry import Region, Size
 from textual.message import Message
 from textual.reactive import reactive
@@ -16,11 +19,13 @@ class RowList(ScrollView, can_focus=True):
 
     BINDINGS = keymap.bindings("list")
     DEFAULT_CSS = """
-    RowList { height: 1fr; background: $surface; scrollbar-size-vertical: 1; scrollbar-background: $surface; overflow-x: hidden; }
+    RowList { height: 1fr; background: $surface; overflow-x: hidden;
+              scrollbar-size-vertical: 1; scrollbar-background: $surface; }
     RowList:focus { background: $surface; }
     """
-    COMPONENT_CLASSES = {"row-list--cursor", "row-list--dim", "row-list--head", "row-list--warn", "row-list--error",
-                         "row-list--good", "row-list--strong"}  # fmt: skip
+    COMPONENT_CLASSES: ClassVar[set[str]] = {
+        f"row-list--{each}" for each in ("cursor", "dim", "head", "warn", "error", "good", "strong", "plain")
+    }
 
     cursor: reactive[int] = reactive(0)
     """The row that keys act on."""
@@ -74,7 +79,7 @@ class RowList(ScrollView, can_focus=True):
             strip = Strip(Segment(segment.text, cursor) for segment in self.row(index, width))
             return strip.adjust_cell_length(width, cursor)
         strip = Strip(self.row(index, width)).adjust_cell_length(width, base)
-        return strip.apply_style(base) if not base.bgcolor else _on(strip, base)
+        return _on(strip, base)
 
     def watch_cursor(self, before: int, after: int) -> None:
         """Redraw the two rows, keep the cursor in view, and tell."""
@@ -118,7 +123,6 @@ class RowList(ScrollView, can_focus=True):
         self._show_cursor()
 
 
-def _on(strip: Strip, base: object) -> Strip:
+def _on(strip: Strip, base: Style) -> Strip:
     """Segments on the list's background where they have none of their own."""
-    return Strip([Segment(text, base + style if style else base, control) for text, style, control in strip],  # type: ignore[operator]
-                 strip.cell_length)  # fmt: skip
+    return Strip([Segment(text, base + style if style else base) for text, style, _ in strip], strip.cell_length)

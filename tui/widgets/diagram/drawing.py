@@ -190,7 +190,8 @@ class _Plan:
         edges = {(trunk.owner, key[0]) for _, key in trunk.leaves if key[1] == ITEM}
         through = any(key[1] != ITEM for _, key in trunk.leaves)
         later = self._later(trunk.owner, column + 1) if through else set[Edge]()
-        backward = {(trunk.owner, each) for each in self.back.get(trunk.owner, ())} if trunk.down is not None else set()
+        returns = self.back.get(trunk.owner, ()) if trunk.down is not None else ()
+        backward = {(trunk.owner, each) for each in returns}
         everything = frozenset(edges | later | backward)
         straight = trunk.straight
         if trunk.enters is not None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from bot_console.tui.widgets.diagram.layering import Layers
 
@@ -78,7 +79,7 @@ def _sort(column: list[Key], fixed: list[Key], neighbours: Mapping[Key, Sequence
 
 def _crossings(columns: Sequence[Sequence[Key]], steps: Mapping[Key, Sequence[Key]]) -> int:
     total = 0
-    for left, right in zip(columns, columns[1:], strict=False):
+    for left, right in pairwise(columns):
         place = {key: at for at, key in enumerate(right)}
         seen: list[int] = []
         for key in left:

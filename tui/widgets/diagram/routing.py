@@ -18,7 +18,8 @@ MANY = 40
 @dataclass(frozen=True)
 class Trunk:
     """The arrows of one item in one channel: it comes in from the left on `enters` (None: from below), branches off to
-    the right on the rows `leaves`, and may run down to the row `down`."""
+    the right on the rows `leaves`, and may run down to the row `down`.
+    """
 
     owner: str
     enters: int | None

@@ -1,0 +1,69 @@
+"""The last line: keys of the pane that has the keyboard, then those that work everywhere; from the key table."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TypeAlias
+
+from bot_console.tui.keymap import TABLE, Key, key_text
+from rich.style import Style
+from rich.text import Text
+from textual.events import Click
+from textual.widgets import Static
+
+GAP = "  "
+
+Shown: TypeAlias = "tuple[str, str, str]"
+"""How a key is written, what it does, and its name for Textual."""
+
+
+class KeyBar(Static):
+    """Keys and what they do; those of the pane give way where there is little room. A click presses the key."""
+
+    DEFAULT_CSS = "KeyBar { height: 1; padding: 0 1; background: $panel; color: $text; text-wrap: nowrap; }"
+
+    def __init__(self) -> None:
+        super().__init__("", markup=False)
+        self._shown: object = None
+        self._keys: list[Shown] = []
+
+    def show(self, scope: str, typing: bool, colour: str) -> None:
+        """Show the keys of a scope of the key table; while typing, those of a text field."""
+        width = self.size.width - 2
+        now = (scope, typing, colour, width)
+        if now == self._shown or width < 1:
+            return
+        self._shown = now
+        if typing:
+            own, everywhere = [("enter", "take it", "enter"), ("esc", "give up", "escape")], []
+        else:
+            own, everywhere = list(_named(TABLE.get(scope, ()))), list(_named(TABLE["app"]))
+        while own and _line([*own, *everywhere], colour).cell_len > width:
+            own.pop()
+        while everywhere and _line([*own, *everywhere], colour).cell_len > width:
+            everywhere.pop(1 if len(everywhere) > 1 else 0)
+        self._keys = [*own, *everywhere]
+        self.update(_line(self._keys, colour))
+
+    def on_click(self, event: Click) -> None:
+        """Press the key under the mouse."""
+        end = 0
+        for key in self._keys:
+            begin, end = end, end + _line([key], "").cell_len + len(GAP)
+            if begin <= event.x - 1 < end:
+                self.app.simulate_key(key[2])  # pyright: ignore[reportUnknownMemberType]
+
+
+def _named(keys: Iterable[Key]) -> Iterable[Shown]:
+    return (
+        (key.shown or key_text(key, 1), key.short or key.text, key.keys.split(",")[0]) for key in keys if key.footer
+    )
+
+
+def _line(keys: Iterable[Shown], colour: str) -> Text:
+    text = Text(no_wrap=True)
+    for shown, word, _ in keys:
+        text.append(GAP if text else "")
+        text.append(shown, Style(color=colour, bold=True))
+        text.append(f" {word}")
+    return text
