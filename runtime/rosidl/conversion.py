@@ -123,6 +123,9 @@ def to_fixed(message: Any, field: str, dtype: str, size: int) -> Any:
 
 def to_list(message: Any, field: str, kind: type, size: int, bound: int, limit: int) -> list[Any]:
     """A list of texts, bools or single bytes."""
+    values = getattr(message, "_" + field)
+    if values.__class__ is list and not values and not size:
+        return []
     values = _sized(message, field, size, bound)
     if kind is bytes and isinstance(values, (bytes, bytearray)):
         return [bytes([each]) for each in values]
@@ -135,6 +138,9 @@ def to_list(message: Any, field: str, kind: type, size: int, bound: int, limit: 
 
 def to_messages(message: Any, field: str, cls: Any, size: int, bound: int) -> list[Any]:
     """A list of copies of nested messages."""
+    values = getattr(message, "_" + field)
+    if values.__class__ is list and not values and not size:
+        return []
     values = _sized(message, field, size, bound)
     copies: list[Any] = []
     for index, value in enumerate(values):
