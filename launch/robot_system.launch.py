@@ -8,7 +8,6 @@ import os
 
 from ament_index_python.packages import get_package_share_directory
 from launch.actions import DeclareLaunchArgument, OpaqueFunction
-from launch.conditions import IfCondition
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
@@ -27,7 +26,7 @@ def generate_launch_description():
     use_sim_time = {"use_sim_time": ParameterValue(LaunchConfiguration("use_sim_time"), value_type=bool)}
     follow_route = {"follow_route": ParameterValue(LaunchConfiguration("follow_route"), value_type=bool)}
 
-    def robot_node(executable, name, remappings=(), extra=None, condition=None):
+    def robot_node(executable, name, remappings=(), extra=None):
         return Node(
             package=PACKAGE,
             executable=executable,
@@ -35,7 +34,6 @@ def generate_launch_description():
             output="screen",
             parameters=[config_file, use_sim_time, *([extra] if extra else [])],
             remappings=list(remappings),
-            condition=condition,
         )
 
     return LaunchDescription(
@@ -50,7 +48,11 @@ def generate_launch_description():
             ),
             DeclareLaunchArgument("seed", default_value="", description="Seed of the simulator; empty: the file's"),
             DeclareLaunchArgument("world", default_value="", description="World of the simulator; empty: the file's"),
-            DeclareLaunchArgument("navigator", default_value="true", description="Start our own robot_navigator"),
+            DeclareLaunchArgument(
+                "navigator",
+                default_value="true",
+                description="Who drives: our robot_navigator (true), nobody (false), or the node in this Python file",
+            ),
             DeclareLaunchArgument(
                 "follow_route", default_value="false", description="Drive along the world's waypoints"
             ),
@@ -62,14 +64,29 @@ def generate_launch_description():
             robot_node("safety_node", "safety_monitor"),
             robot_node("controller_node", "motion_controller", [("cmd_vel", "cmd_vel_nav")], follow_route),
             robot_node("telemetry_node", "telemetry_publisher"),
-            robot_node(
-                "robot_node",
-                "robot_navigator",
-                [("cmd_vel", "cmd_vel_desired")],
-                condition=IfCondition(LaunchConfiguration("navigator")),
-            ),
+            OpaqueFunction(function=make_navigator),
         ]
     )
+
+
+def make_navigator(context):
+    """Our navigator, a file in its place, or nothing."""
+    chosen = LaunchConfiguration("navigator").perform(context)
+    if chosen.lower() in ("false", "0"):
+        return []
+    program = {"executable": chosen} if chosen.endswith(".py") else {"package": PACKAGE, "executable": "robot_node"}
+    return [
+        Node(
+            **program,
+            name="robot_navigator",
+            output="screen",
+            parameters=[
+                LaunchConfiguration("config_file"),
+                {"use_sim_time": ParameterValue(LaunchConfiguration("use_sim_time"), value_type=bool)},
+            ],
+            remappings=[("cmd_vel", "cmd_vel_desired")],
+        )
+    ]
 
 
 def make_simulator(context):
