@@ -15,7 +15,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 from bot_console.runtime.interface_finder import InterfaceFinder, interface_folders
-from bot_console.runtime.rosidl.sources import add_source
+from bot_console.runtime.rosidl.sources import EXAMPLES, add_source
 
 if TYPE_CHECKING:
     from bot_console.runtime.process.fresh_import import FreshModules
@@ -57,7 +57,7 @@ class RosFinder:
             return PathFinder.find_spec(name, [RUNTIME])
         if name == OWN_PACKAGE:
             return _own_package()
-        if os.path.isdir(os.path.join(GENERATED, name)):
+        if os.path.isdir(os.path.join(GENERATED, name)) and not (name in EXAMPLES and name in interface_folders()):
             return PathFinder.find_spec(name, [GENERATED])
         return None
 

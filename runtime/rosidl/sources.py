@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from pathlib import Path
 
+EXAMPLES = frozenset({"action_tutorials_interfaces", "example_interfaces", "turtlesim"})
+"""Standard packages of the tutorials: whoever writes one, as they ask, means that one. The others are used by all."""
+
 Folders = Callable[[], Mapping[str, "Path"]]
 _sources: list[Folders] = []
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from bot_console.runtime.rosidl.sources import added_folders
+from bot_console.runtime.rosidl.sources import EXAMPLES, added_folders
 
 PREFIX = Path(__file__).resolve().parent / "generated" / "ament-prefix"
 """The prefix in which the standard packages are installed, in ament's sense; their definitions lie below `share`."""
@@ -15,8 +15,9 @@ KINDS = ("msg", "srv", "action")
 
 def package_folder(package: str) -> Path | None:
     """The folder in which a package's `msg`, `srv` and `action` lie; None for an unknown package."""
-    if (PREFIX / "share" / package).is_dir():
-        return PREFIX / "share" / package
+    folder = PREFIX / "share" / package
+    if folder.is_dir() and not (package in EXAMPLES and package in added_folders()):
+        return folder
     return added_folders().get(package)
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from bot_console.runtime.importer import node_modules
 from bot_console.runtime.rosidl.cdr import deserialize, serialize
+from bot_console.runtime.rosidl.texts import interface_names
 from bot_console.runtime.workspace import discover
 from bot_console.runtime.workspace.discover import Workspace, default_folders
 
@@ -21,6 +22,7 @@ FILES = {
     "finder_msgs/srv/AddThree.srv": "int64 a\n---\nint64 sum\n",
     "finder_msgs/action/Roll.action": "int32 goal\n---\n---\nfinder_msgs/Sphere sphere\n",
     "finder_more/msg/Outer.msg": "finder_msgs/Sphere sphere\n",
+    "turtlesim/msg/Shell.msg": "float32 width\n",
     "finder_mixed/msg/Own.msg": "string text\n",
     "finder_mixed/finder_mixed/__init__.py": "HERE = 1\n",
 }
@@ -32,13 +34,15 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
         path = tmp_path / "src" / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
-    for name in ("finder_msgs", "finder_more", "finder_mixed"):
+    for name in ("finder_msgs", "finder_more", "finder_mixed", "turtlesim"):
         (tmp_path / "src" / name / "package.xml").write_text(XML.format(name))
     monkeypatch.setattr(discover, "_current", [Workspace(default_folders(tmp_path))])
+    for name in [each for each in sys.modules if each.startswith("turtlesim")]:
+        monkeypatch.delitem(sys.modules, name)
     # Where the interpreter would take the folder for a namespace package.
     monkeypatch.syspath_prepend(str(tmp_path / "src"))
     yield tmp_path / "src"
-    for name in [each for each in sys.modules if each.startswith("finder_m")]:
+    for name in [each for each in sys.modules if each.startswith(("finder_m", "turtlesim"))]:
         del sys.modules[name]
 
 
@@ -72,6 +76,11 @@ def test_a_faulty_definition_is_named_with_its_line(folder: Path) -> None:
     with pytest.raises(ImportError) as caught:
         _ = module.Bad
     assert str(caught.value).startswith(f"{folder}/finder_msgs/msg/Bad.msg:2: 'badName' is no field name")
+
+
+def test_a_package_of_the_tutorials_is_the_one_in_the_workspace(folder: Path) -> None:
+    assert importlib.import_module("turtlesim.msg").Shell().width == 0.0
+    assert interface_names("turtlesim") == ["msg/Shell"]
 
 
 def test_what_is_not_there(folder: Path) -> None:
