@@ -67,12 +67,16 @@ class Entity(BaseEntity):
             )
 
     def __typed(self, name: str, text: Any, data_type: Any, can_be_str: bool) -> Any:
+        if can_be_str and any("$(" in each for each in ([text] if isinstance(text, str) else text)):
+            return text
         try:
             return get_typed_value(text, data_type, can_be_str=can_be_str)
-        except ValueError as error:
-            if can_be_str and not is_typing_list(data_type):
+        except (ValueError, TypeError) as error:
+            if data_type is None and isinstance(error, ValueError):
+                raise
+            if can_be_str and data_type is not None and not is_typing_list(data_type):
                 return text
             raise TypeError(
-                f"Attribute '{name}' of Entity '{self.type_name}' expected to be of type '{data_type}', got '{text}'. "
-                "Can not be converted to one of those types"
+                f"Attribute '{name}' of Entity '{self.type_name}' expected to be of type '{data_type}'."
+                f"'{text}' can not be converted to one of those types"
             ) from error

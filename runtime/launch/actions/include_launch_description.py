@@ -38,11 +38,10 @@ class IncludeLaunchDescription(Action):
         _, kwargs = super().parse(entity, parser)
         kwargs["launch_description_source"] = parser.parse_substitution(entity.get_attr("file"))
         arguments = []
-        for name in ("arg", "let"):
-            for each in entity.get_attr(name, data_type=list, optional=True) or ():
-                pair = (each.get_attr("name"), each.get_attr("value"))
-                arguments.append(tuple(parser.parse_substitution(part) for part in pair))
-                each.assert_entity_completely_parsed()
+        for each in entity.get_attr("arg", data_type=list, optional=True) or ():
+            pair = (each.get_attr("name"), each.get_attr("value"))
+            arguments.append(tuple(parser.parse_substitution(part) for part in pair))
+            each.assert_entity_completely_parsed()
         if arguments:
             kwargs["launch_arguments"] = arguments
         return cls, kwargs

@@ -107,9 +107,10 @@ class Executable:
     def prepare(self, context: Any, action: Any) -> None:
         """Evaluate everything, and take the next number for the label."""
         cmd = [perform_substitutions(context, each) for each in self.__cmd]
-        name = os.path.basename(cmd[0]) if self.__name is None else perform_substitutions(context, self.__name)
         self.__words_of_prefix = self._prefix_for(context, cmd)
         self.__final_cmd = [*self.__words_of_prefix, *cmd]
+        first = os.path.basename(self.__final_cmd[0])
+        name = first if self.__name is None else perform_substitutions(context, self.__name)
         self.__final_name = f"{name}-{next(_numbers)}"
         self.__final_cwd = None if self.__cwd is None else perform_substitutions(context, self.__cwd)
         self.__final_env = self._environment(context)

@@ -18,13 +18,20 @@ class UnexpectedEOF(ValueError):
     """A text that ends too early."""
 
 
+class VisitError(ValueError):
+    """A substitution with an unknown name, or arguments that it cannot take."""
+
+    def __init__(self, cause: Exception) -> None:
+        super().__init__(f'Error trying to process rule "substitution":\n{cause}')
+
+
 def replace_escaped_characters(data: str) -> str:
     """The text without the backslashes that protect the character behind them."""
     return re.sub(r"\\(.)", r"\1", data)
 
 
 def parse_substitution(string_value: str) -> list[Any]:
-    """The substitutions of a text; raises `ValueError` where it is malformed, `RuntimeError` for unknown names."""
+    """The substitutions of a text; raises `ValueError` where it is malformed."""
     from launch.substitutions.text_substitution import TextSubstitution
 
     if not string_value:
@@ -39,6 +46,14 @@ def parse_if_substitutions(value: Any) -> Any:
     if isinstance(value, list) and value and all(isinstance(each, str) for each in value):
         return [parse_substitution(each) for each in value]
     return value
+
+
+def _substitution(name: str, arguments: list[Any]) -> Any:
+    method = substitution_parse_methods.get(name)
+    if method is None:
+        raise RuntimeError(f"Unknown substitution: {name}")
+    kind, options = method(arguments)
+    return kind(**options)
 
 
 class _Reader:
@@ -77,11 +92,10 @@ class _Reader:
             if not self._take(" "):
                 raise self._unexpected("a space or ')'")
             arguments.append(self._argument())
-        method = substitution_parse_methods.get(name[0])
-        if method is None:
-            raise RuntimeError(f"Unknown substitution: {name[0]}")
-        kind, options = method(arguments)
-        return kind(**options)
+        try:
+            return _substitution(name[0], arguments)
+        except Exception as error:  # a substitution's own words, under the heading that upstream gives them
+            raise VisitError(error) from error
 
     def _argument(self) -> list[Any]:
         from launch.substitutions.text_substitution import TextSubstitution

@@ -70,7 +70,8 @@ class Parser:
                 return parser.load(io.StringIO(text))
             except Exception as error:  # each library has its own errors; all are told
                 errors.append(error)
-        raise InvalidFrontendLaunchFileError(extension, likely_errors=errors)
+        known = extension if cls.is_extension_valid(extension) else ""
+        raise InvalidFrontendLaunchFileError(known, likely_errors=errors)
 
     @classmethod
     def _parsers_for(cls, path: str) -> list[type[Parser]]:

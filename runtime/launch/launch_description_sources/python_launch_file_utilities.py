@@ -7,12 +7,11 @@ from importlib.util import module_from_spec, spec_from_loader
 from types import ModuleType
 from typing import Any
 
-from launch.invalid_launch_file_error import InvalidLaunchFileError
 
 FUNCTION = "generate_launch_description"
 
 
-class InvalidPythonLaunchFileError(InvalidLaunchFileError):
+class InvalidPythonLaunchFileError(Exception):
     """A Python file that is no launch file."""
 
 

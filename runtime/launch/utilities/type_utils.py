@@ -25,7 +25,7 @@ __all__ = [
 
 
 def coerce_to_type(value: str, data_type: Any = None, *, can_be_str: bool = True) -> Any:
-    """A scalar or list from a text; raises `ValueError` where the text is none of the type."""
+    """A scalar or list from a text; raises `ValueError` or `TypeError` where the text is none of the type."""
     if data_type is None:
         return _any_from(value)
     scalar, is_list = extract_type(data_type)
@@ -42,7 +42,7 @@ def coerce_list(value: Iterable[str], data_type: Any = None, *, can_be_str: bool
     """A list from texts."""
     found = [coerce_to_type(each, data_type, can_be_str=can_be_str) for each in value]
     if not is_instance_of(found, None):
-        raise ValueError(f"The result is a non-uniform list: {found}")
+        raise ValueError("The result is a non-uniform list")
     return found
 
 
@@ -76,9 +76,11 @@ def _list_from(value: str, scalar: Any) -> list[Any]:
 
 def _any_from(value: str) -> Any:
     found = _yaml(value)
-    if isinstance(found, list) and not is_instance_of(found, None):
-        raise ValueError(f"The result is a non-uniform list: {found}")
-    return found if is_instance_of(found, None) else value
+    if is_instance_of(found, None):
+        return found
+    if isinstance(found, list):
+        raise ValueError("The result is a non-uniform list")
+    raise TypeError(f"'{value}' is neither a scalar nor a list")
 
 
 def _yaml(value: str) -> Any:

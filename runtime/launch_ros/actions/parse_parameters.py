@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, List  # noqa: UP035 (messages show these names)
 
+from launch.substitutions import TextSubstitution
 from launch_ros.descriptions.parameter_file import ParameterFile
 from launch_ros.descriptions.parameter_value import ParameterValue
 
@@ -12,10 +13,10 @@ TYPES: dict[str, Any] = {
     "float": float,
     "bool": bool,
     "str": str,
-    "list_of_int": list[int],
-    "list_of_float": list[float],
-    "list_of_bool": list[bool],
-    "list_of_str": list[str],
+    "list_of_int": List[int],
+    "list_of_float": List[float],
+    "list_of_bool": List[bool],
+    "list_of_str": List[str],
     "yaml": None,
 }
 
@@ -51,12 +52,7 @@ def _named(entity: Any, parser: Any) -> dict[Any, Any]:
     if value is not None and nested:
         raise RuntimeError("nested parameters and value attributes are mutually exclusive")
     if value is not None:
-        parsed = parser.parse_if_substitutions(value)
-        result = (
-            parsed
-            if kind_name is None and not isinstance(value, str)
-            else ParameterValue(parsed, value_type=_kind(kind_name))
-        )
+        result = _value(value, kind_name, parser)
         entity.assert_entity_completely_parsed()
         return {name: result}
     if not nested:
@@ -66,6 +62,24 @@ def _named(entity: Any, parser: Any) -> dict[Any, Any]:
         found.update(_named(each, parser))
     entity.assert_entity_completely_parsed()
     return {name: found}
+
+
+def _value(value: Any, kind_name: str | None, parser: Any) -> Any:
+    """A literal, or substitutions; typed where a type is named."""
+    literal = _literal(value, parser)
+    return literal if kind_name is None else ParameterValue(literal, value_type=_kind(kind_name))
+
+
+def _literal(value: Any, parser: Any) -> Any:
+    """A text without substitutions stays a text, whatever it looks like."""
+    if isinstance(value, list):
+        return [_literal(each, parser) for each in value]
+    if not isinstance(value, str):
+        return value
+    pieces = parser.parse_substitution(value)
+    if all(isinstance(each, TextSubstitution) for each in pieces):
+        return "".join(each.text for each in pieces)
+    return pieces
 
 
 def _kind(name: str | None) -> Any:

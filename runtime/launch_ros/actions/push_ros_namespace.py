@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import launch.logging
 from launch.action import Action
 from launch.frontend import expose_action
 from launch.substitution import Substitution
+from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.utilities import make_namespace_absolute, prefix_namespace
 
@@ -34,7 +34,7 @@ class PushROSNamespace(Action):
         return self.__namespace
 
     def execute(self, context: Any) -> None:
-        """Push it; raises what `validate_namespace` raises."""
+        """Push it; raises `SubstitutionFailure` for an invalid one."""
         from rclpy.validate_namespace import validate_namespace
 
         pushed = perform_substitutions(context, self.__namespace)
@@ -42,11 +42,10 @@ class PushROSNamespace(Action):
         namespace = make_namespace_absolute(prefix_namespace(before, pushed))
         try:
             validate_namespace(namespace)
-        except Exception:
-            launch.logging.get_logger(__name__).error(
+        except ValueError as error:
+            raise SubstitutionFailure(
                 f"The resulting namespace is invalid: [previous_namespace='{before}', pushed_namespace='{pushed}']"
-            )
-            raise
+            ) from error
         context.launch_configurations["ros_namespace"] = namespace
 
 
