@@ -12,7 +12,7 @@ import sys
 from collections.abc import Sequence
 from importlib.machinery import ModuleSpec, PathFinder
 from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.interface_finder import InterfaceFinder, interface_folders
 from bot_console.runtime.rosidl.sources import EXAMPLES, add_source
@@ -49,7 +49,8 @@ class RosFinder:
         if path is None:
             return self._find_package(fullname)
         if fullname.startswith(ALIAS) and fullname[len(ALIAS) :].split(".", maxsplit=1)[0] in PACKAGES:
-            return ModuleSpec(fullname, _AliasLoader(fullname[len(ALIAS) :]))
+            loader: Any = _AliasLoader(fullname[len(ALIAS) :])
+            return ModuleSpec(fullname, loader)
         return None
 
     def _find_package(self, name: str) -> ModuleSpec | None:

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Mapping, Sequence
 from importlib.machinery import ModuleSpec, PathFinder
 from types import ModuleType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -42,7 +42,7 @@ class InterfaceFinder:
         folder = interface_folders().get(top)
         if folder is None or not _exists(folder, inside):
             return spec
-        loader = InterfaceLoader(folder, self._modules)
+        loader: Any = InterfaceLoader(folder, self._modules)
         return ModuleSpec(fullname, loader, origin=str(folder), is_package=loader.is_package(fullname))
 
 
