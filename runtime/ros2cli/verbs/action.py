@@ -3,37 +3,41 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from typing import Any
 
+from action_msgs.msg import GoalStatus
+from rclpy.action import (
+    ActionClient,
+    get_action_client_names_and_types_by_node,
+    get_action_names_and_types,
+    get_action_server_names_and_types_by_node,
+)
+from rclpy.exceptions import InvalidTopicNameException
+from rclpy.expand_topic_name import expand_topic_name
 from rclpy.node import Node
+from rclpy.signals import uninstall_signal_handlers
+from rclpy.validate_full_topic_name import validate_full_topic_name
 from ros2cli.command import Command, Result, Verb
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, node_names, spin_until
-from ros2cli.endpoints import action_names_and_types
 from rosidl_runtime_py import message_to_yaml, set_message_fields
 from rosidl_runtime_py.utilities import get_action
 
-Sides = dict[str, list[tuple[str, str]]]
-"""Nodes and action types by action name."""
+Rows = list[tuple[str, list[str]]]
+"""Names, of nodes or actions, with the types of an action."""
 
 
-def _sides(node: Node) -> tuple[Sides, Sides]:
-    """Who serves and who calls each action."""
-    servers: Sides = {}
-    clients: Sides = {}
+def _clients_and_servers(node: Node, action: str) -> tuple[Rows, Rows]:
+    """The nodes that call and that serve an action; raises `InvalidTopicNameException` or `ValueError` for no name."""
+    name = expand_topic_name(action, node.get_name(), node.get_namespace())
+    validate_full_topic_name(name)
+    sides: tuple[Rows, Rows] = ([], [])
     for each in node_names(node, include_hidden=True):
-        who = (each.name, each.namespace)
-        for side, services in (
-            (servers, node.get_service_names_and_types_by_node(*who)),
-            (clients, node.get_client_names_and_types_by_node(*who)),
-        ):
-            for name, types in action_names_and_types(services):
-                side.setdefault(name, []).extend((each.full_name, kind) for kind in types)
-    return servers, clients
-
-
-def _types(servers: Sides, clients: Sides) -> dict[str, list[str]]:
-    names = sorted({*servers, *clients})
-    return {name: sorted({kind for side in (servers, clients) for _, kind in side.get(name, [])}) for name in names}
+        clients = get_action_client_names_and_types_by_node(node, each.name, each.namespace)
+        servers = get_action_server_names_and_types_by_node(node, each.name, each.namespace)
+        for side, actions in zip(sides, (clients, servers), strict=True):
+            side.extend((each.full_name, types) for found, types in actions if found == name)
+    return sides
 
 
 def _list_arguments(parser: argparse.ArgumentParser) -> None:
@@ -46,12 +50,12 @@ def _list_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _list(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
-        types = _types(*_sides(node))
+        actions = get_action_names_and_types(node)
     if arguments.count_actions:
-        print(len(types))
+        print(len(actions))
         return None
-    for name, kinds in types.items():
-        print(f"{name} [{', '.join(kinds)}]" if arguments.show_types else name)
+    for name, types in actions:
+        print(f"{name} [{', '.join(types)}]" if arguments.show_types else name)
     return None
 
 
@@ -65,16 +69,17 @@ def _info_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _info(arguments: argparse.Namespace) -> Result:
-    name = arguments.action_name
     with DirectNode(arguments) as node:
-        servers, clients = _sides(node)
-    print(f"Action: {name}")
-    for title, side in (("Action clients", clients), ("Action servers", servers)):
-        rows = side.get(name, [])
+        try:
+            clients, servers = _clients_and_servers(node, arguments.action_name)
+        except (InvalidTopicNameException, ValueError) as error:
+            return str(error)
+    print(f"Action: {arguments.action_name}")
+    for title, rows in (("Action clients", clients), ("Action servers", servers)):
         print(f"{title}: {len(rows)}")
         if not arguments.count:
-            for full_name, kind in rows:
-                print(f"    {full_name} [{kind}]" if arguments.show_types else f"    {full_name}")
+            for name, types in rows:
+                print(f"    {name} [{', '.join(types)}]" if arguments.show_types else f"    {name}")
     return None
 
 
@@ -85,7 +90,7 @@ def _type_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _type(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
-        types = _types(*_sides(node)).get(arguments.action_name)
+        types = dict(get_action_names_and_types(node)).get(arguments.action_name)
     if types is None:
         return 1
     for each in types:
@@ -96,58 +101,78 @@ def _type(arguments: argparse.Namespace) -> Result:
 def _goal_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("action_name", help="Name of the ROS action (e.g. '/fibonacci')")
     parser.add_argument("action_type", help="Type of the ROS action (e.g. 'example_interfaces/action/Fibonacci')")
-    parser.add_argument("goal", help="Goal request values in YAML format (e.g. '{order: 10}')")
+    group = parser.add_mutually_exclusive_group()
+    group.add_argument("goal", nargs="?", default="{}", help="Goal request values in YAML format (e.g. '{order: 10}')")
+    group.add_argument("--stdin", action="store_true", help="Read goal from standard input")
     parser.add_argument("-f", "--feedback", action="store_true", help="Echo feedback messages for the goal")
 
 
 def _send_goal(arguments: argparse.Namespace) -> Result:
     import yaml
-    from rclpy.action import ActionClient
 
     try:
         kind = get_action(arguments.action_type)
     except (AttributeError, ModuleNotFoundError, ValueError):
         return "The passed action type is invalid"
-    values = yaml.safe_load(arguments.goal)
+    values = yaml.safe_load(sys.stdin if arguments.stdin else arguments.goal)
     goal = kind.Goal()
     try:
         set_message_fields(goal, values)
     except (AttributeError, TypeError, ValueError) as error:
         return f"Failed to populate message fields: {error!r}"
     arguments.no_daemon = True
-    with DirectNode(arguments) as node:
-        return _follow(node, ActionClient(node, kind, arguments.action_name), goal, arguments.feedback)
+    with DirectNode(arguments, name=f"_ros2cli_send_goal_{arguments.action_type.replace('/', '_')}") as node:
+        # A Ctrl-C must not shut the context down: the goal has to be cancelled first.
+        uninstall_signal_handlers()
+        client = ActionClient(node, kind, arguments.action_name)
+        try:
+            return _follow(node, client, goal, arguments.feedback)
+        finally:
+            client.destroy()
 
 
-def _follow(node: Node, client: Any, goal: Any, feedback: bool) -> Result:
+def _follow(node: Node, client: ActionClient, goal: Any, feedback: bool) -> Result:
     """Send the goal and stay with it to its result; Ctrl-C cancels it."""
-    handle: Any = None
-    try:
-        print("Waiting for an action server to become available...")
-        spin_until(node, client.server_is_ready)
-        print(f"Sending goal:\n     {message_to_yaml(goal)}")
-        show = (lambda message: print(f"Feedback:\n    {message_to_yaml(message.feedback)}")) if feedback else None
-        sent = client.send_goal_async(goal, show)
-        spin_until(node, sent.done)
-        handle = sent.result()
-        if not handle.accepted:
-            print("Goal was rejected.")
-            return None
-        print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n")
-        result = handle.get_result_async()
-        spin_until(node, result.done)
-        answer = result.result()
-        handle = None
-        print(f"Result:\n    {message_to_yaml(answer.result)}")
-        print(f"Goal finished with status: {STATUS.get(answer.status, 'UNKNOWN')}")
+    print("Waiting for an action server to become available...")
+    spin_until(node, client.server_is_ready)
+    print(f"Sending goal:\n     {message_to_yaml(goal)}")
+    show = (lambda message: print(f"Feedback:\n    {message_to_yaml(message.feedback)}")) if feedback else None
+    handle: Any = _outcome(node, client.send_goal_async(goal, show))
+    if not handle.accepted:
+        print("Goal was rejected.")
         return None
-    finally:
-        if handle is not None and handle.accepted:
-            print("Canceling goal...")
-            cancel = handle.cancel_goal_async()
-            spin_until(node, cancel.done, 5.0)
-            print("Goal canceled.")
-        client.destroy()
+    print(f"Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n")
+    try:
+        answer: Any = _outcome(node, handle.get_result_async())
+    except KeyboardInterrupt:
+        problem = _cancel(node, handle)
+        if problem:
+            return problem
+        raise
+    print(f"Result:\n    {message_to_yaml(answer.result)}")
+    print(f"Goal finished with status: {STATUS.get(answer.status, 'UNKNOWN')}")
+    return None
+
+
+def _outcome(node: Node, future: Any) -> Any:
+    spin_until(node, future.done)
+    return future.result()
+
+
+def _cancel(node: Node, handle: Any) -> str | None:
+    """Ask for cancelling a goal that has not ended; what to say if the server did not agree."""
+    if handle.status not in (GoalStatus.STATUS_ACCEPTED, GoalStatus.STATUS_EXECUTING):
+        return None
+    print("Canceling goal...")
+    cancelling = [bytes(each.goal_id.uuid) for each in _outcome(node, handle.cancel_goal_async()).goals_canceling]
+    if not cancelling:
+        return "Failed to cancel goal"
+    if len(cancelling) > 1:
+        return "More than one goal canceled"
+    if cancelling[0] != bytes(handle.goal_id.uuid):
+        return "Canceled goal with incorrect goal ID"
+    print("Goal canceled.")
+    return None
 
 
 STATUS = {0: "UNKNOWN", 1: "ACCEPTED", 2: "EXECUTING", 3: "CANCELING", 4: "SUCCEEDED", 5: "CANCELED", 6: "ABORTED"}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 
 from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState, GetAvailableTransitions, GetState
@@ -73,15 +74,17 @@ def _set(arguments: argparse.Namespace) -> Result:
         if name not in _managed(node, arguments.include_hidden_nodes):
             return "Node not found"
         offered = _transitions(node, name)
-        wanted = [each for each in offered if arguments.transition in (each.label, str(each.id))]
+        wanted = [each for each in offered if each.label == arguments.transition]
+        wanted += [each for each in offered if str(each.id) == arguments.transition]
         if not wanted:
             listing = "".join(f"\n- {each.label} [{each.id}]" for each in offered)
             return f"Unknown transition requested, available ones are:{listing}"
         request = ChangeState.Request(transition=wanted[0])
         if call(node, ChangeState, f"{name}/change_state", request).success:
             print("Transitioning successful")
-            return None
-        return "Transitioning failed"
+        else:
+            print("Transitioning failed", file=sys.stderr)  # and the exit code stays 0, as upstream's
+    return None
 
 
 def _transitions(node: Node, name: str) -> list[Transition]:
