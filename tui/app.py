@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
-from pathlib import Path, PurePath
+from pathlib import Path
 from typing import Any, ClassVar
 
 from bot_console.tui import keymap
@@ -28,6 +28,7 @@ from textual.binding import BindingType
 from textual.command import Provider
 from textual.containers import Container
 from textual.screen import Screen
+from textual.types import CSSPathType
 from textual.widgets import Input, Static
 
 OVERVIEW = (100, 30)
@@ -45,7 +46,7 @@ class BotConsoleApp(App[None]):
     """rqt for the terminal."""
 
     TITLE = "bot-console"
-    CSS_PATH: ClassVar[list[str | PurePath]] = [
+    CSS_PATH: ClassVar[CSSPathType | None] = [
         HERE / "app.tcss",
         *(HERE / "panes" / f"{each.id}.tcss" for each in PANES),
     ]
@@ -74,7 +75,7 @@ class BotConsoleApp(App[None]):
 
     def get_default_screen(self) -> Screen[Any]:
         """A screen that waits for the terminal, where this version of Textual allows it."""
-        return GatedScreen(self.gate) if SUPPORTED else super().get_default_screen()
+        return GatedScreen(self.gate) if SUPPORTED else Screen[Any](id="_default")
 
     def compose(self) -> ComposeResult:
         """Tabs, panes, status, footer, and a word for terminals that are too small."""
@@ -236,7 +237,7 @@ class BotConsoleApp(App[None]):
         """Help for the pane that has the keyboard."""
         pane = self.current_pane
         if pane is not None:
-            self.push_screen(HelpScreen(pane.id or "", pane.TITLE, pane.HELP))
+            self.push_screen(HelpScreen(pane.id or "", pane.TITLE, pane.HELP or ""))
 
     def action_redraw(self) -> None:
         """Draw everything anew."""

@@ -48,7 +48,10 @@ def range_text(limits: Range | None, kind: Kind) -> str:
     """A range as `0.1 .. 5.0`, with its step when it has one."""
     if limits is None:
         return ""
-    show = number_text if kind is Kind.DOUBLE else (lambda each: str(int(each)))
+
+    def show(value: float) -> str:
+        return number_text(value) if kind is Kind.DOUBLE else str(int(value))
+
     step = f" step {show(limits.step)}" if limits.step else ""
     return f"{show(limits.low)} .. {show(limits.high)}{step}"
 

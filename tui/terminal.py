@@ -79,7 +79,7 @@ class GatedScreen(Screen[None]):
 
     def _compositor_refresh(self) -> None:
         super()._compositor_refresh()
-        app: Any = self.app
+        app: Any = self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
         driver: Any = app._driver
         if self._asking and driver is not None and not app.is_headless and not app.is_inline and self.is_current:
             driver.write(QUESTION)
@@ -88,7 +88,8 @@ class GatedScreen(Screen[None]):
     def _on_timer_update(self) -> None:
         if self._asking and self._gate.useless:
             self._asking = False
-        if self._asking and not self.app.is_headless and not self._gate.open():
+        headless = self.app.is_headless  # pyright: ignore[reportUnknownMemberType]
+        if self._asking and not headless and not self._gate.open():
             # The timer goes on ticking, so the dirty widgets are drawn as soon as the terminal has answered.
             self._gate.merged()
             return

@@ -104,7 +104,7 @@ class GraphPane(Pane):
         self._view = replace(self._view, mode=modes[(modes.index(self._view.mode) + 1) % len(modes)])
         self._draw()
 
-    def action_toggle(self, what: str) -> None:
+    def action_hide(self, what: str) -> None:
         """Hide or show a kind of topic."""
         self._view = replace(self._view, **{what: not getattr(self._view, what)})
         self._draw()

@@ -20,7 +20,7 @@ class Pane(Container):
     """
 
     TITLE: ClassVar[str] = ""
-    HELP: ClassVar[str] = ""
+    HELP: ClassVar[str | None] = ""
     """What the pane is for, in a few lines; the keys are listed from the key table."""
 
     class PlotWanted(Message):
