@@ -12,7 +12,6 @@ from bot_console.runtime.rosidl.write import written
 
 FOLDER = Path(__file__).resolve().parent / "definitions"
 EMPTY = "structure_needs_at_least_one_member"
-LEFT_OUT = ("actionlib_msgs", "rosbag2_interfaces", "rmw_dds_common")
 
 
 def interfaces() -> Iterator[tuple[Interface, str]]:
@@ -37,8 +36,6 @@ def _from_store() -> Iterator[Interface]:
 
     for full_name, (constants, fields) in get_typestore(Stores.ROS2_JAZZY).fielddefs.items():
         package, _, name = full_name.partition("/msg/")
-        if package in LEFT_OUT:
-            continue
         rows = [_field(*each) for each in fields if each[0] != EMPTY]
         yield Interface(package, "msg", name, [Definition(name, rows, [_constant(*each) for each in constants])])
 

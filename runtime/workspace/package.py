@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 from xml.etree import ElementTree
@@ -37,7 +38,7 @@ class Package:
     data_files: tuple[tuple[str, tuple[Path, ...]], ...] = ()
     problem: str = ""
 
-    @property
+    @cached_property
     def has_interfaces(self) -> bool:
         """Whether the package defines messages, services or actions."""
         return any(next((self.folder / each).glob(f"*.{each}"), None) for each in INTERFACE_FOLDERS)

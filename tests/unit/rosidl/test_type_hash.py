@@ -17,7 +17,8 @@ PUBLISHED = {
     "sensor_msgs/msg/LaserScan": "64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828",
     "example_interfaces/srv/AddTwoInts": "e118de6bf5eeb66a2491b5bda11202e7b68f198d6f67922cf30364858239c81a",
 }
-WRONG_IN_ROSBAGS = ("std_msgs/msg/Char", "service_msgs/msg/ServiceEventInfo")
+WRONG_IN_ROSBAGS = ("std_msgs/msg/Char", "service_msgs/msg/ServiceEventInfo", "rmw_dds_common/msg/")
+"""These have a `char`, which ROS 2 takes for a `uint8`."""
 
 
 def class_of(name: str) -> Any:

@@ -1,0 +1,64 @@
+"""No change of a message crosses a publish: neither to a subscription nor from one to another."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+import rclpy
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from sensor_msgs.msg import JointState
+
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+LIMITS = settings(max_examples=20, deadline=None, suppress_health_check=list(HealthCheck))
+
+
+@pytest.fixture(scope="module")
+def executor() -> Iterator[Any]:
+    context = rclpy.Context()
+    rclpy.init(args=[], context=context)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(rclpy.create_node("n", context=context))
+    yield executor
+    executor.shutdown()
+    rclpy.try_shutdown(context=context)
+
+
+def spoil(message: JointState) -> None:
+    message.header.frame_id = "spoilt"
+    message.header.stamp.sec = 42
+    message.name.append("spoilt")
+    message.position.append(42.0)
+    for index in range(len(message.effort)):
+        message.effort[index] = 42.0
+
+
+@given(data=st.data())
+@LIMITS
+def test_all_get_what_was_published(executor: Any, messages: Any, data: Any) -> None:
+    (node,) = executor.get_nodes()
+    publisher = node.create_publisher(JointState, "t", LATCHED)
+    message = data.draw(messages.of(JointState))
+    wanted = message._copy_()
+    got: list[JointState] = []
+
+    def receive(received: JointState) -> None:
+        got.append(received._copy_())
+        spoil(received)
+
+    subscriptions = [node.create_subscription(JointState, "t", receive, LATCHED) for _ in range(2)]
+    publisher.publish(message)
+    spoil(message)
+    executor.spin_once(timeout_sec=0.0)
+    executor.spin_once(timeout_sec=0.0)
+    late = node.create_subscription(JointState, "t", receive, LATCHED)
+    executor.spin_once(timeout_sec=0.0)
+    for each in (*subscriptions, late):
+        node.destroy_subscription(each)
+    node.destroy_publisher(publisher)
+    assert len(got) == 3
+    assert all(messages.same(each, wanted) for each in got)
