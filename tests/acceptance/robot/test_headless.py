@@ -1,0 +1,70 @@
+"""Headless runs: repeatable to the bit, and plain about what they cannot do."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))
+from headless import headless
+
+
+@pytest.fixture(scope="module")
+def runs(tmp_path_factory):
+    """Two runs with one seed, one with another."""
+    folder = tmp_path_factory.mktemp("runs")
+    return [headless(folder, "--duration", "30", "--seed", seed) for seed in ("5", "5", "6")]
+
+
+def test_one_seed_gives_one_digest(runs):
+    assert runs[0]["digest"] == runs[1]["digest"]
+    assert runs[0]["deterministic"] and runs[1]["deterministic"]
+
+
+def test_another_seed_gives_another_digest(runs):
+    assert runs[0]["digest"] != runs[2]["digest"]
+
+
+def test_the_whole_report_is_repeatable(runs):
+    first, second = ({key: value for key, value in run.items() if key not in ("log", "wall_time")} for run in runs[:2])
+    assert first == second
+
+
+def test_the_report_tells_what_was_asked(runs):
+    report = runs[0]
+    assert (report["world"], report["seed"], report["duration"]) == ("indoor", 5, 30.0)
+    assert report["distance"] > 5.0
+    assert report["mean_speed"] == pytest.approx(report["distance"] / 30.0, rel=1e-3)
+    assert report["messages"] > 1000
+    assert report["timer_lateness_ms"]["max"] == 0.0
+    assert set(report) >= {"min_clearance", "stops", "collisions"}
+
+
+def test_logs_are_as_ros_prints_them(runs):
+    assert "[simulator_node-1] [INFO] [1700000000.000000000] [simulator]: Office" in runs[0]["log"]
+
+
+def test_real_time_is_real(tmp_path):
+    words = [sys.executable, "-m", "bot_console.tui", "--headless", "--duration", "1.5"]
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert '"deterministic": false' in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "text"),
+    [
+        (["--headless", "nowhere"], 2, "there is no profile and no command 'nowhere'"),
+        (["--headless", "--launch", "missing.launch.py"], 1, "there is no launch file missing.launch.py"),
+        (["--fast"], 2, "--fast goes with --headless"),
+        (["--headless", "--duration", "-1"], 2, "--duration must be positive"),
+        (["--headless", "--fast", "--duration", "1", "world:=nowhere"], 1, "no world 'nowhere'"),
+    ],
+)
+def test_wrong_words_get_one_clear_line(tmp_path, words, code, text):
+    line = [sys.executable, "-m", "bot_console.tui", *words]
+    done = subprocess.run(line, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == code, done.stderr
+    assert text in done.stderr
+    assert "Traceback" not in done.stderr

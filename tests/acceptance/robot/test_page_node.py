@@ -1,0 +1,28 @@
+"""The course page's own navigator, unchanged, drives our robot."""
+
+import os
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))
+from headless import headless
+
+COURSE = os.environ.get("BOT_CONSOLE_COURSE", "")
+NODE = Path(COURSE) / "nodes" / "intelligent_robot" / "robot_node.py"
+
+pytestmark = pytest.mark.skipif(not COURSE, reason="BOT_CONSOLE_COURSE names no folder")
+
+
+@pytest.mark.parametrize("world", ["indoor", "outdoor", "warehouse", "competition"])
+def test_ten_minutes_in_our_system(tmp_path, world):
+    report = headless(tmp_path, "--profile", world, "--duration", "600", f"navigator:={NODE}")
+    assert report["longest_standstill"] < 20.0
+    assert report["distance"] > 100.0
+
+
+def test_ten_minutes_alone_with_the_simulator(tmp_path):
+    report = headless(tmp_path, "--duration", "600", str(NODE), command=("run",))
+    assert report["longest_standstill"] < 20.0
+    assert report["distance"] > 100.0

@@ -1,0 +1,59 @@
+"""The four environments behave as their names say, over several seeds."""
+
+import sys
+from pathlib import Path
+from statistics import mean
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))
+from headless import headless
+
+PROFILES = ("indoor", "outdoor", "warehouse", "competition")
+SEEDS = ("1", "2", "3")
+
+
+@pytest.fixture(scope="module")
+def runs(tmp_path_factory):
+    """Reports by profile, one for each seed, of two simulated minutes."""
+    folder = tmp_path_factory.mktemp("profiles")
+    return {
+        name: [headless(folder, "--profile", name, "--duration", "120", "--seed", seed) for seed in SEEDS]
+        for name in PROFILES
+    }
+
+
+def figures(runs, name, key):
+    return [run[key] for run in runs[name]]
+
+
+@pytest.mark.parametrize(
+    ("slower", "faster"), [("indoor", "warehouse"), ("warehouse", "outdoor"), ("outdoor", "competition")]
+)
+def test_mean_speed(runs, slower, faster):
+    assert max(figures(runs, slower, "mean_speed")) < min(figures(runs, faster, "mean_speed"))
+
+
+@pytest.mark.parametrize("careful", ["indoor", "outdoor", "warehouse"])
+def test_competition_has_the_least_clearance(runs, careful):
+    assert mean(figures(runs, "competition", "min_clearance")) < mean(figures(runs, careful, "min_clearance"))
+
+
+def test_outdoor_keeps_the_largest_distances(runs):
+    others = [each for name in PROFILES if name != "outdoor" for each in figures(runs, name, "min_clearance")]
+    assert mean(figures(runs, "outdoor", "min_clearance")) > max(others)
+
+
+def test_indoor_stops_more_than_competition(runs):
+    assert sum(figures(runs, "indoor", "stops")) > sum(figures(runs, "competition", "stops"))
+
+
+@pytest.mark.parametrize("name", ["indoor", "outdoor", "warehouse"])
+def test_careful_profiles_touch_nothing(runs, name):
+    assert figures(runs, name, "collisions") == [0, 0, 0]
+
+
+@pytest.mark.parametrize("name", PROFILES)
+def test_runs_are_deterministic(runs, name):
+    assert all(figures(runs, name, "deterministic"))
+    assert len(set(figures(runs, name, "digest"))) == len(SEEDS)
