@@ -1,0 +1,136 @@
+"""Chapter 1, step 4 to the exercise: a robot that is tuned while it runs, and parameter files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from course.checks_parameters import starts
+from course.page import Page, logs
+from course.rows import Row
+from course.table import row
+from systems import Program
+
+NODE = "/configurable_robot"
+EXERCISE = Path(__file__).parent / "exercise_robot.py"
+
+
+def robot_runs(page: Page) -> Program:
+    return page.node_file("configurable_robot.py")
+
+
+@row(40)
+def it_runs_as_printed(page: Page, row: Row) -> None:
+    robot = robot_runs(page)
+    defaults = {"max_speed": "1.0", "safety_distance": "0.5", "detection_threshold": "100", "enable_safety": "True"}
+    assert {name: page.value(NODE, name) for name in defaults} == defaults
+    info = page.ask(f"ros2 node info {NODE}").stdout
+    assert "/cmd_vel: geometry_msgs/msg/Twist" in info
+    assert "/scan: sensor_msgs/msg/LaserScan" in info
+    assert ("INFO", "configurable_robot", row.quoted[-1]) in logs(robot)
+
+
+@row(41, 42, 43)
+def a_number_is_changed(page: Page, row: Row) -> None:
+    robot = robot_runs(page)
+    name, value = {41: ("max_speed", "2.5"), 42: ("safety_distance", "0.9"), 43: ("detection_threshold", "42")}[
+        row.number
+    ]
+    page.ask(f"ros2 param set {NODE} {name} {value}")
+    assert logs(robot)[-1].message == row.command.replace("<v>", value)
+
+
+@row(44)
+def safety_is_switched(page: Page, row: Row) -> None:
+    robot = robot_runs(page)
+    for value, text in zip(("true", "false"), row.quoted, strict=True):
+        page.ask(f"ros2 param set {NODE} enable_safety {value}")
+        assert logs(robot)[-1].message == text
+
+
+def after_a_scan(page: Page, nearest: float) -> str:
+    """`linear.x` of what the robot answers a scan with."""
+    echo = page.start("ros2 topic echo /cmd_vel --once --field linear.x")
+    page.ask(f"ros2 topic pub --once /scan sensor_msgs/msg/LaserScan '{{ranges: [3.0, {nearest}]}}'")
+    return echo.stdout.splitlines()[0]
+
+
+@row(45)
+def it_stops_before_an_obstacle(page: Page, row: Row) -> None:
+    robot = robot_runs(page)
+    assert after_a_scan(page, 0.25) == "0.0"
+    assert logs(robot)[-1] == ("WARN", "configurable_robot", row.command.replace("<d, 2 decimals>", "0.25"))
+
+
+@row(46)
+def it_goes_on_otherwise(page: Page, row: Row) -> None:
+    robot_runs(page)
+    page.ask(f"ros2 param set {NODE} max_speed 1.5")
+    assert after_a_scan(page, 2.0) == "1.5"
+    page.ask(f"ros2 param set {NODE} enable_safety false")
+    assert after_a_scan(page, 0.25) == "1.5"
+
+
+@row(48)
+def parameters_are_listed(page: Page, row: Row) -> None:
+    starts(page, 47)
+    listed = page.ask(row.command).stdout.split()
+    assert {"max_speed", "safety_distance", "detection_threshold", "enable_safety"} <= set(listed)
+
+
+@row(49)
+def the_value_of_the_command_line_is_there(page: Page, row: Row) -> None:
+    starts(page, 47)
+    assert page.ask(row.command).stdout == "Double value is: 2.5\n"
+
+
+@row(50)
+def the_value_is_set(page: Page, row: Row) -> None:
+    starts(page, 47)
+    assert page.ask(row.command).stdout == "Set parameter successful\n"
+    assert page.ask(page.row(49).command).stdout == "Double value is: 3.0\n"
+
+
+@row(51)
+def dump_has_no_such_option(page: Page, row: Row) -> None:
+    """As in real ROS 2 of today (N6); without it the parameters are printed."""
+    starts(page, 47)
+    answer = page.ask(row.command)
+    assert answer.exit == 2
+    assert "unrecognized arguments: --output-dir" in answer.stderr
+    assert "max_speed: 2.5" in page.ask(row.command.partition(" --output-dir")[0]).stdout
+
+
+@row(52)
+def the_file_loads(page: Page, row: Row) -> None:
+    """The name that the node does not declare is ignored (N7)."""
+    starts(page, 53)
+    stated = {"max_speed": "2.0", "safety_distance": "0.6", "detection_threshold": "120", "enable_safety": "True"}
+    assert {name: page.value(NODE, name) for name in stated} == stated
+    assert page.ask(f"ros2 param get {NODE} robot_name").stderr == "Parameter not set\n"
+
+
+def exercise(page: Page) -> None:
+    assert page.start_file(EXERCISE).exit is None
+
+
+@row(54, 55, 56, 57)
+def the_exercise_declares_the_parameter(page: Page, row: Row) -> None:
+    exercise(page)
+    name, kind = {
+        54: ("robot_name", "string"),
+        55: ("max_speed", "double"),
+        56: ("turn_rate", "double"),
+        57: ("autonomous_mode", "boolean"),
+    }[row.number]
+    described = page.ask(f"ros2 param describe /exercise_robot {name}").stdout
+    assert f"  Type: {kind}\n" in described
+    assert ("Min value: 0.1\n    Max value: 5.0" in described) == (row.number == 55)
+
+
+@row(58)
+def the_exercise_is_changed_at_runtime(page: Page, row: Row) -> None:
+    exercise(page)
+    for name, value in (("robot_name", "Ada"), ("max_speed", "4.5"), ("turn_rate", "0.3"), ("autonomous_mode", "true")):
+        assert page.ask(f"ros2 param set /exercise_robot {name} {value}").stdout == "Set parameter successful\n"
+    refused = page.ask("ros2 param set /exercise_robot max_speed 5.5").stderr
+    assert refused.startswith("Setting parameter failed: Parameter max_speed out of range Min: 0.1, Max: 5.0")

@@ -1,0 +1,157 @@
+"""The page's workspace, made of its unchanged listings, and a system in it that its commands are asked of."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import NamedTuple
+
+from bot_console.runtime.workspace import discover
+from course.rows import COURSE, Row, rows
+from systems import Program, System, system
+
+MANIFEST = """<?xml version="1.0"?>
+<package format="3">
+  <name>{name}</name><version>0.0.1</version><description>d</description>
+  <maintainer email="a@b.c">a</maintainer><license>Apache-2.0</license>
+  <export><build_type>ament_python</build_type></export>
+</package>
+"""
+SETUP = """import os
+from glob import glob
+from setuptools import setup
+
+package_name = 'my_package'
+setup(
+    name=package_name,
+    packages=[package_name],
+    data_files=[
+        {data_files}
+        (os.path.join('share', package_name, 'launch'), glob('launch/*.py')),
+    ],
+    entry_points={{'console_scripts': [{scripts}]}},
+)
+"""
+DATA_FILES_ROW = 81
+LOG = re.compile(r"^\[(\w+)\] \[\d{10}\.\d{9}\] \[([^\]]+)\]: (.*)$")
+STATED = re.compile(r"^\[(\w+)\] (?:\[([^\]]+)\]: )?(.*)$")
+
+
+class Said(NamedTuple):
+    """A log line: severity, logger, message; the page leaves out the time, and now and then the logger (N2)."""
+
+    severity: str
+    logger: str
+    message: str
+
+
+def logs(program: Program) -> list[Said]:
+    """What a program has logged, in the form that real ROS 2 gives it."""
+    return [Said(*match.groups()) for line in program.stderr.splitlines() if (match := LOG.match(line))]
+
+
+def stated(text: str) -> Said:
+    """A log line as the page prints it."""
+    match = STATED.match(text)
+    assert match, f"{text!r} is no log line"
+    return Said(match[1], match[2] or "", match[3])
+
+
+def says(program: Program, line: Said) -> int:
+    """How often a program has logged a line; a line without a logger fits any."""
+    return sum(each == (line.severity, line.logger or each.logger, line.message) for each in logs(program))
+
+
+class Page:
+    """A running system whose commands are those of the page."""
+
+    def __init__(self, running: System, scratch: Path) -> None:
+        self._system = running
+        self.scratch = scratch
+        """A folder to write into."""
+
+    def row(self, number: int) -> Row:
+        """A row by its number."""
+        return rows()[number]
+
+    def start(self, command: str, seconds: float = 0.5) -> Program:
+        """Start what a command line names and let it run for so many s."""
+        program = self._start(command)
+        self._system.run(seconds)
+        return program
+
+    def ask(self, command: str, stop_after: float | None = None) -> Program:
+        """Run a command line to its end, or interrupt it after so many s."""
+        return self._system.finish(self._start(command), stop_after)
+
+    def stop(self, program: Program) -> Program:
+        """Ctrl-C."""
+        return self._system.finish(program, 0.0)
+
+    def run(self, seconds: float) -> None:
+        """Let so much time (s) go by."""
+        self._system.run(seconds)
+
+    def python(self, text: str, seconds: float = 0.5) -> Program:
+        """Start `python -c`, beside the page's node files."""
+        program = self._system.python("-c", f"import sys; sys.path.insert(0, {str(COURSE / 'nodes')!r})\n{text}")
+        self._system.run(seconds)
+        return program
+
+    def node_file(self, name: str, *words: str, seconds: float = 0.5) -> Program:
+        """Start a node file of the page."""
+        return self.start_file(COURSE / "nodes" / name, *words, seconds=seconds)
+
+    def start_file(self, path: Path, *words: str, seconds: float = 0.5) -> Program:
+        """Start any node file."""
+        program = self._system.python(str(path), *words)
+        self._system.run(seconds)
+        return program
+
+    def value(self, node: str, parameter: str) -> str:
+        """What `ros2 param get --hide-type` prints."""
+        return self.ask(f"ros2 param get {node} {parameter} --hide-type").stdout.strip()
+
+    def _start(self, command: str) -> Program:
+        words = shlex.split(command)
+        assert words[0] == "ros2", command
+        return self._system.ros2(*words[1:])
+
+
+@contextmanager
+def page(folder: Path, scratch: Path, *, own: bool = False) -> Iterator[Page]:
+    """A system in the page's workspace, or with `own` in an empty one, where our own robot is found."""
+    before = discover.workspace()
+    discover.use(discover.Workspace([] if own else [folder / "src"]))
+    try:
+        with system() as running:
+            yield Page(running, scratch)
+    finally:
+        discover.use(before)
+
+
+def make_workspace(folder: Path) -> Path:
+    """`src/my_package` and `src/intelligent_robot` with the page's files as they are."""
+    _package(folder / "src" / "my_package", sorted((COURSE / "nodes").glob("*.py")))
+    scripts = ", ".join(f"'{each.stem} = my_package.{each.stem}:main'" for each in (COURSE / "nodes").glob("*.py"))
+    setup = SETUP.format(data_files=rows()[DATA_FILES_ROW].quoted[0], scripts=scripts)
+    (folder / "src" / "my_package" / "setup.py").write_text(setup, "utf-8")
+    robot = folder / "src" / "intelligent_robot"
+    _package(robot, sorted((COURSE / "nodes" / "intelligent_robot").glob("*.py")))
+    shutil.copy(COURSE / "setup.py.txt", robot / "setup.py")
+    return folder
+
+
+def _package(folder: Path, modules: list[Path]) -> None:
+    code = folder / folder.name
+    code.mkdir(parents=True)
+    (folder / "package.xml").write_text(MANIFEST.format(name=folder.name), "utf-8")
+    (code / "__init__.py").touch()
+    for each in modules:
+        shutil.copy(each, code)
+    for name in ("config", "launch"):
+        shutil.copytree(COURSE / name, folder / name)

@@ -1,0 +1,75 @@
+"""Which row is checked how: the checks say so themselves, the rest is told here with its reason."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+from course.page import Page
+from course.rows import Row
+
+Check = Callable[[Page, Row], None]
+CHECKS: dict[int, Check] = {}
+OWN: set[int] = set()
+"""Rows that are checked with our own robot in place of the page's."""
+
+
+def row(*numbers: int, own: bool = False) -> Callable[[Check], Check]:
+    """Say that a function checks these rows; with `own` in a workspace where our own robot is found."""
+
+    def add(check: Check) -> Check:
+        for number in numbers:
+            assert number not in CHECKS, f"row {number} has two checks"
+            CHECKS[number] = check
+            if own:
+                OWN.add(number)
+        return check
+
+    return add
+
+
+def rows_from(first: int, last: int) -> Iterable[int]:
+    """The rows from one number to another, both included."""
+    return range(first, last + 1)
+
+
+LAUNCH = "about launch files"
+SCREEN = "about the console's screens"
+SHELL = "a command of the shell"
+AIM = "an aim or advice, without an output of its own"
+PROSE = "about documents, not about what runs"
+BONUS = "an extra that is left to the reader"
+QT = "a plugin that needs Qt and its own package files"
+
+UNCHECKED: tuple[tuple[Iterable[int], str], ...] = (
+    (rows_from(1, 5), AIM),
+    (rows_from(59, 80), LAUNCH),
+    ((82, 84, 223, 225, 226, 227, 228, 229, 230, 259, 261, 269, 271, 308, 310, 311, 362, 364), SHELL),
+    (rows_from(85, 108), LAUNCH),
+    (rows_from(109, 116), AIM),
+    (rows_from(134, 143), SCREEN),
+    (rows_from(146, 170), SCREEN),
+    (rows_from(172, 217), SCREEN),
+    (rows_from(218, 221), QT),
+    ((222,), AIM),
+    (rows_from(268, 279), LAUNCH),
+    ((283, 284), SCREEN),
+    (rows_from(285, 288), LAUNCH),
+    (rows_from(295, 299), LAUNCH),
+    (rows_from(321, 323), LAUNCH),
+    (rows_from(324, 328), SCREEN),
+    ((333, 334, 335, 336, 347), LAUNCH),
+    (rows_from(337, 341), PROSE),
+    ((346,), "needs the drive in the world: checked with the profiles"),
+    ((348,), SCREEN),
+    ((349,), PROSE),
+    (rows_from(350, 354), BONUS),
+    (rows_from(355, 360), AIM),
+    ((378,), SCREEN),
+    (rows_from(379, 385), AIM),
+)
+"""Rows without a check, and why; a check wins over what stands here."""
+
+
+def reason(number: int) -> str:
+    """Why a row has no check."""
+    return next((why for numbers, why in UNCHECKED if number in numbers), "nobody has written a check yet")

@@ -1,0 +1,36 @@
+"""Each row of the course page's checks: run and compared, or skipped with the reason."""
+
+from __future__ import annotations
+
+import importlib
+import os
+from pathlib import Path
+
+import pytest
+from course.page import make_workspace, page
+from course.rows import Row, rows
+from course.table import CHECKS, OWN, reason
+
+for _module in sorted(Path(__file__).parent.glob("checks_*.py")):
+    importlib.import_module(f"course.{_module.stem}")
+
+
+@pytest.fixture(scope="module")
+def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The page's workspace; nobody writes into it."""
+    return make_workspace(tmp_path_factory.mktemp("ros2_ws"))
+
+
+@pytest.mark.parametrize("row", rows().values(), ids=str)
+def test_row(row: Row, workspace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    check = CHECKS.get(row.number)
+    if check is None:
+        pytest.skip(reason(row.number))
+    monkeypatch.chdir(workspace / "src" / "my_package")
+    with page(workspace, tmp_path, own=row.number in OWN) as running:
+        check(running, row)
+
+
+@pytest.mark.skipif(bool(os.environ.get("BOT_CONSOLE_COURSE")), reason="there is a course")
+def test_the_course_is_there() -> None:
+    pytest.skip("BOT_CONSOLE_COURSE names no course")
