@@ -40,7 +40,7 @@ def test_all_messages_have_the_hashes_of_rosbags() -> None:
     for package in standard_packages():
         for name in interface_names(package):
             full_name = f"{package}/{name}"
-            if full_name in store.fielddefs and full_name not in WRONG_IN_ROSBAGS:
+            if full_name in store.fielddefs and not full_name.startswith(WRONG_IN_ROSBAGS):
                 assert text(class_of(full_name)) == store.hash_rihs01(full_name)
                 checked += 1
     assert checked > 140
