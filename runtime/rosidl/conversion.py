@@ -22,7 +22,8 @@ class FieldTypeError(TypeError):
 
 
 def type_name(cls: type) -> str:
-    """The ROS name of a class, such as `geometry_msgs/msg/Twist`."""
+    """The ROS name of a class, such as `geometry_msgs/msg/Twist`; a subclass has that of the generated class."""
+    cls = next((each for each in cls.__mro__ if "_fields_and_field_types" in vars(each)), cls)
     package, kind = cls.__module__.split(".")[:2]
     return f"{package}/{kind}/{cls.__name__}"
 

@@ -46,9 +46,9 @@ class Message:
         warnings.warn(f"{type(self).__name__} has no field named {text}: the value is ignored", stacklevel=3)
 
     def __repr__(self) -> str:
-        package, kind = type(self).__module__.split(".")[:2]
+        name = ".".join([*type(self).__module__.split(".")[:-1], type(self).__name__])
         fields = ", ".join(f"{name}={_shown(getattr(self, name))}" for name in self._fields_and_field_types)
-        return f"{package}.{kind}.{type(self).__name__}({fields})"
+        return f"{name}({fields})"
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, type(self)):

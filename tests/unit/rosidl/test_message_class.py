@@ -7,6 +7,7 @@ from array import array
 
 import numpy
 import pytest
+from bot_console.runtime.rosidl.conversion import type_name
 from example_interfaces.action import Fibonacci
 from geometry_msgs.msg import PoseWithCovariance, Quaternion, Twist, Vector3
 from rcl_interfaces.msg import Log, ParameterDescriptor, ParameterType, ParameterValue
@@ -182,3 +183,15 @@ def test_pickle_and_typos() -> None:
 
 def test_bytes_of_a_sequence_are_kept() -> None:
     assert ParameterValue(byte_array_value=[b"a"]).byte_array_value == [b"a"]
+
+
+class Marked(Twist):
+    """What a program may make of a message class."""
+
+
+def test_a_subclass_is_sent_as_the_class_it_comes_from() -> None:
+    message = Marked(linear=Vector3(x=1.0))
+    assert type(message._copy_()) is Twist
+    assert type_name(Marked) == "geometry_msgs/msg/Twist"
+    assert repr(message).endswith("Marked(linear=geometry_msgs.msg.Vector3(x=1.0, y=0.0, z=0.0), "
+                                  "angular=geometry_msgs.msg.Vector3(x=0.0, y=0.0, z=0.0))")  # fmt: skip
