@@ -2,16 +2,33 @@
 
 from __future__ import annotations
 
-import threading
 import weakref
+from _thread import allocate_lock
 from typing import Any
 
 
 class CallbackGroup:
     """Holds entities by weak reference and says which of them may run now. The base of both kinds of group."""
 
+    blocked: list[Any] | None = None
+    """Entities that are ready and have to wait for the group, or nothing."""
+
     def __init__(self) -> None:
         self.entities: set[Any] = set()
+
+    def block(self, entity: Any) -> None:
+        """Let an entity that may not begin be told when it may."""
+        if self.blocked is None:
+            self.blocked = []
+        self.blocked.append(entity)
+        if self.can_execute(entity):  # what it had to wait for ended meanwhile in another thread
+            self.unblock()
+
+    def unblock(self) -> None:
+        """Tell the entities that wait that they may try again."""
+        blocked, self.blocked = self.blocked, None
+        for entity in blocked or ():
+            entity.notify()
 
     def add_entity(self, entity: Any) -> None:
         """Let an entity belong to the group."""
@@ -55,22 +72,21 @@ class MutuallyExclusiveCallbackGroup(CallbackGroup):
     def __init__(self) -> None:
         super().__init__()
         self._active_entity: Any = None
-        self._lock = threading.Lock()
+        self._busy = allocate_lock()
 
     def can_execute(self, entity: Any) -> bool:
         """Whether no callback of the group runs."""
-        return self._active_entity is None
+        return not self._busy.locked()
 
     def beginning_execution(self, entity: Any) -> bool:
         """Begin, unless another callback of the group runs."""
-        with self._lock:
-            if self._active_entity is None:
-                self._active_entity = entity
-                return True
+        if self._busy.acquire(False):
+            self._active_entity = entity
+            return True
         return False
 
     def ending_execution(self, entity: Any) -> None:
         """The callback has ended."""
-        with self._lock:
-            if self._active_entity is entity:
-                self._active_entity = None
+        if self._active_entity is entity:
+            self._active_entity = None
+            self._busy.release()

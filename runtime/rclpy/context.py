@@ -115,7 +115,7 @@ class Context:
         if not callable(callback):
             raise TypeError(f"callback should be a callable, got {type(callback)}")
         self._require_init()
-        held = weakref.WeakMethod(callback) if ismethod(callback) else None
+        held = _weakly(callback)
 
         def call() -> None:
             found = held() if held is not None else callback
@@ -163,6 +163,14 @@ class Context:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.try_shutdown()
+
+
+def _weakly(callback: Callable[[], Any]) -> Any:
+    """A weak reference to a method, so that a context keeps nobody alive; None for what is held as it is."""
+    try:
+        return weakref.WeakMethod(callback) if ismethod(callback) else None
+    except TypeError:  # its object allows no weak references
+        return None
 
 
 def _domain_of_environment() -> int:

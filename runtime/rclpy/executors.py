@@ -16,6 +16,7 @@ from rclpy.task import Future, Task
 from rclpy.utilities import get_default_context, timeout_sec_to_nsec
 
 _key = attrgetter("key")
+Condition = Callable[[], bool]
 
 
 class TimeoutException(Exception):
@@ -48,11 +49,11 @@ class Executor:
         self._context = get_default_context() if context is None else context
         self._context.require_running("guard_condition")
         self._clock = current().clock
+        self._steady_ns = self._clock.steady_ns
         self._nodes: dict[Any, int] = {}
         self._node_count = 0
         self._ready: deque[Any] = deque()
         self._batch: deque[Any] = deque()
-        self._blocked: list[Any] = []
         self._tasks: dict[Task[Any], Any] = {}
         self._ready_tasks: list[Task[Any]] = []
         self._timers = TimerHeap()
@@ -77,17 +78,9 @@ class Executor:
 
     # What becomes ready ------------------------------------------------------------------------------------------
 
-    def mark(self, entity: Any) -> None:
-        """An entity has something to do; from any thread."""
-        entity.marked = True
-        self._ready.append(entity)
-        if self._waiting:
-            self._wakeup.set()
-
     def arm(self, timer: Any, deadline: int) -> None:
-        """A timer is due at a steady time (ns)."""
-        with self._lock:
-            self._timers.push(deadline, timer)
+        """A timer is due at a steady time (ns); from any thread."""
+        self._timers.push(deadline, timer)
         if self._waiting:
             self._wakeup.set()
 
@@ -176,62 +169,64 @@ class Executor:
             if deadline is not None and self._clock.steady_ns() >= deadline:
                 return
 
-    def _spin_once(self, timeout_sec: float | None, condition: Callable[[], bool] = lambda: False) -> None:
+    def _spin_once(self, timeout_sec: float | None, condition: Condition | None = None) -> None:
         raise NotImplementedError
 
-    def _take(self, timeout_sec: float | None, condition: Callable[[], bool]) -> Any:
+    def _take(self, timeout_sec: float | None, condition: Condition | None) -> Any:
         """The next entity or task, with its callback group begun; raises what says why there is none."""
-        timeout = timeout_sec_to_nsec(timeout_sec)
+        timeout = None if timeout_sec is None else timeout_sec_to_nsec(timeout_sec)
         deadline = None if timeout is None else self._clock.steady_ns() + timeout
+        batch, context = self._batch, self._context
         while True:
-            item = self._next_of_batch()
-            if item is not None:
-                return item
+            while batch:
+                try:
+                    item = batch.popleft()
+                except IndexError:  # another thread spins this executor, too
+                    break
+                if item.__class__ is Task:
+                    return item
+                if item.sink is self and item.pending():
+                    if item.callback_group.beginning_execution(item):
+                        return item
+                    item.callback_group.block(item)
             if self._is_shutdown:
                 raise ShutdownException
-            if not self._context.ok():
+            if context.ended:
                 raise ExternalShutdownException
-            if condition():
+            if condition is not None and condition():
                 raise ConditionReachedException
             if not self._new_batch():
                 self._wait(deadline)
 
-    def _next_of_batch(self) -> Any:
-        batch = self._batch
-        while batch:
-            try:
-                item = batch.popleft()
-            except IndexError:
-                break
-            if item.__class__ is Task:
-                return item
-            if item.sink is not self or not item.pending():
-                continue
-            if item.callback_group.beginning_execution(item):
-                return item
-            self._blocked.append(item)
-        return None
-
     def _new_batch(self) -> bool:
         """Collect what is ready; whether there was anything."""
+        ready, batch, timers = self._ready, self._batch, self._timers.entries
         entities: list[Any] = []
-        ready = self._ready
         while ready:
             entity = ready.popleft()
-            entity.marked = False
+            entity.marked = None
             if entity.sink is self:
                 entities.append(entity)
-        with self._lock:
-            tasks, self._ready_tasks = self._ready_tasks, []
-            entities += self._timers.pop_due(self._clock.steady_ns(), self)
+        if timers:
+            now = self._steady_ns()
+            if timers[0][0] <= now:
+                with self._lock:
+                    entities += self._timers.pop_due(now, self)
+        if self._ready_tasks:
+            batch.extend(self._collect_tasks())
         if len(entities) > 1:
             entities.sort(key=_key)
-        if len(tasks) > 1:
-            order = {task: place for place, task in enumerate(self._tasks)}
-            tasks.sort(key=lambda task: order.get(task, 0), reverse=True)
-        self._batch.extend(tasks)
-        self._batch.extend(entities)
-        return bool(self._batch)
+        batch.extend(entities)
+        return bool(batch)
+
+    def _collect_tasks(self) -> list[Task[Any]]:
+        """Tasks that can go on, the newest first."""
+        with self._lock:
+            tasks, self._ready_tasks = self._ready_tasks, []
+            if len(tasks) > 1:
+                order = {task: place for place, task in enumerate(self._tasks)}
+                tasks.sort(key=lambda task: order.get(task, 0), reverse=True)
+        return tasks
 
     def _wait(self, deadline: int | None) -> None:
         with self._lock:
@@ -289,13 +284,12 @@ class Executor:
             self._ended(entity)
 
     def _ended(self, entity: Any) -> None:
-        entity.callback_group.ending_execution(entity)
+        group = entity.callback_group
+        group.ending_execution(entity)
         if entity.pending():
             entity.notify()
-        if self._blocked:
-            blocked, self._blocked = self._blocked, []
-            for each in blocked:
-                each.notify()
+        if group.blocked:
+            group.unblock()
 
 
 class SingleThreadedExecutor(Executor):
@@ -305,7 +299,7 @@ class SingleThreadedExecutor(Executor):
         """Run one callback."""
         self._spin_once(timeout_sec)
 
-    def _spin_once(self, timeout_sec: float | None, condition: Callable[[], bool] = lambda: False) -> None:
+    def _spin_once(self, timeout_sec: float | None, condition: Condition | None = None) -> None:
         try:
             item = self._take(timeout_sec, condition)
         except (ShutdownException, TimeoutException, ConditionReachedException):
@@ -336,9 +330,9 @@ class MultiThreadedExecutor(Executor):
         """Give one callback to the pool."""
         self._spin_once(timeout_sec)
 
-    def _spin_once(self, timeout_sec: float | None, condition: Callable[[], bool] = lambda: False) -> None:
+    def _spin_once(self, timeout_sec: float | None, condition: Condition | None = None) -> None:
         try:
-            item = self._take(timeout_sec, lambda: condition() or bool(self._failed()))
+            item = self._take(timeout_sec, lambda: bool(self._failed()) or (condition is not None and condition()))
         except (ExternalShutdownException, ShutdownException, TimeoutException, ConditionReachedException):
             self._raise_failed()
             return

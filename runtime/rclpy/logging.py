@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rclpy.impl.log_state import forget_rosout, logging_directory, state
 from rclpy.impl.log_state import reset as _reset
 from rclpy.impl.logging_severity import LoggingSeverity as LoggingSeverity
 from rclpy.impl.rcutils_logger import RcutilsLogger
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 _REGISTERED_TWICE = (
     "Publisher already registered for node name: '{0}'. If this is due to multiple nodes with the same name then all "
@@ -64,6 +66,8 @@ def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
 
 def get_logging_directory() -> Path:
     """Where log files lie."""
+    from pathlib import Path
+
     return Path(logging_directory())
 
 

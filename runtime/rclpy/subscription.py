@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+from collections import deque
 from collections.abc import Callable
 from enum import Enum
 from typing import Any
@@ -43,9 +44,12 @@ class Subscription(Entity):
         self.qos_profile = qos_profile
         self.event_handlers = event_handlers
         self.endpoint: Any = None
+        self._queue: deque[Any] = deque()
         self.callback = callback
-        self._lifespan = qos_profile.lifespan.nanoseconds
-        self._received = 0
+
+    def _join(self, endpoint: Any) -> None:
+        self.endpoint = endpoint
+        self._queue = endpoint.queue
 
     @property
     def handle(self) -> Subscription:
@@ -61,6 +65,7 @@ class Subscription(Entity):
     def callback(self, value: Callable[..., Any]) -> None:
         self._callback = value
         self._callback_type = Subscription.CallbackType.MessageOnly
+        self._message_only = True
         self._is_async = inspect.iscoroutinefunction(value)
         try:
             inspect.signature(value).bind(object())
@@ -72,6 +77,7 @@ class Subscription(Entity):
         try:
             inspect.signature(value).bind(object(), object())
             self._callback_type = Subscription.CallbackType.WithMessageInfo
+            self._message_only = False
             return
         except TypeError:
             pass
@@ -98,21 +104,17 @@ class Subscription(Entity):
 
     def pending(self) -> bool:
         """Whether a message is there."""
-        return bool(self.endpoint.queue) and not self.destroyed
+        return bool(self._queue)
 
     def run(self) -> Any:
         """Take one message and call back."""
         try:
-            message, stamp, number = self.endpoint.queue.popleft()
-        except IndexError:
+            message, stamp, number, expires = self._queue.popleft()
+        except IndexError:  # another thread was faster
             return None
-        if self._lifespan and current().clock.system_ns() - stamp > self._lifespan:
+        if expires is not None and current().clock.system_ns() > expires:
             return None
-        self._received += 1
-        if self._callback_type is Subscription.CallbackType.MessageOnly:
-            result = self._callback(message)
-        else:
-            result = self._callback(message, self._info(stamp, number))
+        result = self._callback(message) if self._message_only else self._callback(message, self._info(stamp, number))
         return result if self._is_async else None
 
     def _info(self, stamp: int, number: int) -> dict[str, int | None]:
@@ -129,6 +131,7 @@ class Subscription(Entity):
             handler.destroy()
         self.destroyed = True
         self._node._bus.remove(self.endpoint)
+        self._queue.clear()
         self.detach()
 
     def __enter__(self) -> Subscription:

@@ -40,7 +40,6 @@ class Timer(Entity):
         self._last = clock._now_ns()
         self._next = self._last + timer_period_ns
         self._canceled = not autostart
-        self.heap_deadline: int | None = None
         self._is_async = inspect.iscoroutinefunction(callback)
         clock._add_timer(self)
 

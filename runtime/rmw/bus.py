@@ -42,6 +42,10 @@ class PublisherEndpoint(Protocol):
         """Give each matched subscription a copy of its own; raises `FieldTypeError` for what cannot be sent."""
         ...
 
+    def publish_own(self, message: Any) -> None:
+        """Publish a message that is well formed and that nobody else holds; it need not be copied."""
+        ...
+
     def publish_raw(self, data: bytes) -> None:
         """The same for a serialized message."""
         ...
@@ -53,7 +57,7 @@ class PublisherEndpoint(Protocol):
 
 @dataclass(eq=False)
 class SubscriptionEndpoint:
-    """Receives messages: `queue` holds what has come, as (message, source ns, sequence number)."""
+    """Receives messages: `queue` holds what has come, as (message, source ns, sequence number, expiry ns)."""
 
     endpoint: Endpoint
     raw: bool

@@ -30,7 +30,7 @@ def new_gid() -> bytes:
 class LocalPublisher:
     """A publisher; `targets` are the subscriptions that receive, renewed when the graph changes."""
 
-    __slots__ = ("_lifespan", "_number", "endpoint", "history", "on_event", "open", "targets")
+    __slots__ = ("_lifespan", "_now", "_number", "endpoint", "history", "on_event", "open", "targets")
 
     def __init__(self, endpoint: Endpoint, on_event: Callable[[str, Any], None]) -> None:
         self.endpoint = endpoint
@@ -38,6 +38,7 @@ class LocalPublisher:
         self.targets: tuple[SubscriptionEndpoint, ...] = ()
         self.open = True
         self._number = 0
+        self._now = current().clock.system_ns
         self._lifespan = endpoint.qos.lifespan.nanoseconds
         keeps = endpoint.qos.durability.name == "TRANSIENT_LOCAL"
         self.history: deque[Any] | None = deque(maxlen=_depth(endpoint.qos)) if keeps else None
@@ -46,18 +47,27 @@ class LocalPublisher:
         """Copy the message into the queue of each matched subscription."""
         if not self.open:
             return
-        self._number += 1
-        targets, history = self.targets, self.history
-        if not targets and history is None:
-            message._copy_()
+        targets = self.targets
+        if not targets and self.history is None:
+            message._copy_()  # what cannot be sent is refused although nobody listens
             return
-        stamp = current().clock.system_ns()
-        if history is not None:
-            history.append((message._copy_(), stamp, self._number))
+        stamp = self._now()
+        self._number = number = self._number + 1
+        if self.history is not None:
+            self.history.append((message._copy_(), stamp, number))
+        expires = stamp + self._lifespan if self._lifespan else None
         for target in targets:
             given = _serialize(message) if target.raw else message._copy_()
-            target.queue.append((given, stamp, self._number))
+            target.queue.append((given, stamp, number, expires))
             target.notify()
+
+    def publish_own(self, message: Any) -> None:
+        """Publish a message that is well formed and that nobody else holds: it is not copied where that is needless."""
+        if self.targets:
+            self.publish(message)
+        elif self.open and self.history is not None:
+            self._number += 1
+            self.history.append((message, self._now(), self._number))
 
     def publish_raw(self, data: bytes) -> None:
         """Give serialized data as it is, or as a message to subscriptions that want one."""
@@ -74,11 +84,12 @@ class LocalPublisher:
 
     def late(self, target: SubscriptionEndpoint) -> None:
         """Give a subscription that has come late what was kept for it."""
-        now = current().clock.system_ns()
+        now = self._now()
         for message, stamp, number in self.history or ():
-            if not self._lifespan or now - stamp <= self._lifespan:
+            expires = stamp + self._lifespan if self._lifespan else None
+            if expires is None or now <= expires:
                 given = _serialize(message) if target.raw else message._copy_()
-                target.queue.append((given, stamp, number))
+                target.queue.append((given, stamp, number, expires))
         if target.queue:
             target.notify()
 

@@ -130,7 +130,7 @@ def _validate_substitution(name: str, opened: int, index: int) -> Problem | None
 
 
 def expand(name: str, node: str, namespace: str) -> str:
-    """The full name of a valid name as typed in a node; raises `ValueError` in rcl's words for an unknown substitution."""
+    """The full name of a valid name as typed; raises `ValueError` in rcl's words for an unknown substitution."""
     if name[0] == "/" and "{" not in name:
         return name
     prefix = namespace.rstrip("/")

@@ -18,21 +18,28 @@ class Entity:
     """Something that becomes ready, and whose callback an executor then runs."""
 
     KIND = WAITABLE
+    marked: Any = None
+    """The executor in whose queue of what is ready it stands."""
+    destroyed = False
+    sink: Any = None
+    """The executor that serves the entity's node."""
+    heap: Any = None
+    heap_deadline = 0
+    due_at = 0
 
     def __init__(self, callback_group: Any) -> None:
         self.callback_group = callback_group
         self.order = next(_creation)
         self.key: tuple[int, int, int] = (0, self.KIND, self.order)
-        self.marked = False
-        self.destroyed = False
-        self.sink: Any = None
-        """The executor that serves the entity's node."""
 
     def notify(self) -> None:
         """There is something to do; from any thread."""
         sink = self.sink
-        if sink is not None and not self.marked:
-            sink.mark(self)
+        if sink is not None and self.marked is not sink:
+            self.marked = sink
+            sink._ready.append(self)
+            if sink._waiting:
+                sink._wakeup.set()
 
     def pending(self) -> bool:
         """Whether there is something to do."""
@@ -52,7 +59,6 @@ class Entity:
     def detach(self) -> None:
         """No executor serves this any more."""
         self.sink = None
-        self.marked = False
 
     def use(self) -> None:
         """Raise `InvalidHandle` once the entity was destroyed."""

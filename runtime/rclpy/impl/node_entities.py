@@ -118,9 +118,7 @@ class NodeEntities:
         )
         subscription = Subscription(self, msg_type, topic, callback, group, qos, raw, handlers)
         endpoint = Endpoint(self._id, name, type_name(msg_type), qos, new_gid(), msg_type)
-        subscription.endpoint = SubscriptionEndpoint(
-            endpoint, raw, queue_for(qos), subscription.notify, _teller(handlers)
-        )
+        subscription._join(SubscriptionEndpoint(endpoint, raw, queue_for(qos), subscription.notify, _teller(handlers)))
         for handler in handlers:
             self._enter(handler, group)
         self._enter(subscription, group)

@@ -29,7 +29,7 @@ class Rosout:
         stamp._sec, stamp._nanosec = divmod(stamp_ns, NANO)
         message._level = severity
         message._name, message._msg, message._file, message._function, message._line = name, text, file, function, line
-        self._endpoint.publish(message)
+        self._endpoint.publish_own(message)
 
     def close(self) -> None:
         """Say nothing more."""

@@ -2,38 +2,61 @@
 
 from __future__ import annotations
 
-import heapq
+from heapq import heappop, heappush, heapreplace
 from typing import Any
 
 
 class TimerHeap:
-    """A heap of (deadline ns, creation, timer); entries that were overtaken are left in and skipped."""
+    """A heap of (deadline ns, creation, timer), with one entry for each timer.
+
+    A timer that is put off keeps its early entry; when that one comes up it is put back to the time that was meant.
+    Pushes come from any thread: heap operations on these tuples do not run Python code, so they need no lock.
+    """
 
     def __init__(self) -> None:
-        self._heap: list[tuple[int, int, Any]] = []
+        self.entries: list[tuple[int, int, Any]] = []
 
     def push(self, deadline: int, timer: Any) -> None:
-        """A timer is due at a steady time."""
+        """A timer is due at a steady time; an earlier call for it counts no more."""
+        timer.due_at = deadline
+        if timer.heap is self and timer.heap_deadline <= deadline:
+            return
+        timer.heap = self
         timer.heap_deadline = deadline
-        heapq.heappush(self._heap, (deadline, timer.order, timer))
+        heappush(self.entries, (deadline, timer.order, timer))
 
     def next_deadline(self, sink: Any) -> int | None:
         """When the next timer of this executor is due; None without one."""
-        heap = self._heap
-        while heap:
-            deadline, _, timer = heap[0]
-            if timer.heap_deadline == deadline and timer.sink is sink:
-                return deadline
-            heapq.heappop(heap)
+        entries = self.entries
+        while entries:
+            entry = entries[0]
+            if self._holds(entry, sink):
+                return entry[0]
         return None
 
     def pop_due(self, now: int, sink: Any) -> list[Any]:
         """Timers that are due, taken out."""
         due: list[Any] = []
-        heap = self._heap
-        while heap and heap[0][0] <= now:
-            deadline, _, timer = heapq.heappop(heap)
-            if timer.heap_deadline == deadline and timer.sink is sink:
-                timer.heap_deadline = None
-                due.append(timer)
+        entries = self.entries
+        while entries and entries[0][0] <= now:
+            entry = entries[0]
+            if self._holds(entry, sink):
+                heappop(entries)
+                entry[2].heap = None
+                due.append(entry[2])
         return due
+
+    def _holds(self, entry: tuple[int, int, Any], sink: Any) -> bool:
+        """Whether the first entry counts; takes it away or puts it back where it does not."""
+        deadline, order, timer = entry
+        if timer.heap is not self or timer.heap_deadline != deadline:
+            heappop(self.entries)
+        elif timer.sink is not sink:
+            heappop(self.entries)
+            timer.heap = None
+        elif timer.due_at > deadline:
+            timer.heap_deadline = timer.due_at
+            heapreplace(self.entries, (timer.due_at, order, timer))
+        else:
+            return True
+        return False
