@@ -58,7 +58,7 @@ def after_a_scan(page: Page, nearest: float) -> str:
 def it_stops_before_an_obstacle(page: Page, row: Row) -> None:
     robot = robot_runs(page)
     assert after_a_scan(page, 0.25) == "0.0"
-    assert logs(robot)[-1] == ("WARN", "configurable_robot", row.command.replace("<d, 2 decimals>", "0.25"))
+    assert logs(robot)[-1] == ("WARN", "configurable_robot", row.quoted[1].replace("<d, 2 decimals>", "0.25"))
 
 
 @row(46)

@@ -1,0 +1,138 @@
+"""Chapter 4 where it is about nodes, and the troubleshooting pages."""
+
+from __future__ import annotations
+
+from course.checks_parameters import starts
+from course.page import Page, logs
+from course.rows import COURSE, Row
+from course.table import row
+
+
+@row(144)
+def the_publisher_runs_as_printed(page: Page, row: Row) -> None:
+    page.node_file("data_publisher.py", seconds=0.0)
+    values = page.ask("ros2 topic echo /robot_speed --field data --csv", stop_after=0.55).stdout.split()
+    assert [round(float(each), 4) for each in values[:3]] == [2.0, 2.0998, 2.1987]
+    assert len(values) == 5
+
+
+@row(171)
+def a_wild_speed_is_an_error(page: Page, row: Row) -> None:
+    robot = starts(page, 133)
+    assert page.ask(row.command).stderr.startswith("Setting parameter failed")
+    assert logs(robot)[-1] == ("ERROR", "simple_robot", "Speed must be between 0.1 and 5.0, got 100.0")
+
+
+@row(361)
+def an_unknown_package_is_told(page: Page, row: Row) -> None:
+    """The package's name is quoted as real `ros2 run` does it (N25)."""
+    answer = page.ask("ros2 run no_package robot")
+    assert (answer.stderr, answer.exit) == (
+        f"{row.command.partition(': ')[2]}\n".replace("my_package", "no_package"),
+        1,
+    )
+
+
+@row(365)
+def the_package_is_listed(page: Page, row: Row) -> None:
+    command, _, wanted = row.command.partition(" | grep ")
+    assert wanted in page.ask(command).stdout.split()
+
+
+FILE_NODE = """import rclpy
+rclpy.init(args=['n', '--ros-args', '--params-file', {file!r}])
+node = rclpy.create_node('node_name')
+node.declare_parameter('param1', 'default')
+rclpy.spin(node)"""
+
+
+def loads(page: Page, keyword: str) -> str:
+    file = page.scratch / "page.yaml"
+    file.write_text(f"node_name:\n  {keyword}:\n    param1: value1\n", "utf-8")
+    program = page.python(FILE_NODE.format(file=str(file)))
+    return page.value("/node_name", "param1") if program.exit is None else program.stderr
+
+
+@row(366)
+def the_right_form_loads(page: Page, row: Row) -> None:
+    assert loads(page, row.quoted[0].rstrip(":")) == "value1"
+
+
+@row(367)
+def the_wrong_form_is_refused(page: Page, row: Row) -> None:
+    assert "Cannot have a value before ros__parameters at line 3" in loads(page, row.quoted[0].rstrip(":"))
+
+
+@row(81, 368)
+def the_share_folder_has_the_config(page: Page, row: Row) -> None:
+    """The package of these tests has that very line in its `setup.py`."""
+    share = page.ask("ros2 pkg prefix --share my_package").stdout.strip()
+    found = page.python(f"import os; print(sorted(os.listdir(os.path.join({share!r}, 'config'))))").stdout
+    assert found == f"{sorted(each.name for each in (COURSE / 'config').iterdir())}\n"
+
+
+FOUR = """import rclpy
+from geometry_msgs.msg import Twist
+from rcl_interfaces.msg import SetParametersResult
+from rclpy.node import Node
+
+class Robot(Node):
+    def __init__(self):
+        super().__init__('robot')
+        self.speed = 1.0
+        {declare}
+        {callback}
+        self.publisher = self.create_publisher(Twist, 'cmd_vel', 10)
+        self.create_timer(0.1, self.drive)
+
+    def parameter_callback(self, params):
+        for param in params:
+            {update}
+        return SetParametersResult(successful=True)
+
+    def drive(self):
+        twist = Twist()
+        {use}
+        self.publisher.publish(twist)
+
+rclpy.init()
+rclpy.spin(Robot())"""
+PARTS = {370: "declare", 371: "callback", 372: "update", 373: "use"}
+
+
+def speed_after_change(page: Page, left_out: str) -> str:
+    parts = {part: page.row(number).command if part != left_out else "pass" for number, part in PARTS.items()}
+    robot = page.python(FOUR.format(**parts))
+    page.ask("ros2 param set /robot speed 2.5")
+    speed = page.ask("ros2 topic echo /cmd_vel --once --field linear.x").stdout.split()[0]
+    page.stop(robot)
+    return speed
+
+
+@row(370, 371, 372, 373)
+def without_this_the_change_has_no_effect(page: Page, row: Row) -> None:
+    assert speed_after_change(page, PARTS[row.number]) != "2.5"
+
+
+@row(374)
+def with_all_four_the_change_takes_effect(page: Page, row: Row) -> None:
+    assert speed_after_change(page, "") == "2.5"
+
+
+@row(375)
+def the_distribution_is_named(page: Page, row: Row) -> None:
+    name = row.command.removeprefix("echo $")
+    assert page.python(f"import os; print(os.environ[{name!r}])").stdout == "jazzy\n"
+
+
+@row(376)
+def nodes_are_listed(page: Page, row: Row) -> None:
+    starts(page, 13)
+    assert page.ask(row.command).stdout == "/simple_robot\n"
+
+
+@row(377)
+def parameters_are_listed(page: Page, row: Row) -> None:
+    assert page.ask(row.command).stderr == "Node not found\n"
+    page.python("import rclpy\nrclpy.init()\nrclpy.spin(rclpy.create_node('node_name'))")
+    assert page.ask(row.command).stdout.split() == ["start_type_description_service", "use_sim_time"]
