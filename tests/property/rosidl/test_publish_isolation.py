@@ -22,9 +22,11 @@ def executor() -> Iterator[Any]:
     context = rclpy.Context()
     rclpy.init(args=[], context=context)
     executor = SingleThreadedExecutor(context=context)
-    executor.add_node(rclpy.create_node("n", context=context))
+    node = rclpy.create_node("isolation", context=context)
+    executor.add_node(node)
     yield executor
     executor.shutdown()
+    node.destroy_node()
     rclpy.try_shutdown(context=context)
 
 

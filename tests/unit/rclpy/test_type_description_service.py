@@ -69,10 +69,10 @@ def test_what_it_does_not_know(node: Any) -> None:
 def test_the_parameter_switches_it_off() -> None:
     context = rclpy.Context()
     rclpy.init(args=["--ros-args", "-p", "start_type_description_service:=false"], context=context)
-    node = rclpy.create_node("n", context=context)
-    names = [name for name, _ in node.get_service_names_and_types_by_node("n", "/")]
-    assert "/n/get_parameters" in names
-    assert "/n/get_type_description" not in names
+    node = rclpy.create_node("without", context=context)
+    names = [name for name, _ in node.get_service_names_and_types_by_node("without", "/")]
+    assert "/without/get_parameters" in names
+    assert "/without/get_type_description" not in names
     assert node.describe_parameter("start_type_description_service").read_only
     node.destroy_node()
     rclpy.try_shutdown(context=context)
