@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import math
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from bot_console.tui.console.model import DriveInfo, GraphInfo
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist
 from rclpy.node import Node
 
@@ -16,7 +20,21 @@ TWIST = "geometry_msgs/msg/Twist"
 HOLD_PERIOD = 0.1
 """Seconds between two zeros while the all-stop holds; below the 0.5 s after which a command is dead."""
 
+VERDICT = "diagnostics"
+DIAGNOSTICS = "diagnostic_msgs/msg/DiagnosticArray"
+SILENCE = 0.5
+"""Seconds after which a velocity command is dead, and the robot stops by itself."""
+NO_COMMAND = "no command on cmd_vel for 0.5 s"
+
 Velocity = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What an arbiter made of a command: the rule or parameter that limited it, and what was left of it."""
+
+    limited_by: str = ""
+    limited: Velocity | None = None
 
 
 class DriveLink:
@@ -31,6 +49,8 @@ class DriveLink:
         self._watching: dict[str, Any] = {}
         self._seen: dict[str, Velocity] = {}
         self._held = False
+        self._verdict = Verdict()
+        self._heard = 0.0
         self._info = DriveInfo()
         self._topics: dict[str, str] = {}
         node.create_timer(HOLD_PERIOD, self._hold_still)
@@ -43,6 +63,8 @@ class DriveLink:
             self._topics[token] = _topic(subscribed, token)
         for token in (FINAL, ASKED):
             self._watch(token, _topic(published | subscribed, token))
+        told = {each.name for node in graph.nodes for each in node.publishers if DIAGNOSTICS in each.types}
+        self._watch(VERDICT, _topic(told, VERDICT))
 
     def _watch(self, token: str, topic: str) -> None:
         now = self._watching.get(token)
@@ -52,14 +74,27 @@ class DriveLink:
             self._node.destroy_subscription(now)
             del self._watching[token]
             self._seen.pop(token, None)
-        if topic:
+        if token == VERDICT:
+            self._verdict = Verdict()
+            if topic:
+                self._watching[token] = self._node.create_subscription(DiagnosticArray, topic, self._told, 10)
+        elif topic:
             self._watching[token] = self._node.create_subscription(
                 Twist, topic, lambda message: self._saw(token, message), 10
             )
 
+    def _told(self, message: DiagnosticArray) -> None:
+        """What an arbiter of velocities says about its last decision."""
+        for status in message.status:
+            values = {each.key: each.value for each in status.values}
+            if "limited_by" in values:
+                self._verdict = Verdict(values["limited_by"], _velocity(values, "final"))
+
     def _saw(self, token: str, message: Twist) -> None:
         velocity = (message.linear.x, message.angular.z)
         self._seen[token] = velocity
+        if token == FINAL:
+            self._heard = time.monotonic()
         if token == FINAL and self._held and velocity != (0.0, 0.0):
             # Somebody else drives on; without an arbiter the last word counts, so ours follows at once.
             self._send(FINAL, 0.0, 0.0)
@@ -102,15 +137,16 @@ class DriveLink:
         message.angular.z = float(angular)
         publisher.publish(message)
 
-    def info(self, actual: Velocity | None, limited: Velocity | None = None, limited_by: str = "") -> DriveInfo:
+    def info(self, actual: Velocity | None) -> DriveInfo:
         """The chain as known now; the same object while nothing changes."""
+        silent = FINAL in self._seen and time.monotonic() - self._heard > SILENCE
         info = DriveInfo(
             topic=self.topic,
             asked=self._seen.get(ASKED),
-            limited=limited,
-            final=self._seen.get(FINAL),
+            limited=self._verdict.limited,
+            final=None if silent else self._seen.get(FINAL),
             actual=actual,
-            limited_by=limited_by,
+            limited_by=NO_COMMAND if silent else self._verdict.limited_by,
             stopped=self._held,
         )
         if info != self._info:
@@ -122,3 +158,11 @@ def _topic(names: set[str], token: str) -> str:
     """The shortest topic that ends in a token; empty when there is none."""
     fitting = [name for name in names if name.rsplit("/", 1)[-1] == token]
     return min(fitting, key=lambda name: (len(name), name), default="")
+
+
+def _velocity(values: Mapping[str, str], prefix: str) -> Velocity | None:
+    """A velocity written out under `<prefix>.linear` and `<prefix>.angular`; None where that is not there."""
+    try:
+        return float(values[f"{prefix}.linear"]), float(values[f"{prefix}.angular"])
+    except (KeyError, ValueError):
+        return None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
@@ -12,12 +13,27 @@ import yaml
 from bot_console.tui.console.model import ParameterTree, Value
 
 Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-Dumper: Any = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
 KEYWORD = "ros__parameters"
 BUILT_IN = ("use_sim_time", "start_type_description_service")
 
+PLAIN = re.compile(r"[A-Za-z_/](?:[\w/. -]*[\w/.-])?", re.ASCII)
+WORDS = frozenset({"y", "n", "yes", "no", "on", "off", "true", "false", "null", "nan", "inf"})
+"""Words that YAML or ROS take for something else than text."""
+
 Values = dict[str, dict[str, Value]]
 """Values by node and parameter."""
+
+
+class Dumper(getattr(yaml, "CSafeDumper", yaml.SafeDumper)):  # type: ignore[misc]
+    """Writes every text in quotes that any of the YAML dialects of ROS could take for something else."""
+
+
+def _represent_text(dumper: Any, text: str) -> Any:
+    plain = PLAIN.fullmatch(text) and text.lower() not in WORDS
+    return dumper.represent_scalar("tag:yaml.org,2002:str", text, style=None if plain else '"')
+
+
+Dumper.add_representer(str, _represent_text)
 
 
 def save(path: Path, trees: Mapping[str, ParameterTree], nodes: tuple[str, ...] = ()) -> int:

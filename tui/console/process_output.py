@@ -1,7 +1,7 @@
 """What processes print, as log records: the lines of ROS loggers are told from prints by a mark in their format.
 
 A logger writes each line to the console and publishes it on `/rosout`; a print does only the first. The mark, set
-through the public `RCUTILS_CONSOLE_OUTPUT_FORMAT`, keeps the two apart, so that nothing shows twice and nothing is lost.
+through the public `RCUTILS_CONSOLE_OUTPUT_FORMAT`, keeps the two apart: nothing shows twice and nothing is lost.
 """
 
 from __future__ import annotations

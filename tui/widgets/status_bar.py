@@ -52,7 +52,7 @@ def status_text(snapshot: ConsoleSnapshot, held_back: int = 0) -> str:
 
 def drive_text(drive: DriveInfo) -> str:
     """The command chain: asked, what limited it, final, actual speed."""
-    if drive.final is None and drive.actual is None:
+    if drive.final is None and drive.actual is None and not drive.limited_by:
         return "no robot yet"
     parts: list[str] = []
     if drive.asked is not None:
@@ -60,6 +60,8 @@ def drive_text(drive: DriveInfo) -> str:
     if drive.final is not None:
         why = f" ({harmless(drive.limited_by)})" if drive.limited_by else ""
         parts.append(f"command {drive.final[0]:+.1f} m/s {drive.final[1]:+.1f} rad/s{why}")
+    elif drive.limited_by:
+        parts.append(harmless(drive.limited_by))
     if drive.actual is not None:
         parts.append(f"actual {drive.actual[0]:+.1f} m/s")
     return " → ".join(parts)

@@ -1,0 +1,117 @@
+"""Velocity commands of the console, and what it sees of their way to the robot."""
+
+import itertools
+import math
+
+import pytest
+from bot_console.tui.console import drive_link
+from bot_console.tui.console.drive_link import NO_COMMAND, DriveLink
+from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from geometry_msgs.msg import Twist
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+
+_domains = itertools.count(3000)
+TWIST = "geometry_msgs/msg/Twist"
+
+
+class Bench:
+    """A console's link, and a node in the place of the robot."""
+
+    def __init__(self, *topics: str, arbiter: bool = False) -> None:
+        context = Context()
+        context.init(["test"], domain_id=next(_domains))
+        self.console, self.robot = Node("console", context=context), Node("robot", context=context)
+        self.executor = SingleThreadedExecutor(context=context)
+        for each in (self.console, self.robot):
+            self.executor.add_node(each)
+        self.got: list[tuple[str, float]] = []
+        for topic in topics:
+            self.robot.create_subscription(Twist, topic, self._listener(topic), 10)
+        self.link = DriveLink(self.console)
+        told = (Endpoint("/diagnostics", ("diagnostic_msgs/msg/DiagnosticArray",)),) if arbiter else ()
+        listened = tuple(Endpoint(topic, (TWIST,)) for topic in topics)
+        self.link.follow(GraphInfo(nodes=(NodeInfo("/robot", subscriptions=listened, publishers=told),)))
+
+    def _listener(self, topic):
+        return lambda message: self.got.append((topic, message.linear.x))
+
+    def settle(self):
+        for _ in range(30):
+            self.executor.spin_once(timeout_sec=0)
+
+
+@pytest.fixture
+def bench():
+    return Bench("/cmd_vel", "/cmd_vel_teleop")
+
+
+def test_a_person_drives_through_the_arbiter(bench):
+    bench.link.drive(0.5, 0.0)
+    bench.settle()
+    assert bench.got == [("/cmd_vel_teleop", 0.5)]
+
+
+def test_a_robot_without_arbiter_is_driven_directly():
+    bench = Bench("/ns/cmd_vel")
+    bench.link.drive(0.5, 0.0)
+    bench.settle()
+    assert bench.got == [("/ns/cmd_vel", 0.5)]
+
+
+def test_all_stop_sends_zero_everywhere_and_takes_no_command(bench):
+    bench.link.stop(hold=True)
+    bench.link.drive(0.5, 0.0)
+    bench.settle()
+    assert sorted(set(bench.got)) == [("/cmd_vel", 0.0), ("/cmd_vel_teleop", 0.0)]
+    assert bench.link.info(None).stopped
+
+
+def test_all_stop_answers_somebody_elses_command_at_once(bench):
+    other = bench.robot.create_publisher(Twist, "/cmd_vel", 10)
+    bench.link.stop(hold=True)
+    bench.settle()
+    command = Twist()
+    command.linear.x = 1.0
+    other.publish(command)
+    bench.settle()
+    assert [value for topic, value in bench.got if topic == "/cmd_vel"][-2:] == [1.0, 0.0]
+
+
+def test_a_released_robot_is_driven_again(bench):
+    bench.link.stop(hold=True)
+    bench.link.stop(hold=False)
+    bench.link.drive(0.5, 0.0)
+    bench.settle()
+    assert ("/cmd_vel_teleop", 0.5) in bench.got
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_a_velocity_that_is_no_number_is_refused(bench, value):
+    with pytest.raises(ValueError, match="finite"):
+        bench.link.drive(value, 0.0)
+    bench.settle()
+    assert bench.got == []
+
+
+def test_the_arbiters_reason_is_told():
+    bench = Bench("/cmd_vel", arbiter=True)
+    publisher = bench.robot.create_publisher(DiagnosticArray, "/diagnostics", 10)
+    values = {"limited_by": "warning_distance", "final.linear": "0.2", "final.angular": "0"}
+    pairs = [KeyValue(key=key, value=value) for key, value in values.items()]
+    publisher.publish(DiagnosticArray(status=[DiagnosticStatus(values=pairs)]))
+    bench.settle()
+    info = bench.link.info((0.1, 0.0))
+    assert (info.limited_by, info.limited) == ("warning_distance", (0.2, 0.0))
+
+
+def test_silence_is_told(bench, monkeypatch):
+    other = bench.robot.create_publisher(Twist, "/cmd_vel", 10)
+    other.publish(Twist())
+    bench.settle()
+    assert bench.link.info(None).final == (0.0, 0.0)
+    monkeypatch.setattr(drive_link, "SILENCE", -1.0)
+    info = bench.link.info(None)
+    assert (info.final, info.limited_by) == (None, NO_COMMAND)
