@@ -71,9 +71,9 @@ def _package_folders(folder: Path, depth: int, budget: list[int]) -> Iterator[Pa
     budget[0] -= 1
     if budget[0] == 0:
         _warn_of_size(folder)
-    if budget[0] <= 0 or any((folder / marker).exists() for marker in MARKERS):
+    if budget[0] <= 0 or any(os.path.exists(folder / marker) for marker in MARKERS):
         return
-    if (folder / "package.xml").is_file():
+    if os.path.isfile(folder / "package.xml"):
         yield folder
         return
     if depth == 0:
