@@ -20,9 +20,7 @@ def get_resource(resource_type: str, resource_name: str) -> tuple[str, str]:
         path = Path(prefix) / INDEX / resource_type / resource_name
         if path.is_file():
             return path.read_text(encoding="utf-8"), prefix
-    raise LookupError(
-        f"Could not find the resource '{resource_name}' of type '{resource_type}'"
-    )
+    raise LookupError(f"Could not find the resource '{resource_name}' of type '{resource_type}'")
 
 
 def get_resources(resource_type: str) -> dict[str, str]:

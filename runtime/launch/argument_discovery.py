@@ -29,7 +29,7 @@ class _Walk:
                 return False
             below = [*includes, entity] if isinstance(entity, IncludeLaunchDescription) else includes
             branch = conditional or getattr(entity, "condition", None) is not None
-            if not self.entities(_below(entity), below, branch):
+            if not self.entities(entity.describe_sub_entities(), below, branch):
                 return False
             for _, entities_of_branch in entity.describe_conditional_sub_entities():
                 self.entities(entities_of_branch, below, True)
@@ -40,10 +40,3 @@ class _Walk:
         if argument.name not in self._names:
             self._names.add(argument.name)
             self._found.append((argument, list(includes)))
-
-
-def _below(entity: Any) -> list[Any]:
-    try:
-        return entity.describe_sub_entities()
-    except Exception:  # an include that cannot be read without a context declares nothing, as upstream has it
-        return []

@@ -113,11 +113,12 @@ class LaunchService:
         return self.__return_code
 
     async def __step(self) -> None:
-        """Handle the next event, or wait until there is one or an entity is done."""
+        """Handle the events that are there, or wait until there is one or an entity is done."""
         try:
             self.__pending.raise_failures()
             if not self.__context._event_queue.empty():
-                self.__handle(self.__context._event_queue.get_nowait())
+                for _ in range(self.__context._event_queue.qsize()):
+                    self.__handle(self.__context._event_queue.get_nowait())
                 await asyncio.sleep(0)
             elif not self.__is_idle() or not self.__shutting_down:
                 await self.__pending.changed()

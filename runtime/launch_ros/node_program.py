@@ -41,7 +41,7 @@ def os_command(package: str | None, command: list[str], at: int) -> list[str]:
 
 
 def _known(package: str | None, path: str) -> Executable | None:
-    if package is None:
+    if package is None or os.path.isfile(path):
         return None
     try:
         return executables(package).get(os.path.basename(path))

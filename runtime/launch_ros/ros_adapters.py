@@ -70,7 +70,7 @@ def get_ros_adapter(context: Any) -> ROSAdapter:
     if found is None:
         found = ROSAdapter(argv=context.argv)
         context.extend_globals({KEY: found})
-        context.register_event_handler(OnShutdown(on_shutdown=lambda event, context: found.shutdown()))
+        context.register_event_handler(OnShutdown(on_shutdown=lambda event, context: found.shutdown()), append=True)
     return found
 
 

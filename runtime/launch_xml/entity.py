@@ -62,9 +62,7 @@ class Entity(BaseEntity):
 
     def __missing(self, name: str, data_type: Any, optional: bool) -> None:
         if not optional:
-            raise AttributeError(
-                f"Attribute '{name}' of type '{data_type}' not found in Entity '{self.type_name}'"
-            )
+            raise AttributeError(f"Attribute '{name}' of type '{data_type}' not found in Entity '{self.type_name}'")
 
     def __typed(self, name: str, text: Any, data_type: Any, can_be_str: bool) -> Any:
         if can_be_str and any("$(" in each for each in ([text] if isinstance(text, str) else text)):

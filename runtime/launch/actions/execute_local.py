@@ -128,18 +128,18 @@ class ExecuteLocal(Action):
         """What happens when it has ended."""
         return self.__on_exit
 
-    def get_stdout(self) -> bytes:
+    def get_stdout(self) -> str:
         """What it has printed; raises `RuntimeError` unless `cached_output` was asked for."""
         return self.__cached(1)
 
-    def get_stderr(self) -> bytes:
+    def get_stderr(self) -> str:
         """What it has printed as errors; raises `RuntimeError` unless `cached_output` was asked for."""
         return self.__cached(2)
 
-    def __cached(self, stream: int) -> bytes:
+    def __cached(self, stream: int) -> str:
         if not self.__cached_output:
             raise RuntimeError(f"cached_output must be true to be able to use get_std{'out' if stream == 1 else 'err'}")
-        return b"".join(self.__cache[stream])
+        return b"".join(self.__cache[stream]).decode("utf-8", "replace")
 
     def get_sub_entities(self) -> list[Any]:
         """What happens when it has ended."""
@@ -276,7 +276,7 @@ class ExecuteLocal(Action):
         }
         if self.__log_cmd:
             words = " ".join(each for each in command if each.strip())
-            custom = description.env is not None or description.additional_env is not None
+            custom = description.final_env is not None
             self.__logger.info(f"process details: cmd='{words}', cwd='{description.final_cwd}', custom_env?={custom}")
         child = await self.__start(context, command, details)
         if child is None:
@@ -296,8 +296,12 @@ class ExecuteLocal(Action):
 
     async def __start(self, context: Any, command: list[str], details: dict[str, Any]) -> Child:
         self.__details = details
+        early: list[tuple[int, bytes]] = []
 
         def output(fd: int, data: bytes) -> None:
+            if "pid" not in details:
+                early.append((fd, data))
+                return
             kind = ProcessStdout if fd == 1 else ProcessStderr
             context.emit_event_sync(kind(text=data, action=self, **details))
 
@@ -320,6 +324,8 @@ class ExecuteLocal(Action):
         details["pid"] = child.pid
         self.__logger.info(f"process started with pid [{child.pid}]")
         context.emit_event_sync(ProcessStarted(action=self, **details))
+        for fd, data in early:
+            output(fd, data)
         if self.__over:
             self.__escalation = Escalation(self, context, self.__logger)
             self.__escalation.interrupt()

@@ -62,7 +62,10 @@ class IncludeLaunchDescription(Action):
 
     def describe_sub_entities(self) -> list[Any]:
         """The description, where it can be read without a context."""
-        description = self.__source.try_get_launch_description_without_context()
+        try:
+            description = self.__source.try_get_launch_description_without_context()
+        except Exception:  # a file that cannot be read declares nothing; its errors come when it is visited
+            return []
         return [] if description is None else [description]
 
     def get_sub_entities(self) -> list[Any]:

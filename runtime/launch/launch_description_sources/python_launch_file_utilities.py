@@ -7,7 +7,6 @@ from importlib.util import module_from_spec, spec_from_loader
 from types import ModuleType
 from typing import Any
 
-
 FUNCTION = "generate_launch_description"
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, List  # noqa: UP035 (messages show these names)
+from typing import Any
 
 from launch.substitutions import TextSubstitution
 from launch_ros.descriptions.parameter_file import ParameterFile
@@ -13,10 +13,10 @@ TYPES: dict[str, Any] = {
     "float": float,
     "bool": bool,
     "str": str,
-    "list_of_int": List[int],
-    "list_of_float": List[float],
-    "list_of_bool": List[bool],
-    "list_of_str": List[str],
+    "list_of_int": list[int],
+    "list_of_float": list[float],
+    "list_of_bool": list[bool],
+    "list_of_str": list[str],
     "yaml": None,
 }
 

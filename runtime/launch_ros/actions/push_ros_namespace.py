@@ -35,6 +35,7 @@ class PushROSNamespace(Action):
 
     def execute(self, context: Any) -> None:
         """Push it; raises `SubstitutionFailure` for an invalid one."""
+        from rclpy.exceptions import InvalidNamespaceException
         from rclpy.validate_namespace import validate_namespace
 
         pushed = perform_substitutions(context, self.__namespace)
@@ -42,7 +43,7 @@ class PushROSNamespace(Action):
         namespace = make_namespace_absolute(prefix_namespace(before, pushed))
         try:
             validate_namespace(namespace)
-        except ValueError as error:
+        except InvalidNamespaceException as error:
             raise SubstitutionFailure(
                 f"The resulting namespace is invalid: [previous_namespace='{before}', pushed_namespace='{pushed}']"
             ) from error

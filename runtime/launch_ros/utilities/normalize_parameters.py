@@ -46,8 +46,6 @@ def normalize_parameter_dict(parameters: Mapping[Any, Any], *, _prefix: Any = No
 
 
 def _key(name: Any, prefix: Key | None) -> Key:
-    if not isinstance(name, (str, Substitution, tuple, list)):
-        raise TypeError(f"Expecting type 'str' or 'Substitution' for parameter name, got {name}")
     pieces = normalize_to_list_of_substitutions(name)
     return tuple(pieces) if prefix is None else (*prefix, TextSubstitution(text="."), *pieces)
 
@@ -71,9 +69,4 @@ def _normalize_sequence(values: Sequence[Any]) -> Any:
     kinds = {type(each) for each in values}
     if kinds == {int, float}:
         return tuple(float(each) for each in values)
-    if len(kinds) > 1 or not kinds <= {*SCALARS}:
-        raise TypeError(
-            "Expected a non-empty sequence, with items of uniform type. Allowed sequence item types are "
-            "bool, int, float, str."
-        )
     return tuple(values)
