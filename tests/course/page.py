@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import shlex
 import shutil
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -111,6 +112,14 @@ class Page:
         program = self._system.python(str(path), *words)
         self._system.run(seconds)
         return program
+
+    def bot_console(self, *words: str) -> Program:
+        """Run `bot-console ...` to its end."""
+        from bot_console.tui.cli import main
+
+        return self._system.finish(
+            self._system.start("bot-console", lambda: sys.exit(main(words)), ["bot-console", *words])
+        )
 
     def value(self, node: str, parameter: str) -> str:
         """What `ros2 param get --hide-type` prints."""
