@@ -1,0 +1,39 @@
+"""An action server and a client on two nodes, and what tests of both ask of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from example_interfaces.action import Fibonacci
+from rclpy.action import ActionClient, ActionServer
+
+
+def succeed(handle: Any) -> Any:
+    """Reach the goal at once."""
+    handle.succeed()
+    return Fibonacci.Result(sequence=[handle.request.order])
+
+
+class Pair:
+    """A server of `/fib` on the node `server`, and its client on the node `client`."""
+
+    def __init__(self, ros: Any, execute: Callable[[Any], Any] = succeed, **server: Any) -> None:
+        self.ros = ros
+        self.server_node = ros.node("server")
+        self.client_node = ros.node("client")
+        self.server = ActionServer(self.server_node, Fibonacci, "fib", execute, **server)
+        self.client = ActionClient(self.client_node, Fibonacci, "fib")
+
+    def outcome(self, future: Any) -> Any:
+        """The result of a future, after serving the nodes until it is there."""
+        self.ros.spin(future.done)
+        return future.result()
+
+    def send(self, order: int = 1, **options: Any) -> Any:
+        """Send a goal; the client's handle of it."""
+        return self.outcome(self.client.send_goal_async(Fibonacci.Goal(order=order), **options))
+
+    def result(self, handle: Any) -> Any:
+        """The result response of a goal."""
+        return self.outcome(handle.get_result_async())

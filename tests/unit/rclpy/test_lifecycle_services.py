@@ -1,0 +1,152 @@
+"""The services and the topic of managed nodes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from lifecycle_msgs.msg import Transition, TransitionEvent
+from lifecycle_msgs.srv import ChangeState, GetAvailableStates, GetAvailableTransitions, GetState
+from rclpy._rclpy_pybind11 import RCLError
+from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
+
+FIVE = ["change_state", "get_available_states", "get_available_transitions", "get_state", "get_transition_graph"]
+
+
+class Managed:
+    """A managed node `/ns/managed`, and a node that asks its services."""
+
+    def __init__(self, ros: Any) -> None:
+        self.ros = ros
+        self.asker = ros.node("asker")
+        self.node = LifecycleNode("managed", namespace="ns", context=ros.context)
+        ros._executor.add_node(self.node)
+
+    def ask(self, service: Any, name: str, **fields: Any) -> Any:
+        return self.ros.ask(self.asker, service, f"/ns/managed/{name}", **fields)
+
+    def change(self, **transition: Any) -> bool:
+        return self.ask(ChangeState, "change_state", transition=Transition(**transition)).success
+
+    @property
+    def state(self) -> tuple[int, str]:
+        state = self.ask(GetState, "get_state").current_state
+        return state.id, state.label
+
+
+@pytest.fixture
+def managed(ros: Any) -> Managed:
+    return Managed(ros)
+
+
+def test_names_of_the_services(managed: Managed) -> None:
+    mine = [service for service in managed.node.services if service.srv_name.startswith("/ns/managed/")]
+    assert sorted(service.srv_name for service in mine) == [f"/ns/managed/{name}" for name in FIVE]
+    found = dict(managed.asker.get_service_names_and_types_by_node("managed", "/ns"))
+    assert set(found) >= {f"/ns/managed/{name}" for name in FIVE}
+    assert found["/ns/managed/get_transition_graph"] == ["lifecycle_msgs/srv/GetAvailableTransitions"]
+
+
+def test_state_by_state(managed: Managed) -> None:
+    assert managed.state == (1, "unconfigured")
+    seen = []
+    for label in ("configure", "activate", "deactivate", "cleanup", "shutdown"):
+        assert managed.change(label=label)
+        seen.append(managed.state)
+    assert seen == [(2, "inactive"), (3, "active"), (2, "inactive"), (1, "unconfigured"), (4, "finalized")]
+
+
+def test_a_label_wins_over_an_id(managed: Managed) -> None:
+    assert managed.change(id=Transition.TRANSITION_UNCONFIGURED_SHUTDOWN, label="configure")
+    assert managed.state == (2, "inactive")
+
+
+def test_an_unknown_label_is_no_success(managed: Managed, capfd: pytest.CaptureFixture[str]) -> None:
+    assert not managed.change(label="activate")
+    assert managed.state == (1, "unconfigured")
+    assert "No transition matching activate found for current state unconfigured" in capfd.readouterr().err
+
+
+def test_an_id_that_does_not_fit_ends_the_node(managed: Managed) -> None:
+    with pytest.raises(RCLError, match="Transition is not registered"):
+        managed.change(id=Transition.TRANSITION_ACTIVATE)
+
+
+def test_failure_is_no_success(managed: Managed) -> None:
+    managed.node._callbacks[10] = lambda state: TransitionCallbackReturn.FAILURE
+    assert not managed.change(label="configure")
+    assert managed.state == (1, "unconfigured")
+
+
+def test_available_transitions_of_each_state(managed: Managed) -> None:
+    seen = []
+    for step in ("configure", "activate", "shutdown", None):
+        response = managed.ask(GetAvailableTransitions, "get_available_transitions")
+        seen.append([(each.transition.id, each.transition.label) for each in response.available_transitions])
+        if step is not None:
+            managed.change(label=step)
+    assert seen == [
+        [(1, "configure"), (5, "shutdown")],
+        [(2, "cleanup"), (3, "activate"), (6, "shutdown")],
+        [(4, "deactivate"), (7, "shutdown")],
+        [],
+    ]
+
+
+def test_states_and_graph(managed: Managed) -> None:
+    states = managed.ask(GetAvailableStates, "get_available_states").available_states
+    assert [each.id for each in states] == [0, 1, 2, 3, 4, 10, 11, 12, 13, 14, 15]
+    graph = managed.ask(GetAvailableTransitions, "get_transition_graph").available_transitions
+    rows = [(each.transition.id, each.start_state.label, each.goal_state.label) for each in graph]
+    assert rows[:5] == [
+        (1, "unconfigured", "configuring"),
+        (10, "configuring", "inactive"),
+        (11, "configuring", "unconfigured"),
+        (12, "configuring", "errorprocessing"),
+        (2, "inactive", "cleaningup"),
+    ]
+    assert rows[-3:] == [
+        (60, "errorprocessing", "unconfigured"),
+        (61, "errorprocessing", "finalized"),
+        (62, "errorprocessing", "finalized"),
+    ]
+    assert len(rows) == 25
+
+
+def test_transition_events(managed: Managed) -> None:
+    seen: list[tuple[str, str]] = []
+    managed.asker.create_subscription(
+        TransitionEvent,
+        "/ns/managed/transition_event",
+        lambda event: seen.append((event.start_state.label, event.goal_state.label)),
+        10,
+    )
+    managed.node.trigger_configure()
+    managed.node._callbacks[13] = lambda state: TransitionCallbackReturn.ERROR
+    managed.node.trigger_activate()
+    managed.ros.spin(lambda: len(seen) == 5)
+    assert seen == [
+        ("unconfigured", "configuring"),
+        ("configuring", "inactive"),
+        ("inactive", "activating"),
+        ("activating", "errorprocessing"),
+        ("errorprocessing", "unconfigured"),
+    ]
+
+
+def test_without_the_communication_interface(ros: Any) -> None:
+    ros.init()
+    node = LifecycleNode("managed", context=ros.context, enable_communication_interface=False)
+    assert node.trigger_configure() is TransitionCallbackReturn.SUCCESS
+    assert not [name for name, _ in node.get_service_names_and_types() if name.endswith("state")]
+    assert "/managed/transition_event" not in dict(node.get_topic_names_and_types())
+    assert not hasattr(node, "_service_get_state")
+    with pytest.raises(TypeError):
+        LifecycleNode("other", context=ros.context, enable_communication_interface="yes")  # type: ignore[arg-type]
+
+
+def test_all_is_gone_with_the_node(managed: Managed) -> None:
+    managed.node.destroy_node()
+    assert not [name for name, _ in managed.asker.get_topic_names_and_types() if "transition_event" in name]
+    left = dict(managed.asker.get_service_names_and_types())
+    assert not left.keys() & {f"/ns/managed/{name}" for name in FIVE}
