@@ -26,7 +26,7 @@ from bot_console.runtime.rosidl.conversion import (
     to_ndarray as _to_ndarray, to_octet as _to_octet, to_str as _to_str, too_long as _too_long, zeros as _zeros,
 )
 from bot_console.runtime.rosidl.message import Message as _Message, ServiceType as _ServiceType
-from bot_console.runtime.rosidl.message import checks_asked_for as _checks_asked_for
+from bot_console.runtime.rosidl.message import checks_asked_for as _checks_asked_for, read_checks_again as _read_again
 '''
 SCALARS = {"boolean": "bool", "octet": "bytes", "float": "float", "double": "float", "string": "str", "wstring": "str"}
 ZEROS = {"boolean": "False", "octet": "b'\\x00'", "float": "0.0", "double": "0.0", "string": "''", "wstring": "''"}
@@ -55,7 +55,7 @@ def _module(interface: Interface) -> str:
         known[item] = name if package == interface.package and name in here else f"_{package}__{name}"
         if known[item] != name:
             lines.append(f"from {package}.msg.{module_name(name)} import {name} as {known[item]}")
-    lines.append("\n_new = object.__new__\n_MISSING: Any = object()\n")
+    lines.append("\n_new = object.__new__\n_MISSING: Any = object()\n_read_again()\n")
     shown = f"{interface.package}.srv.{module_name(interface.name)}" if interface.kind == "srv" else ""
     for each in definitions:
         lines += ["", *_message(each, known, shown)]

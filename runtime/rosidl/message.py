@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import threading
 import warnings
 from array import array
 from collections.abc import Iterable, Mapping
@@ -13,9 +14,30 @@ from bot_console.runtime.rosidl.slot_types import SlotTypes
 CHECK_VARIABLE = "ROS_PYTHON_CHECK_FIELDS"
 
 
+class _Asked(threading.local):
+    """What the environment says, for each thread as each node process has its own; None before it was looked at."""
+
+    value: bool | None = None
+
+
+_asked = _Asked()
+
+
 def checks_asked_for() -> bool:
-    """Whether fields are to be checked although the constructor was not asked to; off by default since Jazzy."""
-    return os.environ.get(CHECK_VARIABLE, "") == "1"
+    """Whether fields are to be checked although the constructor was not asked to; off by default since Jazzy.
+
+    The environment is read by a thread's first message, and again after a message module was imported: reading it
+    takes longer than making a message, and upstream reads it when a module is imported.
+    """
+    value = _asked.value
+    if value is None:
+        value = _asked.value = os.environ.get(CHECK_VARIABLE, "") == "1"
+    return value
+
+
+def read_checks_again() -> None:
+    """Look at the environment again before this thread's next message."""
+    _asked.value = None
 
 
 class Message:

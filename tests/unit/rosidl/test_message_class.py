@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import importlib
 import pickle
+import sys
 from array import array
+from collections.abc import Iterator
 
 import numpy
 import pytest
 from bot_console.runtime.rosidl.conversion import type_name
+from bot_console.runtime.rosidl.message import read_checks_again
 from example_interfaces.action import Fibonacci
 from geometry_msgs.msg import PoseWithCovariance, Quaternion, Twist, Vector3
 from rcl_interfaces.msg import Log, ParameterDescriptor, ParameterType, ParameterValue
@@ -69,8 +73,26 @@ def test_without_checks_all_is_kept_as_it_is() -> None:
     assert (message.x, message.y) == ("a", None)
 
 
-def test_the_environment_asks_for_checks(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture
+def checking(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     monkeypatch.setenv("ROS_PYTHON_CHECK_FIELDS", "1")
+    yield
+    monkeypatch.undo()
+    read_checks_again()
+
+
+def test_the_environment_asks_for_checks_until_a_message_is_made(checking: None) -> None:
+    read_checks_again()
+    with pytest.raises(AssertionError, match="must be of type 'int'"):
+        Int8(data="x")
+
+
+def test_the_environment_is_read_again_when_a_module_was_imported(
+    checking: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    Int8(check_fields=False)
+    monkeypatch.delitem(sys.modules, "example_interfaces.msg._char", raising=False)
+    importlib.import_module("example_interfaces.msg._char")
     with pytest.raises(AssertionError, match="must be of type 'int'"):
         Int8(data="x")
 
