@@ -233,6 +233,8 @@ class ActionServer(ActionEntity):
             result = self._action_type.Result()
             self._logger.error(f"Error raised in execute callback: {error}")
             traceback.print_exc()
+        if not isinstance(result, self._action_type.Result):
+            self._warn_of_result(callback, result)
         if handle.is_active:
             self._logger.warning(f"Goal state not set, assuming aborted. Goal ID: {uuid}")
             handle.abort()
@@ -241,6 +243,15 @@ class ActionServer(ActionEntity):
         response.status = handle.status
         response.result = result
         handle._result_future.set_result(response)
+
+    def _warn_of_result(self, callback: Callable[..., Any], result: Any) -> None:
+        """Upstream says nothing before somebody asks for the result, and then does not name the callback."""
+        code = getattr(callback, "__code__", None)
+        place = f" ({code.co_filename}:{code.co_firstlineno})" if code else ""
+        self._logger.warning(
+            f"The execute callback{place} returned {type(result).__name__} where {self._action_type.__name__}.Result "
+            "is needed; sending the result will fail. Return a result at each end of the callback."
+        )
 
     def notify_goal_done(self) -> None:
         """A goal has ended: from now on its result grows old."""

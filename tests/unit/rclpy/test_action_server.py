@@ -116,6 +116,15 @@ def test_an_execute_callback_that_raises(ros: Any, capfd: pytest.CaptureFixture[
     assert "ValueError: no way" in err
 
 
+def test_a_result_of_another_class_is_told_and_cannot_be_sent(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
+    pair = Pair(ros, lambda handle: handle.succeed())
+    asked = pair.send().get_result_async()
+    with pytest.raises(TypeError, match="field 'result' of example_interfaces/action/Fibonacci_GetResult_Response"):
+        pair.outcome(asked)
+    assert f"The execute callback ({__file__}:" in (err := capfd.readouterr().err)
+    assert "returned NoneType where Fibonacci.Result is needed" in err
+
+
 @pytest.mark.parametrize("end", ["succeed", "abort", "canceled"])
 def test_a_goal_ends_once(ros: Any, end: str) -> None:
     refused = []
