@@ -1,0 +1,191 @@
+"""`ros2 param` against nodes of our own."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from textwrap import dedent
+
+import pytest
+
+NODE = """
+from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
+node = Node('tuned')
+limits = FloatingPointRange(from_value=0.5, to_value=2.0, step=0.5)
+node.declare_parameter('gain', 1.0, ParameterDescriptor(description='Gain', floating_point_range=[limits]))
+whole = IntegerRange(from_value=0, to_value=9)
+node.declare_parameter('count', 3, ParameterDescriptor(integer_range=[whole], additional_constraints='odd'))
+node.declare_parameter('fixed', 'x', ParameterDescriptor(read_only=True))
+node.declare_parameter('a.b.c', True)
+node.declare_parameter('list', [1, 2])
+node.declare_parameter('doubles', [1.0, 2.5])
+node.declare_parameter('words', ['a', 'b c'])
+node.declare_parameter('free', None, ParameterDescriptor(dynamic_typing=True))
+"""
+LISTED = ["a.b.c", "count", "doubles", "fixed", "free", "gain", "list", "start_type_description_service",
+          "use_sim_time", "words"]  # fmt: skip
+
+
+def test_list(ros) -> None:
+    ros.node(NODE)
+    ros.node("node = Node('plain', namespace='ns')")
+    own = "\n".join(f"  {each}" for each in LISTED)
+    both = f"/ns/plain:\n  start_type_description_service\n  use_sim_time\n/tuned:\n{own}\n"
+    assert sorted(ros.ask("param", "list").stdout.splitlines()) == sorted(both.splitlines())
+    assert ros.ask("param", "list", "tuned").stdout == f"{own}\n"
+    assert ros.ask("param", "list", "/tuned", "--param-prefixes", "a.b").stdout == "  a.b.c\n"
+    assert ros.ask("param", "list", "/tuned", "--filter", "^(gain|count)$", "--param-type").stdout == (
+        "  count (type: integer)\n  gain (type: double)\n"
+    )
+
+
+@pytest.mark.parametrize(
+    ("name", "shown"),
+    [
+        ("gain", "Double value is: 1.0"),
+        ("count", "Integer value is: 3"),
+        ("fixed", "String value is: x"),
+        ("a.b.c", "Boolean value is: True"),
+        ("list", "Integer values are: array('q', [1, 2])"),
+        ("doubles", "Double values are: array('d', [1.0, 2.5])"),
+        ("words", "String values are: ['a', 'b c']"),
+        ("free", "Parameter not set."),
+    ],
+)
+def test_get(ros, name: str, shown: str) -> None:
+    ros.node(NODE)
+    assert ros.ask("param", "get", "/tuned", name).stdout == f"{shown}\n"
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "refusal"),
+    [
+        ("gain", "1.5", ""),
+        ("gain", "0.7", "The parameter value for gain is not close enough to a valid step. Min: 0.5, max: 2.0, "
+                        "value: 0.7, step: 0.5"),
+        ("gain", "3.0", "Parameter gain out of range Min: 0.5, Max: 2.0, value: 3.0"),
+        ("gain", "1", "Wrong parameter type, expected 'Type.DOUBLE' got 'Type.INTEGER'"),
+        ("count", "10", "Parameter count out of range. Min: 0, Max: 9, value: 10"),
+        ("fixed", "y", "Trying to set a read-only parameter: fixed."),
+        ("list", "[4, 5]", ""),
+        ("words", "[c, d]", ""),
+        ("free", "7", ""),
+        ("free", "seven", ""),
+    ],
+)  # fmt: skip
+def test_set(ros, name: str, value: str, refusal: str) -> None:
+    ros.node(NODE)
+    answer = ros.ask("param", "set", "/tuned", name, value)
+    assert answer.exit == 0
+    if refusal:
+        assert (answer.stdout, answer.stderr) == ("", f"Setting parameter failed: {refusal}\n")
+    else:
+        assert (answer.stdout, answer.stderr) == ("Set parameter successful\n", "")
+
+
+def test_negative_numbers_need_no_quotes(ros) -> None:
+    ros.node("node = Node('n')\nnode.declare_parameter('x', 1.0)\nnode.declare_parameter('i', 1)")
+    ros.ask("param", "set", "/n", "x", "-1.5")
+    ros.ask("param", "set", "/n", "i", "-4")
+    assert ros.ask("param", "get", "/n", "x", "--hide-type").stdout == "-1.5\n"
+    assert ros.ask("param", "get", "/n", "i", "--hide-type").stdout == "-4\n"
+
+
+def test_describe(ros) -> None:
+    ros.node(NODE)
+    assert ros.ask("param", "describe", "/tuned", "gain", "count", "fixed", "free").stdout == dedent("""\
+        Parameter name: gain
+          Type: double
+          Description: Gain
+          Constraints:
+            Min value: 0.5
+            Max value: 2.0
+            Step: 0.5
+        Parameter name: count
+          Type: integer
+          Constraints:
+            Min value: 0
+            Max value: 9
+            Additional constraints: odd
+        Parameter name: fixed
+          Type: string
+          Constraints:
+            Read only: true
+        Parameter name: free
+          Type: not set
+          Constraints:
+        """)
+
+
+def test_dump_loads_again(ros, tmp_path: Path) -> None:
+    ros.node(NODE)
+    ros.ask("param", "delete", "/tuned", "free")
+    dumped = ros.ask("param", "dump", "/tuned").stdout
+    assert dumped.startswith("/tuned:\n  ros__parameters:\n    a:\n      b:\n        c: true\n    count: 3\n")
+    assert dumped.endswith("    - b c\n\n")
+    file = tmp_path / "tuned.yaml"
+    file.write_text(dumped.replace("gain: 1.0", "gain: 2.0"), "utf-8")
+    loaded = ros.ask("param", "load", "/tuned", str(file))
+    assert "Set parameter gain successful\n" in loaded.stdout
+    assert "Set parameter fixed failed: Trying to set a read-only parameter: fixed.\n" in loaded.stderr
+    assert loaded.exit == 0
+    assert ros.ask("param", "get", "/tuned", "gain").stdout == "Double value is: 2.0\n"
+
+
+def test_delete(ros) -> None:
+    ros.node(NODE)
+    ros.ask("param", "set", "/tuned", "free", "1")
+    assert ros.ask("param", "delete", "/tuned", "free").stdout == "Deleted parameter successfully\n"
+    refused = ros.ask("param", "delete", "/tuned", "gain")
+    assert (refused.exit, refused.stderr) == (0, "Deleting parameter failed: Static parameter cannot be undeclared\n")
+
+
+def test_load_with_wildcard(ros, tmp_path: Path) -> None:
+    ros.node(NODE)
+    file = tmp_path / "all.yaml"
+    file.write_text("/**:\n  ros__parameters:\n    gain: 0.5\n", "utf-8")
+    assert ros.ask("param", "load", "/tuned", str(file)).stdout == "Set parameter gain successful\n"
+    without = ros.ask("param", "load", "/tuned", str(file), "--no-use-wildcard")
+    assert (without.exit, without.stderr) == (1, "Param file does not contain selected parameters\n")
+
+
+@pytest.mark.parametrize("verb", [["get"], ["describe"], ["delete"], ["set", "x"]])
+def test_a_node_that_comes_in_time_is_waited_for(ros, verb: list[str]) -> None:
+    late = ros.ros2("param", verb[0], "/late", "x", *verb[1:], "--timeout", "3")
+    ros.run(1.0)
+    assert late.exit is None
+    ros.node("node = Node('late')\nnode.declare_parameter('x', 'y')")
+    assert ros.finish(late).exit == 0
+    missing = ros.ask("param", verb[0], "/nobody", "x", *verb[1:])
+    assert (missing.exit, missing.stderr) == (1, "Node not found\n")
+
+
+def test_hidden_nodes_are_asked_when_told_so(ros) -> None:
+    ros.node("node = Node('_hidden')\nnode.declare_parameter('x', 1)")
+    assert ros.ask("param", "get", "/_hidden", "x").stderr == "Node not found\n"
+    assert ros.ask("param", "get", "/_hidden", "x", "--include-hidden-nodes").stdout == "Integer value is: 1\n"
+    assert ros.ask("param", "list").stdout == ""
+
+
+def test_a_refusal_by_a_callback_is_told(ros) -> None:
+    ros.node("""
+from rcl_interfaces.msg import SetParametersResult
+node = Node('strict')
+node.declare_parameter('x', 1)
+node.add_on_set_parameters_callback(lambda parameters: SetParametersResult(successful=False, reason='never'))
+""")
+    assert ros.ask("param", "set", "/strict", "x", "2").stderr == "Setting parameter failed: never\n"
+    assert ros.ask("param", "get", "/strict", "x", "--hide-type").stdout == "1\n"
+
+
+def test_a_node_that_ends_in_its_callback_leaves_the_verb_waiting(ros) -> None:
+    node = ros.node("""
+node = Node('careless')
+node.declare_parameter('x', 1)
+node.add_on_set_parameters_callback(lambda parameters: None)
+""")
+    asked = ros.ask("param", "set", "/careless", "x", "2", stop_after=5.0)
+    assert (asked.exit, asked.stdout) == (2, "")
+    assert node.exit == 1
+    assert "AttributeError: 'NoneType' object has no attribute 'successful'\n" in node.stderr
+    assert "return SetParametersResult(successful=True)" in node.stderr.splitlines()[-1]
+    assert ros.ask("node", "list").stdout == ""
