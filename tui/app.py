@@ -27,6 +27,7 @@ from textual.app import App, ComposeResult
 from textual.binding import BindingType
 from textual.command import Provider
 from textual.containers import Container
+from textual.geometry import Size
 from textual.screen import Screen
 from textual.types import CSSPathType
 from textual.widgets import Input, Static
@@ -71,6 +72,7 @@ class BotConsoleApp(App[None]):
         self._focused_pane = "parameters"
         self._on_first_frame = on_first_frame
         self._snapshot = ConsoleSnapshot()
+        self._extent = Size(80, 24)
         self.gate = AnswerGate()
 
     def get_default_screen(self) -> Screen[Any]:
@@ -91,6 +93,7 @@ class BotConsoleApp(App[None]):
         """Choose the theme, lay out, and begin to pull."""
         self.register_theme(DARK)
         self.theme = DARK.name
+        self._extent = self.size
         self._lay_out()
         self.pull()
         if self._refresh_hz > 0:
@@ -113,7 +116,8 @@ class BotConsoleApp(App[None]):
         with self.batch_update():
             for pane in self.visible_panes():
                 pane.show(snapshot)
-            self.query_one(StatusBar).show(snapshot, self.gate.held_back)
+            for bar in self.query(StatusBar):
+                bar.show(snapshot, self.gate.held_back)
 
     # Layout -------------------------------------------------------------------------------------------------------
 
@@ -133,12 +137,13 @@ class BotConsoleApp(App[None]):
                 return widget
         return next((each for each in self.panes() if each.id == self._focused_pane), None)
 
-    def on_resize(self) -> None:
+    def on_resize(self, event: events.Resize) -> None:
         """Lay out for the new size."""
+        self._extent = event.size
         self._lay_out()
 
     def _lay_out(self) -> None:
-        width, height = self.size
+        width, height = self._extent
         small = width < SMALLEST[0] or height < SMALLEST[1]
         self.screen.set_class(small, "small")
         if small:
@@ -176,16 +181,19 @@ class BotConsoleApp(App[None]):
 
     def _overview_size(self) -> int:
         """Which overview fits: 2 the wide one, 1 the usual one, 0 none, so that panes are shown one at a time."""
-        width, height = self.size
+        width, height = self._extent
         fits = [width >= need[0] and height >= need[1] for need in (OVERVIEW, WIDE)]
         return sum(fits) if fits[0] else 0
+
+    def _in_overview(self, pane: str) -> bool:
+        return any(each.id == pane and 0 < each.overview <= self._overview_size() for each in PANES)
 
     def _tabs(self, overview: bool, single: str) -> None:
         marks = [("0", "Overview", "All", overview)]
         marks += [
             (each.digit, each.title, each.short or each.title, not overview and each.id == single) for each in PANES
         ]
-        self.query_one("#tabs", Static).update(tabs_text(marks, self.size.width - 2))
+        self.query_one("#tabs", Static).update(tabs_text(marks, self._extent.width - 2))
 
     def _typing(self) -> bool:
         return isinstance(self.focused, Input)
@@ -206,7 +214,7 @@ class BotConsoleApp(App[None]):
         self._wanted = name
         if name != "overview":
             self._focused_pane = name
-        elif self._focused_pane not in {each.id for each in PANES if 0 < each.overview <= self._overview_size()}:
+        elif self._overview_size() and not self._in_overview(self._focused_pane):
             self._focused_pane = "parameters"
         self.set_focus(None)
         self._lay_out()

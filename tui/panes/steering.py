@@ -66,7 +66,7 @@ class SteeringPane(Pane):
 
     def tick(self) -> None:
         """Send the command again, or stop when no key has come for too long."""
-        if self.state.armed and not (self.has_focus and self.screen.is_current):
+        if self.state.armed and not (self.has_focus and self.host.screen is self.screen):
             self._disarm("Disarmed: the keyboard went elsewhere.")
         self._send()
         if self.state.armed and self.display:

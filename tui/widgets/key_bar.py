@@ -26,9 +26,11 @@ class KeyBar(Static):
         super().__init__("", markup=False)
         self._shown: object = None
         self._keys: list[Shown] = []
+        self._asked: tuple[str, bool, str] | None = None
 
     def show(self, scope: str, typing: bool, colour: str) -> None:
         """Show the keys of a scope of the key table; while typing, those of a text field."""
+        self._asked = (scope, typing, colour)
         width = self.size.width - 2
         now = (scope, typing, colour, width)
         if now == self._shown or width < 1:
@@ -44,6 +46,11 @@ class KeyBar(Static):
             everywhere.pop(1 if len(everywhere) > 1 else 0)
         self._keys = [*own, *everywhere]
         self.update(_line(self._keys, colour))
+
+    def on_resize(self) -> None:
+        """Fit the keys to the new width."""
+        if self._asked is not None:
+            self.show(*self._asked)
 
     def on_click(self, event: Click) -> None:
         """Press the key under the mouse."""

@@ -1,0 +1,153 @@
+"""Every pane is reached and left by keys alone, and the keys that work everywhere do."""
+
+from __future__ import annotations
+
+import pytest
+from bot_console.tui.keymap import TABLE, key_text
+from bot_console.tui.pane_table import PANES
+from piloting import Session, run
+from samples import live
+from textual.command import CommandPalette
+from textual.widgets import Input
+
+IDS = [each.id for each in PANES]
+
+
+def shown(session: Session) -> list[str]:
+    return [each.id or "" for each in session.app.visible_panes()]
+
+
+@pytest.mark.parametrize("entry", PANES, ids=IDS)
+def test_a_digit_jumps_to_the_pane_and_gives_it_the_keyboard(entry) -> None:
+    async def play(session: Session) -> None:
+        await session.press(entry.digit)
+        assert shown(session) == [entry.id]
+        assert session.app.focused is not None
+        assert session.app.current_pane is not None and session.app.current_pane.id == entry.id
+
+    run(live(), play)
+
+
+def test_tab_goes_round_all_panes_and_shift_tab_back() -> None:
+    async def play(session: Session) -> None:
+        await session.press("1")
+        seen = [session.app.current_pane.id]
+        for _ in IDS[1:]:
+            await session.press("tab")
+            seen.append(session.app.current_pane.id)
+        assert sorted(seen) == sorted(IDS)
+        await session.press("tab")
+        assert session.app.current_pane.id == "parameters"
+        await session.press("shift+tab")
+        assert session.app.current_pane.id == seen[-1]
+
+    run(live(), play)
+
+
+@pytest.mark.parametrize(
+    ("size", "expected"),
+    [
+        ((80, 24), {"plot"}),
+        ((120, 40), {"parameters", "world", "plot", "logs"}),
+        ((200, 60), {"parameters", "world", "plot", "logs", "graph"}),
+    ],
+)
+def test_the_overview_holds_what_fits(size, expected) -> None:
+    async def play(session: Session) -> None:
+        await session.press("4", "0")
+        assert set(shown(session)) == expected
+
+    run(live(), play, size)
+
+
+def test_z_takes_one_pane_out_of_the_overview_and_back() -> None:
+    async def play(session: Session) -> None:
+        await session.press("tab", "z")
+        assert shown(session) == ["world"]
+        await session.press("z")
+        assert len(shown(session)) == 4
+
+    run(live(), play, (120, 40))
+
+
+def test_a_terminal_that_is_too_small_gets_a_polite_word_and_recovers() -> None:
+    async def play(session: Session) -> None:
+        await session.pilot.resize_terminal(50, 15)
+        await session.settle()
+        assert "50x15 is too small" in session.text() and "60x20" in session.text()
+        await session.press("exclamation_mark")
+        assert ("all_stop", True) in session.console.asked
+        await session.pilot.resize_terminal(80, 24)
+        await session.settle()
+        assert "too small" not in session.text() and "max_speed" in session.text()
+
+    run(live(), play)
+
+
+@pytest.mark.parametrize("entry", PANES, ids=IDS)
+def test_help_names_every_key_of_the_pane(entry) -> None:
+    async def play(session: Session) -> None:
+        await session.press(entry.digit, "question_mark")
+        seen = ""
+        for _ in range(60):
+            seen += session.text()
+            await session.press("down")
+        for key in TABLE[entry.id]:
+            assert key.text in seen, key.id
+            assert key_text(key) in seen, key.id
+        await session.press("escape")
+        assert len(session.app.screen_stack) == 1
+
+    run(live(), play, (100, 30))
+
+
+@pytest.mark.parametrize("key", ["colon", "ctrl+p"])
+def test_the_palette_opens_and_runs_an_action(key: str) -> None:
+    async def play(session: Session) -> None:
+        await session.press(key)
+        assert isinstance(session.app.screen, CommandPalette)
+        await session.type("world")
+        for _ in range(20):
+            await session.pilot.pause()
+        await session.press("down", "enter")
+        for _ in range(5):
+            await session.settle()
+        assert shown(session) == ["world"]
+
+    run(live(), play)
+
+
+@pytest.mark.parametrize("entry", PANES, ids=IDS)
+def test_the_all_stop_works_in_every_pane_and_over_help(entry) -> None:
+    async def play(session: Session) -> None:
+        await session.press(entry.digit, "exclamation_mark")
+        assert session.console.asked[-1] == ("all_stop", True)
+        assert "ALL STOP" in session.lines()[-2]
+        await session.press("question_mark", "exclamation_mark")
+        assert session.console.asked[-1] == ("all_stop", False)
+
+    run(live(), play)
+
+
+def test_in_a_text_field_the_all_stop_and_digits_are_text() -> None:
+    async def play(session: Session) -> None:
+        await session.press("2", "slash")
+        await session.type("!5z")
+        field = session.app.focused
+        assert isinstance(field, Input) and field.value == "!5z"
+        assert not [each for each in session.console.asked if each[0] == "all_stop"]
+        assert shown(session) == ["logs"]
+
+    run(live(), play)
+
+
+def test_q_quits_and_the_keys_line_fits_every_width() -> None:
+    async def play(session: Session) -> None:
+        for entry in PANES:
+            await session.press(entry.digit)
+            last = session.lines()[-1]
+            assert "? Help" in last and "! Stop" in last and "q Quit" in last
+        await session.press("q")
+        assert not session.app.is_running or session.app._exit
+
+    run(live(), play, (60, 20))

@@ -1,0 +1,48 @@
+"""Nothing overflows, at any size that the console works at."""
+
+from __future__ import annotations
+
+import pytest
+from bot_console.tui.pane_table import PANES
+from piloting import Session, run
+from samples import empty, faulty, live
+from textual.scroll_view import ScrollView
+
+SIZES = [(60, 20), (61, 29), (79, 23), (80, 24), (99, 30), (100, 30), (120, 40), (169, 44), (170, 45), (200, 60), (250, 80)]
+
+
+def check(session: Session, size: tuple[int, int]) -> None:
+    lines = session.lines()
+    assert len(lines) == size[1]
+    assert {strip.cell_length for strip in session.app.screen._compositor.render_strips()} == {size[0]}
+    whole = session.app.screen.region
+    for pane in session.app.visible_panes():
+        assert whole.contains_region(pane.region), pane.id
+        for child in pane.walk_children():
+            if child.display and child.region.area and not isinstance(child.parent, ScrollView):
+                assert pane.region.contains_region(child.region), (pane.id, child)
+    assert lines[0].strip().startswith(("0", "[0")), "the tabs are seen"
+    assert "Quit" in lines[-1], "the keys are seen"
+
+
+CASES = [(size, live) for size in SIZES] + [(size, other) for size in (SIZES[0], (120, 40), SIZES[-1]) for other in (empty, faulty)]
+
+
+@pytest.mark.parametrize(("size", "system"), CASES, ids=[f"{w}x{h}-{system.__name__}" for (w, h), system in CASES])
+def test_every_pane_and_the_overview_fit(size, system) -> None:
+    async def play(session: Session) -> None:
+        for digit in ("0", *(each.digit for each in PANES)):
+            await session.press(digit)
+            check(session, size)
+
+    run(system(), play, size)
+
+
+def test_a_resize_lays_everything_out_anew() -> None:
+    async def play(session: Session) -> None:
+        for size in ((250, 80), (60, 20), (170, 45), (80, 24), (120, 40)):
+            await session.pilot.resize_terminal(*size)
+            await session.settle()
+            check(session, size)
+
+    run(live(), play)

@@ -1,0 +1,176 @@
+"""Steering: armed by hand, stopped by silence, by leaving, by Space, by the all-stop, by the end."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from bot_console.tui.panes.steering import SteeringPane
+from piloting import Clock, Session, run
+from samples import driving, empty, live
+
+
+def steering(session: Session) -> SteeringPane:
+    return session.pane(SteeringPane)
+
+
+def commands(session: Session) -> list[tuple[float, float]]:
+    return [each[1:] for each in session.console.asked if each[0] == "drive"]
+
+
+def pass_time(session: Session, seconds: float) -> None:
+    clock = steering(session).clock
+    assert isinstance(clock, Clock)
+    clock.now += seconds
+    steering(session).tick()
+
+
+def test_keys_rest_until_armed() -> None:
+    async def play(session: Session) -> None:
+        await session.press("6", "w")
+        assert commands(session) == [] and "not armed" in session.text()
+        await session.press("enter", "w")
+        assert commands(session) == [(pytest.approx(0.05), 0.0)]
+        assert "ARMED" in session.text()
+
+    run(live(), play, (100, 30))
+
+
+@pytest.mark.parametrize(
+    ("keys", "expected"),
+    [
+        (["w", "w"], (0.1, 0.0)),
+        (["up", "up"], (0.1, 0.0)),
+        (["s"], (-0.05, 0.0)),
+        (["a"], (0.0, 0.05)),
+        (["left"], (0.0, 0.05)),
+        (["d"], (0.0, -0.05)),
+        (["W"], (0.5, 0.0)),
+        (["W", "W", "W"], (1.0, 0.0)),
+        (["W", "S", "S"], (-0.5, 0.0)),
+        (["W", "A", "x"], (0.0, 0.5)),
+        (["W", "A", "z"], (0.5, 0.0)),
+        (["w", "s"], (0.0, 0.0)),
+    ],
+)
+def test_the_keys_of_rqt_robot_steering(keys: list[str], expected: tuple[float, float]) -> None:
+    async def play(session: Session) -> None:
+        await session.press("6", "enter", *keys)
+        assert commands(session)[-1] == pytest.approx(expected)
+
+    run(live(), play)
+
+
+def test_the_command_is_repeated_and_silence_stops_the_robot_once() -> None:
+    async def play(session: Session) -> None:
+        await session.press("6", "enter", "W")
+        for _ in range(15):
+            pass_time(session, 0.1)
+        assert commands(session) == [(0.5, 0.0)] * 16
+        pass_time(session, 0.6)
+        assert commands(session)[-1] == (0.0, 0.0)
+        count = len(commands(session))
+        for _ in range(10):
+            pass_time(session, 0.1)
+        assert len(commands(session)) == count, "zero is said once, so that others may drive"
+        await session.settle()
+        assert "no key for 2 s: stopped" in session.text()
+        await session.press("w")
+        assert commands(session)[-1] == (pytest.approx(0.05), 0.0)
+
+    run(live(), play)
+
+
+def test_the_deadman_time_is_chosen_with_t() -> None:
+    async def play(session: Session) -> None:
+        await session.press("6", "enter", "t", "W")
+        pass_time(session, 4.9)
+        assert commands(session)[-1] == (0.5, 0.0)
+        pass_time(session, 0.2)
+        assert commands(session)[-1] == (0.0, 0.0)
+
+    run(live(), play)
+
+
+@pytest.mark.parametrize("key", ["1", "tab", "escape", "enter", "0"])
+def test_leaving_or_disarming_sends_zero_and_keys_rest(key: str) -> None:
+    async def play(session: Session) -> None:
+        await session.press("6", "enter", "W", key)
+        assert commands(session)[-1] == (0.0, 0.0)
+        assert not steering(session).state.armed
+
+    run(live(), play)
+
+
+def test_a_screen_over_the_pane_disarms() -> None:
+    async def play(session: Session) -> None:
+        await session.press("6", "enter", "W", "question_mark")
+        pass_time(session, 0.1)
+        assert commands(session)[-1] == (0.0, 0.0)
+        assert not steering(session).state.armed
+
+    run(live(), play)
+
+
+def test_space_stops_armed_or_not() -> None:
+    async def play(session: Session) -> None:
+        await session.press("6", "space")
+        assert commands(session) == [(0.0, 0.0)]
+        await session.press("enter", "W", "space")
+        assert commands(session)[-1] == (0.0, 0.0) and steering(session).state.armed
+
+    run(live(), play)
+
+
+def test_the_all_stop_zeroes_the_sliders_and_holds_the_keys() -> None:
+    async def play(session: Session) -> None:
+        await session.press("6", "enter", "W", "exclamation_mark")
+        assert steering(session).state.linear == 0.0
+        assert "the robot is held" in session.text()
+        count = len(commands(session))
+        await session.press("w")
+        assert [each for each in commands(session)[count:] if each != (0.0, 0.0)] == []
+
+    run(live(), play)
+
+
+def test_zero_on_exit() -> None:
+    system = live()
+
+    async def play(session: Session) -> None:
+        await session.press("6", "enter", "W")
+
+    run(system, play)
+    assert [each for each in system[0].asked if each[0] == "drive"][-1] == ("drive", 0.0, 0.0)
+
+
+def test_the_limits_are_the_robots_own_parameters() -> None:
+    async def play(session: Session) -> None:
+        await session.press("6", "enter", "W", "W")
+        console = session.console
+        console.set_parameters("/robot_navigator", {"max_speed": 0.4})
+        await session.settle()
+        pass_time(session, 0.1)
+        assert commands(session)[-1] == (0.4, 0.0)
+
+    run(live(), play)
+
+
+def test_without_a_robot_it_cannot_be_armed_and_says_why() -> None:
+    async def play(session: Session) -> None:
+        await session.press("6", "enter")
+        assert "nothing to steer" in " ".join(session.text().split())
+        assert not steering(session).state.armed
+
+    run(empty(), play, (100, 30))
+
+
+def test_what_limits_the_command_is_named() -> None:
+    async def play(session: Session) -> None:
+        await session.press("6")
+        assert "by warning_distance of /safety_monitor" in session.text()
+        session.console.change(drive=replace(driving(), limited=None, limited_by=""))
+        await session.settle()
+        assert "warning_distance" not in session.text()
+
+    run(live(), play, (100, 30))

@@ -1,0 +1,88 @@
+"""Running the app over a sample system, with keys pressed, without timers and without a real clock."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable
+from dataclasses import dataclass
+from typing import TypeVar
+
+from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.panes.pane import Pane
+from bot_console.tui.panes.steering import SteeringPane
+from fakes import FakeConsole, FakeLauncher
+from textual.pilot import Pilot
+
+P = TypeVar("P", bound=Pane)
+
+
+@dataclass
+class Session:
+    """An app that runs, with what it talks to."""
+
+    app: BotConsoleApp
+    pilot: Pilot[None]
+    console: FakeConsole
+    launcher: FakeLauncher
+
+    async def press(self, *keys: str) -> None:
+        """Press keys, and let the app draw what came of each."""
+        for key in keys:
+            await self.pilot.press(key)
+            await self.settle()
+
+    async def type(self, text: str) -> None:
+        """Type a text into the field that has the keyboard."""
+        await self.pilot.press(*(NAMES.get(letter, letter) for letter in text))
+        await self.settle()
+
+    async def settle(self) -> None:
+        """Let everything happen that is about to."""
+        if len(self.app.screen_stack) == 1:
+            self.app.pull()
+        await self.pilot.pause()
+
+    def pane(self, kind: type[P]) -> P:
+        """The pane of that class."""
+        return self.app.screen_stack[0].query_one(kind)
+
+    def lines(self) -> list[str]:
+        """What is on the screen."""
+        return [strip.text for strip in self.app.screen._compositor.render_strips()]
+
+    def text(self) -> str:
+        """What is on the screen, as one text."""
+        return "\n".join(self.lines())
+
+
+NAMES = {" ": "space", "/": "slash", ":": "colon", ".": "full_stop", "_": "underscore", "-": "minus", "!": "exclamation_mark",
+         ",": "comma", "[": "left_square_bracket", "]": "right_square_bracket"}  # fmt: skip
+
+
+class Clock:
+    """A steady clock that goes when it is told to."""
+
+    def __init__(self) -> None:
+        self.now = 100.0
+
+    def __call__(self) -> float:
+        return self.now
+
+
+def run(
+    system: tuple[FakeConsole, FakeLauncher],
+    play: Callable[[Session], Awaitable[None]],
+    size: tuple[int, int] = (80, 24),
+) -> None:
+    """Run the app at a size and play a scene in it."""
+
+    async def main() -> None:
+        console, launcher = system
+        app = BotConsoleApp(console, launcher, refresh_hz=0)
+        async with app.run_test(size=size, notifications=True) as pilot:
+            session = Session(app, pilot, console, launcher)
+            session.pane(SteeringPane).clock = Clock()
+            await session.settle()
+            await play(session)
+
+    asyncio.run(main())
