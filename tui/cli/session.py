@@ -31,8 +31,9 @@ READY = 20.0
 LINE_LIMIT = 15.0
 """Seconds after which a `ros2` line that does not end by itself is interrupted, as by Ctrl-C."""
 
-OWN_LOG = {"OVERRIDE_LAUNCH_PROCESS_OUTPUT": "own_log"}
-"""Launch does not repeat on its screen what processes print: the console reads it from launch's events."""
+ENVIRONMENT = {"OVERRIDE_LAUNCH_PROCESS_OUTPUT": "own_log", FORMAT_VARIABLE: MARKED_FORMAT}
+"""Launch does not repeat on its screen what processes print, since the console reads that from launch's events; and
+loggers mark their lines, so that these are told from what is merely printed."""
 
 LAUNCH_LINE = re.compile(r"\[([A-Z]+)\] \[([^\]]+)\]: (.*)")
 LEVELS = {"DEBUG": Severity.DEBUG, "WARNING": Severity.WARN, "ERROR": Severity.ERROR, "CRITICAL": Severity.FATAL}
@@ -60,7 +61,7 @@ class Session:
 
     def run(self) -> int:
         """Show the console until it is quit; the robot stands still when this returns, however it ended."""
-        with self._ended_by_signals(), _marked_output(), _eager_switching():
+        with self._ended_by_signals(), _eager_switching():
             try:
                 self.app.run()
             finally:
@@ -134,7 +135,7 @@ class Launching:
             elif text.strip():
                 printed(Severity.INFO, "launch", text.rstrip("\n"))
 
-        self._process.start(target, env={**os.environ, **OWN_LOG}, stdout=tell, stderr=tell)
+        self._process.start(target, env={**os.environ, **ENVIRONMENT}, stdout=tell, stderr=tell)
 
     def join(self, timeout: float | None = None) -> object:
         """Wait for the end, at most so many seconds."""
@@ -170,20 +171,6 @@ def run_line(line: str) -> str:
     if process.wait(LINE_LIMIT) is None:
         process.stop()
     return "".join(printed)
-
-
-@contextlib.contextmanager
-def _marked_output() -> Iterator[None]:
-    """Loggers of launched nodes mark their lines, so that these are told from what is merely printed."""
-    before = os.environ.get(FORMAT_VARIABLE)
-    os.environ[FORMAT_VARIABLE] = MARKED_FORMAT
-    try:
-        yield
-    finally:
-        if before is None:
-            del os.environ[FORMAT_VARIABLE]
-        else:
-            os.environ[FORMAT_VARIABLE] = before
 
 
 @contextlib.contextmanager
