@@ -1,0 +1,88 @@
+"""`ros2 node` and `ros2 service` against nodes of our own."""
+
+from __future__ import annotations
+
+SERVER = """
+from example_interfaces.srv import AddTwoInts
+from std_srvs.srv import SetBool
+node = Node('adder', namespace='math')
+def add(request, response):
+    response.sum = request.a + request.b
+    return response
+node.create_service(AddTwoInts, 'add', add)
+node.create_service(SetBool, '_hidden', lambda request, response: response)
+client = node.create_client(SetBool, 'switch')
+"""
+
+
+def test_nodes(ros) -> None:
+    ros.node(SERVER)
+    ros.node("node = Node('b')")
+    ros.node("node = Node('_hidden')")
+    assert ros.ask("node", "list").stdout == "/b\n/math/adder\n"
+    assert ros.ask("node", "list", "-c").stdout == "2\n"
+    assert ros.ask("node", "list", "--no-daemon", "-a", "-c").stdout == "4\n"
+
+
+def test_nodes_of_one_name_are_warned_of(ros) -> None:
+    for _ in range(2):
+        ros.node("node = Node('twin')")
+    listed = ros.ask("node", "list")
+    assert listed.stdout == "/twin\n/twin\n"
+    assert listed.stderr.startswith("WARNING: Be aware that there are nodes in the graph that share an exact name")
+
+
+def test_info(ros) -> None:
+    ros.node(SERVER)
+    info = ros.ask("node", "info", "/math/adder").stdout
+    assert info.startswith("/math/adder\n  Subscribers:\n\n  Publishers:\n    /parameter_events: ")
+    assert "    /math/add: example_interfaces/srv/AddTwoInts\n" in info
+    assert "  Service Clients:\n    /math/switch: std_srvs/srv/SetBool\n" in info
+    assert "_hidden" not in info
+    assert "/math/_hidden" in ros.ask("node", "info", "/math/adder", "--include-hidden").stdout
+    missing = ros.ask("node", "info", "/adder")
+    assert (missing.exit, missing.stdout, missing.stderr) == (1, "", "Unable to find node '/adder'\n")
+
+
+def test_services(ros) -> None:
+    ros.node(SERVER)
+    assert "/math/add [example_interfaces/srv/AddTwoInts]\n" in ros.ask("service", "list", "-t").stdout
+    assert ros.ask("service", "type", "/math/add").stdout == "example_interfaces/srv/AddTwoInts\n"
+    assert ros.ask("service", "find", "example_interfaces/srv/AddTwoInts").stdout == "/math/add\n"
+    assert ros.ask("service", "info", "/math/add").stdout == (
+        "Type: example_interfaces/srv/AddTwoInts\nClients count: 0\nServices count: 1\n"
+    )
+    hidden = ros.ask("service", "list", "--include-hidden-services").stdout.split()
+    assert "/math/_hidden" in hidden
+    assert "/math/_hidden" not in ros.ask("service", "list").stdout
+
+
+def test_call(ros) -> None:
+    ros.node(SERVER)
+    called = ros.ask("service", "call", "/math/add", "example_interfaces/srv/AddTwoInts", "{a: 2, b: 3}")
+    assert called.stdout == (
+        "requester: making request: example_interfaces.srv.AddTwoInts_Request(a=2, b=3)\n\n"
+        "response:\nexample_interfaces.srv.AddTwoInts_Response(sum=5)\n\n"
+    )
+
+
+def test_call_waits_for_the_service(ros) -> None:
+    waiting = ros.ros2("service", "call", "/math/add", "example_interfaces/srv/AddTwoInts", "{a: 2}")
+    ros.run(1.0)
+    assert waiting.stdout == "waiting for service to become available...\n"
+    ros.node(SERVER)
+    assert ros.finish(waiting).stdout.endswith("AddTwoInts_Response(sum=2)\n\n")
+
+
+def test_call_again_and_again(ros) -> None:
+    ros.node(SERVER)
+    words = ("service", "call", "-r", "2", "/math/add", "example_interfaces/srv/AddTwoInts")
+    assert ros.ask(*words, stop_after=1.7).stdout.count("response:\n") == 4
+
+
+def test_call_refuses_what_does_not_fit(ros) -> None:
+    ros.node(SERVER)
+    wrong = ros.ask("service", "call", "/math/add", "example_interfaces/srv/AddTwoInts", "{c: 2}")
+    assert wrong.exit == 1
+    assert wrong.stderr == "Failed to populate field: 'AddTwoInts_Request' object has no attribute 'c'\n"
+    assert ros.ask("service", "call", "/x", "std_srvs/srv/Nope").stderr == "The passed service type is invalid\n"
