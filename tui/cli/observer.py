@@ -56,10 +56,10 @@ class Observer:
         self._due += max(0, now - self._due) // period * period
 
     def _ask(self) -> None:
-        self._end.cancel()
         if not self._client.service_is_ready():
-            self.done.set()
+            self._end.timer_period_ns = round(PROBE_PERIOD * 1e9)  # a simulator that is still starting, or none
             return
+        self._end.cancel()
         self._client.call_async(Trigger.Request()).add_done_callback(self._answered)
 
     def _answered(self, future: Any) -> None:

@@ -11,7 +11,7 @@ import weakref
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
-from bot_console.runtime.process import MAIN, ProcessLocal, ProcessState, current, on_notice
+from bot_console.runtime.process import MAIN, ProcessLocal, ProcessState, RealTime, current, on_notice
 from bot_console.runtime.process import node_process as node_process_module
 from bot_console.runtime.process.busy_watch import busy_watch
 
@@ -333,7 +333,10 @@ def test_an_ended_process_leaves_nothing_behind(run, monkeypatch):
     thread = weakref.ref(started.process.main_state.thread)
     started.process.main_state.thread.join(LONG)
     started.process = None
-    gc.collect()
+    deadline = time.monotonic() + LONG
+    while (thread() or reference()) and time.monotonic() < deadline:  # its daemon thread needs a moment to unwind
+        gc.collect()
+        threading.Event().wait(0.01)
     assert thread() is None
     assert reference() is None
 
