@@ -11,7 +11,16 @@ import weakref
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
-from bot_console.runtime.process import MAIN, ProcessLocal, ProcessState, RealTime, current, on_notice
+from bot_console.runtime.process import (
+    MAIN,
+    NodeProcess,
+    ProcessLocal,
+    ProcessState,
+    RealTime,
+    current,
+    on_notice,
+    running_as,
+)
 from bot_console.runtime.process import node_process as node_process_module
 from bot_console.runtime.process.busy_watch import busy_watch
 
