@@ -1,0 +1,156 @@
+"""`bot-console run`: plain files and executables, as the main program of a process."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from bot_console.runtime.run import main
+from bot_console.runtime.workspace import discover
+from systems import Program, System, system
+
+TALK = """
+import rclpy
+
+def main():
+    rclpy.init()
+    node = rclpy.create_node('talker')
+    node.declare_parameter('x', 1.0)
+    print(node.get_fully_qualified_name(), node.get_parameter('x').value)
+"""
+CALL = "\nif __name__ == '__main__':\n    main()\n"
+
+
+class Runs:
+    def __init__(self, system: System, folder: Path) -> None:
+        self._system = system
+        self._folder = folder
+
+    def file(self, text: str, *words: str) -> Program:
+        (self._folder / "node.py").write_text(text, "utf-8")
+        return self(str(self._folder / "node.py"), *words)
+
+    def __call__(self, *words: str) -> Program:
+        import sys
+
+        return self._system.finish(self._system.start("run", lambda: sys.exit(main(words)), ["bot-console", *words]))
+
+
+@pytest.fixture
+def run(tmp_path: Path) -> Iterator[Runs]:
+    before = discover.workspace()
+    discover.use(discover.Workspace([tmp_path]))
+    with system() as running:
+        yield Runs(running, tmp_path)
+    discover.use(before)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ((), "/talker 1.0"),
+        (("--ros-args", "-p", "x:=2.5"), "/talker 2.5"),
+        (("--ros-args", "--param", "talker:x:=2.5"), "/talker 2.5"),
+        (("--ros-args", "-r", "__ns:=/a", "-r", "__node:=b", "-p", "x:=3.0"), "/a/b 3.0"),
+        (("other", "--ros-args", "--remap", "talker:__node:=c", "--log-level", "debug", "--", "more"), "/c 1.0"),
+        (("-p", "x:=2.5"), "/talker 1.0"),
+    ],
+)
+def test_a_file_takes_ros_arguments(run: Runs, words: tuple[str, ...], said: str) -> None:
+    program = run.file(TALK + CALL, *words)
+    assert (program.stdout, program.stderr, program.exit) == (f"{said}\n", "", 0)
+
+
+def test_parameters_come_from_files(run: Runs, tmp_path: Path) -> None:
+    (tmp_path / "p.yaml").write_text("talker:\n  ros__parameters:\n    x: 7.5\n", "utf-8")
+    assert run.file(TALK + CALL, "--ros-args", "--params-file", str(tmp_path / "p.yaml")).stdout == "/talker 7.5\n"
+
+
+def test_wrong_ros_arguments_end_it(run: Runs) -> None:
+    program = run.file(TALK + CALL, "--ros-args", "-p", "x=2")
+    assert program.exit == 1
+    assert "Couldn't parse parameter override rule: '-p x=2'" in program.stderr
+
+
+def test_a_main_that_nobody_calls_is_called(run: Runs) -> None:
+    assert run.file(TALK).stdout == "/talker 1.0\n"
+    assert run.file("def main():\n    return 4\n").exit == 4
+
+
+def test_several_mains(run: Runs) -> None:
+    program = run.file(f"def main():\n    print('first')\n\ndef main():\n    print('last')\n{CALL}")
+    assert program.stdout == "last\n"
+    assert "defines main() 2 times (lines 1, 4); the last one counts" in program.stderr
+
+
+def test_no_main(run: Runs) -> None:
+    program = run.file("from rclpy.node import Node\n\nclass Robot(Node):\n    pass\n")
+    assert (program.exit, program.stdout) == (1, "")
+    assert "has no main()" in program.stderr
+    assert "rclpy.spin(Robot())" in program.stderr
+
+
+def test_a_script_without_main_runs(run: Runs) -> None:
+    assert run.file("print('done')\n").stdout == "done\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "refusal"), [("def main(:\n", "node.py:1: "), ("\0", "node.py"), ("import nope_nope\n", "has no main()")]
+)
+def test_a_file_that_cannot_run(run: Runs, text: str, refusal: str) -> None:
+    program = run.file(text)
+    assert program.exit == 1
+    assert refusal in program.stderr
+    assert "Traceback" not in program.stderr
+
+
+def test_modules_beside_the_file_are_found(run: Runs, tmp_path: Path) -> None:
+    (tmp_path / "beside_me.py").write_text("TEXT = 'beside'\n", "utf-8")
+    assert run.file("from beside_me import TEXT\nprint(TEXT)\n").stdout == "beside\n"
+
+
+@pytest.mark.parametrize(
+    ("words", "refusal"),
+    [
+        ((), "name a file or a package"),
+        (("nope.py",), "nope.py does not exist"),
+        (("nope", "x"), "Package 'nope' not found, and there is no such file"),
+        (("intelligent_robot",), "name an executable of package 'intelligent_robot' as well; it has: controller_node"),
+        (("intelligent_robot", "x"), "No executable found: 'x' is not in package 'intelligent_robot', which has: con"),
+    ],
+)
+def test_wrong_words_are_told(run: Runs, words: tuple[str, ...], refusal: str) -> None:
+    program = run(*words)
+    assert program.exit == 1
+    assert program.stderr.startswith(refusal)
+
+
+def test_the_traceback_begins_in_the_users_file(run: Runs) -> None:
+    program = run.file("def main():\n    raise ValueError('mine')\n" + CALL)
+    assert program.exit == 1
+    assert program.stderr.count("  File ") == program.stderr.count("node.py") == 2
+
+
+WRONG_IMPORT = """
+import rclpy
+from rcl_interfaces.msg import Parameter
+
+def main():
+    {statement}
+"""
+
+
+@pytest.mark.parametrize(
+    "statement", ["Parameter('speed', Parameter.Type.DOUBLE, 1.0)", "Parameter('speed', 3, 1.0)", "Parameter.Type"]
+)
+def test_the_wrong_parameter_class_is_explained(run: Runs, statement: str) -> None:
+    program = run.file(WRONG_IMPORT.format(statement=statement) + CALL)
+    assert program.exit == 1
+    assert "node.py:6: Parameter is imported from rcl_interfaces.msg" in program.stderr.splitlines()[-1]
+    assert program.stderr.endswith("from rclpy.parameter import Parameter\n")
+
+
+def test_other_errors_are_left_as_they_are(run: Runs) -> None:
+    program = run.file("import rclpy\ndef main():\n    rclpy.parameter.Parameter.Nope\n" + CALL)
+    assert program.stderr.splitlines()[-1] == "AttributeError: type object 'Parameter' has no attribute 'Nope'"
