@@ -61,6 +61,8 @@ class Executor:
         self._wakeup = self._clock.wakeup()
         self._waiting = 0
         self._is_shutdown = False
+        self._polled = False
+        """Whether the last call that gave work was one that does not wait."""
         self._context.on_shutdown(self.wake)
 
     @property
@@ -121,6 +123,8 @@ class Executor:
         self._nodes[node] = self._node_count
         self._node_count += 1
         node.executor = self
+        if self._is_shutdown:
+            raise AttributeError("this executor was shut down: it serves no more nodes")
         node._attach(self, self._nodes[node])
         self.wake()
         return True
@@ -177,6 +181,10 @@ class Executor:
         timeout = None if timeout_sec is None else timeout_sec_to_nsec(timeout_sec)
         deadline = None if timeout is None else self._clock.steady_ns() + timeout
         batch, context = self._batch, self._context
+        if self._polled:
+            self._polled = False
+            if timeout == 0 and not batch:  # as upstream: the poll after a wake's last callback only ends that wake
+                raise TimeoutException
         while True:
             while batch:
                 try:
@@ -184,9 +192,11 @@ class Executor:
                 except IndexError:  # another thread spins this executor, too
                     break
                 if item.__class__ is Task:
+                    self._polled = timeout == 0
                     return item
                 if item.sink is self and item.pending():
                     if item.callback_group.beginning_execution(item):
+                        self._polled = timeout == 0
                         return item
                     item.callback_group.block(item)
             if self._is_shutdown:

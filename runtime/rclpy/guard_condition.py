@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable
 from typing import Any
 
@@ -18,7 +17,6 @@ class GuardCondition(Entity):
         super().__init__(callback_group)
         self.callback = callback
         self._triggered = False
-        self._is_async = inspect.iscoroutinefunction(callback)
 
     def trigger(self) -> None:
         """Let the callback run; from any thread."""
@@ -33,7 +31,7 @@ class GuardCondition(Entity):
     def run(self) -> Any:
         """Call back."""
         self._triggered = False
-        result = self.callback() if self.callback is not None else None
+        result = self._callback() if self._callback is not None else None
         return result if self._is_async else None
 
     def destroy(self) -> None:

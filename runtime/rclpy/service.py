@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable
 from typing import Any
 
@@ -32,7 +31,6 @@ class Service(Entity):
         self.callback = callback
         self.qos_profile = qos_profile
         self.endpoint: Any = None
-        self._is_async = inspect.iscoroutinefunction(callback)
 
     @property
     def handle(self) -> Service:
@@ -64,11 +62,11 @@ class Service(Entity):
             self.events.tell(1, client, number, request=request)
         if self._is_async:
             return self._respond_later(client, number, request)
-        self.send_response(self.callback(request, self.srv_type.Response()), (client, number))
+        self.send_response(self._callback(request, self.srv_type.Response()), (client, number))
         return None
 
     async def _respond_later(self, client: Any, number: int, request: Any) -> None:
-        self.send_response(await self.callback(request, self.srv_type.Response()), (client, number))
+        self.send_response(await self._callback(request, self.srv_type.Response()), (client, number))
 
     def send_response(self, response: Any, header: Any) -> None:
         """Answer a request; raises `TypeError` for anything but a response of the service."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 import threading
 from collections.abc import Callable
 from typing import Any
@@ -40,7 +39,6 @@ class Timer(Entity):
         self._last = clock._now_ns()
         self._next = self._last + timer_period_ns
         self._canceled = not autostart
-        self._is_async = inspect.iscoroutinefunction(callback)
         clock._add_timer(self)
 
     @property
@@ -134,7 +132,7 @@ class Timer(Entity):
             due = now if period == 0 else due + -((due - now) // period) * period
         self._next = due
         self.arm()
-        result = self.callback() if self.callback is not None else None
+        result = self._callback() if self._callback is not None else None
         return result if self._is_async else None
 
     def destroy(self) -> None:

@@ -129,16 +129,31 @@ def _remap(word: str, value: str, parsed: Arguments) -> None:
 
 
 def _log_level(word: str, value: str, parsed: Arguments) -> None:
-    logger, separator, level = value.rpartition(":=")
-    severity = SEVERITIES.get(level.upper())
-    if severity is None or (separator and not logger):
-        raise ArgumentsError(
-            f"Couldn't parse log level: '{word} {value}'. Error: Argument does not use a valid severity level"
-        )
-    if separator:
-        parsed.logger_levels[logger] = severity
-    else:
-        parsed.default_level = severity
+    logger, separator, _ = value.partition(":=")
+    try:
+        if separator:
+            parsed.logger_levels[logger] = _severity(_level_token(value, logger))
+        else:
+            parsed.default_level = _severity(value)
+    except GrammarError as error:
+        raise ArgumentsError(f"Couldn't parse log level: '{word} {value}'. Error: {error}") from None
+
+
+def _level_token(value: str, logger: str) -> str:
+    if not logger:
+        raise GrammarError("Argument has an invalid logger item that name is empty")
+    lexer = Lexer(value)
+    lexer.index = len(logger)
+    lexer.expect(Lexeme.SEPARATOR)
+    level = lexer.expect(Lexeme.TOKEN)
+    lexer.expect(Lexeme.EOF)
+    return level
+
+
+def _severity(level: str) -> int:
+    if level.upper() not in SEVERITIES:
+        raise GrammarError("Argument does not use a valid severity level")
+    return SEVERITIES[level.upper()]
 
 
 def _log_config_file(word: str, value: str, parsed: Arguments) -> None:
@@ -169,7 +184,7 @@ _VALUED = {
     "--remap": (_remap, _MISSING_REMAP),
     "--log-level": (_log_level, "Couldn't parse trailing log level flag: '{}'. No log level provided."),
     "--log-config-file": (_log_config_file, "Couldn't parse trailing {} flag. No file path provided."),
-    "--log-file-name": (_log_file_name, "Couldn't parse trailing {} flag. No file path provided."),
+    "--log-file-name": (_log_file_name, "Couldn't parse trailing {} flag. No string prefix provided."),
     "-e": (_enclave, _MISSING_ENCLAVE),
     "--enclave": (_enclave, _MISSING_ENCLAVE),
 }

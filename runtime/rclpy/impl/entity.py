@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from inspect import iscoroutinefunction
 from typing import Any
 
 from rclpy._rclpy_pybind11 import InvalidHandle
@@ -59,6 +60,16 @@ class Entity:
     def detach(self) -> None:
         """No executor serves this any more."""
         self.sink = None
+
+    @property
+    def callback(self) -> Any:
+        """What is called; a coroutine function is driven on by the executor."""
+        return self._callback
+
+    @callback.setter
+    def callback(self, value: Any) -> None:
+        self._callback = value
+        self._is_async = iscoroutinefunction(value)
 
     def use(self) -> None:
         """Raise `InvalidHandle` once the entity was destroyed."""

@@ -6,7 +6,8 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from bot_console.runtime.process import current
-from rclpy._rclpy_pybind11 import NodeNameNonExistentError
+from bot_console.runtime.rmw import names
+from rclpy._rclpy_pybind11 import NodeNameNonExistentError, RCLError
 from rclpy.impl.topic_names import expand_name, remapped
 
 NamesAndTypes = list[tuple[str, list[str]]]
@@ -59,37 +60,42 @@ class NodeGraph:
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
         """What a node publishes; raises `NodeNameNonExistentError`."""
-        return self._endpoints_of(self._bus.publishers(), node_name, node_namespace)
+        return self._endpoints_of("publisher", self._bus.publishers(), node_name, node_namespace)
 
     def get_subscriber_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
         """What a node subscribes to; raises `NodeNameNonExistentError`."""
-        return self._endpoints_of(self._bus.subscriptions(), node_name, node_namespace)
+        return self._endpoints_of("subscriber", self._bus.subscriptions(), node_name, node_namespace)
 
     def get_service_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
         """What services a node offers; raises `NodeNameNonExistentError`."""
-        return self._services_of(self._bus.servers(), node_name, node_namespace)
+        return self._services_of("service", self._bus.servers(), node_name, node_namespace)
 
     def get_client_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
         """What services a node asks; raises `NodeNameNonExistentError`."""
-        return self._services_of(self._bus.clients(), node_name, node_namespace)
+        return self._services_of("client", self._bus.clients(), node_name, node_namespace)
 
-    def _who(self, name: str, namespace: str) -> set[Any]:
+    def _who(self, what: str, name: str, namespace: str) -> set[Any]:
         self._use()
-        found = {each for each in self._bus.nodes() if each.name == name and each.namespace == (namespace or "/")}
+        namespace = namespace or "/"
+        for argument, problem in (
+            ("node_name", names.validate_node_name(name)),
+            ("node_namespace", names.validate_namespace(namespace)),
+        ):
+            if problem:
+                raise RCLError(f"failed to get {what} names and types: {argument} argument is invalid: {problem[0]}")
+        found = {each for each in self._bus.nodes() if each.name == name and each.namespace == namespace}
         if not found:
-            raise NodeNameNonExistentError(
-                f"Cannot get names and types for nonexistent node name '{name}' and namespace '{namespace}'"
-            )
+            raise NodeNameNonExistentError(f"cannot get {what} names and types for nonexistent node: error not set")
         return found
 
-    def _endpoints_of(self, endpoints: Sequence[Any], name: str, namespace: str) -> NamesAndTypes:
-        who = self._who(name, namespace)
+    def _endpoints_of(self, what: str, endpoints: Sequence[Any], name: str, namespace: str) -> NamesAndTypes:
+        who = self._who(what, name, namespace)
         return _collect((each.topic, each.type_name) for each in endpoints if each.node in who)
 
-    def _services_of(self, services: Sequence[Any], name: str, namespace: str) -> NamesAndTypes:
-        who = self._who(name, namespace)
+    def _services_of(self, what: str, services: Sequence[Any], name: str, namespace: str) -> NamesAndTypes:
+        who = self._who(what, name, namespace)
         return _collect((each.name, each.type_name) for each in services if each.node in who)
 
     def count_publishers(self, topic_name: str) -> int:
