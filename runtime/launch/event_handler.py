@@ -41,8 +41,8 @@ class BaseEventHandler:
 
     def describe(self) -> tuple[str, list[Any]]:
         """A text and the entities below."""
-        text = f"matcher='{self.matcher_description}', handler='{self.handler_description}', handle_once={self.handle_once}"
-        return f"{type(self).__name__}({text})", []
+        what = f"matcher='{self.matcher_description}', handler='{self.handler_description}'"
+        return f"{type(self).__name__}({what}, handle_once={self.handle_once})", []
 
     def handle(self, event: Any, context: Any) -> SomeEntitiesType | None:
         """Entities to visit for the event."""

@@ -55,5 +55,5 @@ def _process(action: ExecuteProcess) -> str:
 
 
 def _described(value: Iterable[Any] | str) -> str:
-    subs = list(value) if is_normalized_substitution(value) else normalize_to_list_of_substitutions(value)
+    subs: Any = list(value) if is_normalized_substitution(value) else normalize_to_list_of_substitutions(value)
     return " + ".join(each.describe() for each in subs)

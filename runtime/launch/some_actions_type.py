@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Union
 
 from launch.action import Action
 
-SomeActionsType = Union[Action, Iterable[Action]]
+SomeActionsType = Action | Iterable[Action]
 SomeActionsType_types_tuple = (Action, Iterable)

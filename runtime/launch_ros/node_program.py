@@ -29,7 +29,7 @@ def program_of(package: str | None, path: str) -> Program | None:
 
 
 def os_command(package: str | None, command: list[str], at: int) -> list[str]:
-    """A command whose word `at` is the executable, as the system can run it, with the embedded runtime where it is Python."""
+    """A command whose word `at` is the executable; where that is Python, with the embedded runtime behind it."""
     executable = _known(package, command[at])
     if executable is not None and executable.entry_point is not None:
         runner = [sys.executable, "-m", "bot_console.runtime.run", executable.package, executable.name]

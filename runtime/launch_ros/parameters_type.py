@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Union
+from typing import Any
 
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch_ros.parameter_descriptions import Parameter, ParameterFile
 
-SomeParameterFile = Union[SomeSubstitutionsType, Path]
+SomeParameterFile = SomeSubstitutionsType | Path
 SomeParametersDict = Mapping[SomeSubstitutionsType, Any]
 SomeParameters = Sequence[SomeParameterFile | Parameter | ParameterFile | SomeParametersDict]

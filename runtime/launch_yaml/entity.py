@@ -49,7 +49,7 @@ class Entity(BaseEntity):
     def __child(self, child: Any) -> Entity:
         if len(child) != 1:
             raise RuntimeError("Subentities must be a dictionary with only one key, which is the entity type")
-        type_name = list(child.keys())[0]
+        type_name = next(iter(child))
         return Entity(child[type_name], type_name, parent=self)
 
     def assert_entity_completely_parsed(self) -> None:

@@ -24,7 +24,7 @@ class Parser(BaseParser):
             tree = yaml.safe_load(file)
         if len(tree) != 1:
             raise RuntimeError("Expected only one root")
-        type_name = list(tree.keys())[0] if isinstance(tree, dict) else tree[0]
+        type_name = next(iter(tree))
         return Entity(tree[type_name], type_name), cls()
 
     @classmethod

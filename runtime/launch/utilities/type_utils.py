@@ -121,7 +121,7 @@ def normalize_typed_substitution(value: Any, data_type: Any = None) -> Any:
 
 
 def perform_typed_substitution(context: Any, value: Any, data_type: Any = None) -> Any:
-    """The value of what `normalize_typed_substitution` gave; raises `ValueError` for a text that is none of the type."""
+    """The value of what `normalize_typed_substitution` gave; raises `ValueError` for a text not of the type."""
     if is_normalized_substitution(value):
         return get_typed_value(perform_substitutions(context, value), data_type)
     if isinstance(value, list):

@@ -80,11 +80,11 @@ class Node(ExecuteProcess):
         self.__logger = launch.logging.get_logger(__name__)
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[Any, dict[str, Any]]:
+    def parse(cls, entity: Any, parser: Any, ignore: Iterable[str] | None = None) -> tuple[Any, dict[str, Any]]:
         """From XML or YAML."""
         from launch_ros.actions.parse_node import parse_node
 
-        _, kwargs = super().parse(entity, parser, ignore=("cmd", "name"))
+        _, kwargs = super().parse(entity, parser, ignore=("cmd", "name", *(ignore or ())))
         return cls, parse_node(entity, parser, kwargs)
 
     @property
@@ -150,7 +150,8 @@ class Node(ExecuteProcess):
         count = get_node_name_count(context, self.node_name)
         if count > 1:
             launch.logging.get_logger(self.process_description.final_name).warning(
-                f"there are now at least {count} nodes with the name {self.node_name} created within this launch context"
+                f"there are now at least {count} nodes with the name {self.node_name} "
+                "created within this launch context"
             )
 
     def _perform_substitutions(self, context: Any) -> None:

@@ -1,8 +1,9 @@
 """Parameters and remap rules in XML and YAML."""
 
+# ruff: noqa: UP006, UP035 (messages show the names of these types)
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, List
 
 from launch.substitutions import TextSubstitution
 from launch_ros.descriptions.parameter_file import ParameterFile
@@ -13,10 +14,10 @@ TYPES: dict[str, Any] = {
     "float": float,
     "bool": bool,
     "str": str,
-    "list_of_int": list[int],
-    "list_of_float": list[float],
-    "list_of_bool": list[bool],
-    "list_of_str": list[str],
+    "list_of_int": List[int],
+    "list_of_float": List[float],
+    "list_of_bool": List[bool],
+    "list_of_str": List[str],
     "yaml": None,
 }
 

@@ -40,7 +40,7 @@ class PushROSNamespace(Action):
 
         pushed = perform_substitutions(context, self.__namespace)
         before = context.launch_configurations.get("ros_namespace")
-        namespace = make_namespace_absolute(prefix_namespace(before, pushed))
+        namespace = make_namespace_absolute(prefix_namespace(before, pushed)) or "/"
         try:
             validate_namespace(namespace)
         except InvalidNamespaceException as error:

@@ -17,14 +17,14 @@ def _arguments(parser: argparse.ArgumentParser) -> None:
         "--noninteractive",
         default=not sys.stdin or not sys.stdin.isatty(),
         action="store_true",
-        help="Run the launch system non-interactively, with no terminal associated",
+        help="There is no terminal: launch itself sends SIGINT to the processes",
     )
     parser.add_argument(
         "-d",
         "--debug",
         default=False,
         action="store_true",
-        help="Put the launch system in debug mode, provides more verbose output.",
+        help="Log everything, with tracebacks",
     )
     what = parser.add_mutually_exclusive_group()
     what.add_argument(
@@ -34,7 +34,7 @@ def _arguments(parser: argparse.ArgumentParser) -> None:
         default=False,
         action="store_true",
         dest="print",
-        help="Print the launch description to the console without launching it.",
+        help="Print the tree of the launch file and run nothing",
     )
     what.add_argument(
         "-s",
@@ -43,30 +43,28 @@ def _arguments(parser: argparse.ArgumentParser) -> None:
         default=False,
         action="store_true",
         dest="show_args",
-        help="Show arguments that may be given to the launch file.",
+        help="Print the arguments of the launch file and run nothing",
     )
     parser.add_argument(
         "-a",
         "--show-all-subprocesses-output",
         action="store_true",
-        help="Show all launched subprocesses' output by overriding their output configuration.",
+        help="Show what all processes print, whatever the launch file says",
     )
     parser.add_argument(
         "--launch-prefix",
-        help="Prefix command, which should go before all executables. Command must be wrapped in quotes if it contains spaces.",
+        help="Command to put before all executables, in quotes where it has spaces",
     )
     parser.add_argument(
         "--launch-prefix-filter",
-        help="Regex pattern for filtering which executables the --launch-prefix is applied to.",
+        help="Regular expression for the names of executables that get the --launch-prefix",
     )
-    parser.add_argument(
-        "package_name", help="Name of the ROS package which contains the launch file, or the path of a launch file"
-    )
-    parser.add_argument("launch_file_name", nargs="?", help="Name of the launch file")
+    parser.add_argument("package_name", help="The package that has the launch file, or the path of a launch file")
+    parser.add_argument("launch_file_name", nargs="?", help="The launch file's name, in a package")
     parser.add_argument(
         "launch_arguments",
         nargs="*",
-        help="Arguments to the launch file; '<name>:=<value>' (for duplicates, last one wins)",
+        help="Arguments of the launch file: '<name>:=<value>'; of several with one name the last counts",
     )
 
 
