@@ -87,6 +87,8 @@ class Publisher:
     def _explain(self, error: FieldTypeError) -> None:
         """One ERROR that names field, type and the line that published."""
         frame = sys._getframe(2)
+        while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("rclpy."):
+            frame = frame.f_back  # a lifecycle publisher's publish is no line of the user's
         where = f"{frame.f_code.co_filename}:{frame.f_lineno}"
         self._node.get_logger().error(f"cannot publish on '{self._endpoint.endpoint.topic}': {error}, at {where}")
 

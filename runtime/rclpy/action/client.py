@@ -8,6 +8,7 @@ import weakref
 from collections.abc import Callable
 from typing import Any
 
+from action_msgs.msg import GoalStatus as GoalStatus  # programs import it from here
 from action_msgs.srv import CancelGoal
 from bot_console.runtime.process import current
 from rclpy.action.client_goal_handle import ClientGoalHandle

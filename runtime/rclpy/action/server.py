@@ -91,7 +91,6 @@ class ActionServer(ActionEntity):
         self._goals = Goals(int(result_timeout * NANO))
         self._logger = node.get_logger().get_child("action_server")
         self._clock = node.get_clock()
-        self.heap_deadline = 0
         feedback_qos = feedback_pub_qos_profile or QoSProfile(depth=10)
         self._endpoints = ServerEndpoints(
             node, action_type.Impl, names, self.notify, feedback_qos, status_pub_qos_profile

@@ -78,6 +78,14 @@ def test_a_destroyed_publisher_is_asked_no_more(talk: Talk) -> None:
     assert not talk.publisher.is_activated
 
 
+def test_a_wrong_field_names_the_users_line(talk: Talk, capfd: pytest.CaptureFixture[str]) -> None:
+    talk.node.trigger_configure()
+    talk.node.trigger_activate()
+    with pytest.raises(TypeError):
+        talk.publisher.publish(String(data=5))  # type: ignore[arg-type]
+    assert f", at {__file__}:" in capfd.readouterr().err
+
+
 def test_when_enabled() -> None:
     said: list[str] = []
 
