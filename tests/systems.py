@@ -1,4 +1,4 @@
-"""Systems of node processes in stepped time: programs that run, commands that are asked meanwhile, and what they print."""
+"""Systems of node processes in stepped time: programs, commands that are asked of them, and what both print."""
 
 from __future__ import annotations
 
