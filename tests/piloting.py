@@ -55,8 +55,16 @@ class Session:
         return "\n".join(self.lines())
 
 
-NAMES = {" ": "space", "/": "slash", ":": "colon", ".": "full_stop", "_": "underscore", "-": "minus", "!": "exclamation_mark",
-         ",": "comma", "[": "left_square_bracket", "]": "right_square_bracket"}  # fmt: skip
+NAMES = {
+    " ": "space",
+    "/": "slash",
+    ":": "colon",
+    ".": "full_stop",
+    "_": "underscore",
+    "-": "minus",
+    "!": "exclamation_mark",
+    ",": "comma",
+}
 
 
 class Clock:

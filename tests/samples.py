@@ -70,7 +70,12 @@ def simulator() -> ParameterTree:
     return ParameterTree("/simulator", tuple(replace(each, node="/simulator") for each in found))
 
 
-SCAN, ODOM, TWIST, FLOAT = "sensor_msgs/msg/LaserScan", "nav_msgs/msg/Odometry", "geometry_msgs/msg/Twist", "std_msgs/msg/Float64"
+SCAN, ODOM, TWIST, FLOAT = (
+    "sensor_msgs/msg/LaserScan",
+    "nav_msgs/msg/Odometry",
+    "geometry_msgs/msg/Twist",
+    "std_msgs/msg/Float64",
+)
 LINKS: tuple[tuple[str, str, str, tuple[str, ...]], ...] = (
     ("/simulator", "/scan_raw", SCAN, ("/sensor_handler",)),
     ("/sensor_handler", "/scan", SCAN, ("/robot_navigator", "/safety_monitor", "/telemetry_publisher")),
@@ -82,8 +87,18 @@ LINKS: tuple[tuple[str, str, str, tuple[str, ...]], ...] = (
     ("/telemetry_publisher", "/telemetry/speed", FLOAT, ()),
     ("/telemetry_publisher", "/telemetry/nearest_obstacle", FLOAT, ()),
 )
-TOOLS = (Endpoint("/parameter_events", ("rcl_interfaces/msg/ParameterEvent",)), Endpoint("/rosout", ("rcl_interfaces/msg/Log",)))
-NODES = ("/motion_controller", "/robot_navigator", "/safety_monitor", "/sensor_handler", "/simulator", "/telemetry_publisher")
+TOOLS = (
+    Endpoint("/parameter_events", ("rcl_interfaces/msg/ParameterEvent",)),
+    Endpoint("/rosout", ("rcl_interfaces/msg/Log",)),
+)
+NODES = (
+    "/motion_controller",
+    "/robot_navigator",
+    "/safety_monitor",
+    "/sensor_handler",
+    "/simulator",
+    "/telemetry_publisher",
+)
 
 
 def graph() -> GraphInfo:
@@ -128,7 +143,9 @@ def launched() -> LaunchInfo:
     processes[3] = replace(processes[3], state=ProcessState.CRASHED, pid=None, exit_code=1, restarts=2,
                            problem="ended with exit code 1; its last lines are in the log")  # fmt: skip
     inside = (*top, "simulation")
-    processes.insert(0, ProcessInfo("simulator@9", "simulator-6", ProcessState.RUNNING, 4109, ("/simulator",), inside, cpu=0.12))
+    processes.insert(
+        0, ProcessInfo("simulator@9", "simulator-6", ProcessState.RUNNING, 4109, ("/simulator",), inside, cpu=0.12)
+    )
     texts = ("launch robot_system.launch.py", "simulator-6 started, pid 4109", "robot_navigator-5 started, pid 4104",
              "telemetry_publisher-4 ended, exit code 1")  # fmt: skip
     events = tuple(LaunchEvent(at, START + at * 10**9, text, Severity.ERROR if "ended" in text else Severity.INFO)
@@ -141,8 +158,14 @@ def profiles() -> tuple[Profile, ...]:
     values = MappingProxyType({("/robot_navigator", "max_speed"): 2.0})
     return (
         Profile("indoor", "/opt/profiles/indoor.yaml", "Indoor: low speed, high safety.", values, "indoor"),
-        Profile("competition", "/opt/profiles/competition.yaml", "Competition: fast, little margin.", values, "competition"),
-        Profile("broken", "/opt/profiles/broken.yaml", problem="'ros_parameters' should be 'ros__parameters', with two underscores"),
+        Profile(
+            "competition", "/opt/profiles/competition.yaml", "Competition: fast, little margin.", values, "competition"
+        ),
+        Profile(
+            "broken",
+            "/opt/profiles/broken.yaml",
+            problem="'ros_parameters' should be 'ros__parameters', with two underscores",
+        ),
     )
 
 
@@ -197,7 +220,11 @@ def live(parts: tuple[str, ...] = ()) -> tuple[FakeConsole, FakeLauncher]:
     )
     for number, (severity, node, text) in enumerate(lines):
         console.say(severity, node, text, START + number * 250_000_000)
-    files = ("/opt/launch/robot_system.launch.py", "/opt/launch/single_robot.launch.py", "/opt/launch/multi_node_system.launch.py")
+    files = (
+        "/opt/launch/robot_system.launch.py",
+        "/opt/launch/single_robot.launch.py",
+        "/opt/launch/multi_node_system.launch.py",
+    )
     return console, FakeLauncher(arguments(), files)
 
 
@@ -226,8 +253,10 @@ def faulty() -> tuple[FakeConsole, FakeLauncher]:
 
 def hostile() -> tuple[FakeConsole, FakeLauncher]:
     """Every text that can come from outside carries control characters, markup and marks that turn text around."""
-    console, launcher = live()
-    evil = ParameterTree(f"/{BELL}", (ParameterInfo(f"/{BELL}", BELL, Kind.STRING, BELL, BELL, constraints=BELL),), BELL)
+    console, _ = live()
+    evil = ParameterTree(
+        f"/{BELL}", (ParameterInfo(f"/{BELL}", BELL, Kind.STRING, BELL, BELL, constraints=BELL),), BELL
+    )
     node = NodeInfo(f"/{BELL}", (Endpoint(f"/out{BELL}", (BELL,), BELL),), (Endpoint(f"/in{BELL}", (BELL,)),))
     process = ProcessInfo("k", BELL, ProcessState.CRASHED, None, (BELL,), (BELL,), problem=BELL)
     console.say(Severity.FATAL, BELL, BELL)

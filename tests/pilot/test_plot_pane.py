@@ -8,7 +8,7 @@ from pathlib import Path
 
 from bot_console.tui.panes.plot import PlotPane
 from piloting import Session, run
-from samples import LIMIT, NEAREST, SPEED, empty, live
+from samples import LIMIT, NEAREST, SPEED, empty, faulty, live
 
 
 def plot(session: Session) -> PlotPane:
@@ -69,7 +69,7 @@ def test_pausing_holds_the_picture_and_counts_what_comes() -> None:
         await session.press("4", "space")
         before = session.lines()[2:14]
         times, values = session.console.series[SPEED]
-        times += [60.0 + at / 10 for at in range(50)]
+        times += [61.0 + at / 10 for at in range(50)]
         values += [2.0] * 50
         plot(session).tick()
         await session.settle()
@@ -94,25 +94,28 @@ def test_the_window_grows_and_shrinks_and_limits_can_be_given() -> None:
         await session.press("backspace", "backspace", "backspace")
         await session.type("0 4")
         await session.press("enter")
-        assert "y 0 .. 4" in session.text() and "4.0" in session.text()
+        assert "y 0 .. 4" in session.text() and " 4 ┤" in session.text()
 
     run(live(), play, (100, 30))
 
 
 def test_values_that_are_no_numbers_leave_a_gap_and_are_counted() -> None:
+    system = live()
+    system[0].series[SPEED][1][400:600] = [math.nan] * 100 + [math.inf] * 50 + [-math.inf] * 50
+
     async def play(session: Session) -> None:
-        times, values = session.console.series[SPEED]
-        values[300:500] = [math.nan] * 100 + [math.inf] * 50 + [-math.inf] * 50
         await session.press("4")
         assert "200 not finite" in session.text()
-        values[:] = [math.nan] * len(values)
-        session.console.series[SPEED] = (times, values)
-        plot(session)._timeline.curves[0].values[:] = math.nan
-        plot(session).tick(force=True)
-        await session.settle()
+
+    run(system, play, (120, 40))
+
+
+def test_a_curve_without_any_number_says_so() -> None:
+    async def play(session: Session) -> None:
+        await session.press("4")
         assert "no numbers in this window" in session.text()
 
-    run(live(), play, (120, 40))
+    run(faulty(), play, (120, 40))
 
 
 def test_strips_show_one_trace_below_each_name() -> None:

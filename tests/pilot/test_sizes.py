@@ -8,7 +8,19 @@ from piloting import Session, run
 from samples import empty, faulty, live
 from textual.scroll_view import ScrollView
 
-SIZES = [(60, 20), (61, 29), (79, 23), (80, 24), (99, 30), (100, 30), (120, 40), (169, 44), (170, 45), (200, 60), (250, 80)]
+SIZES = [
+    (60, 20),
+    (61, 29),
+    (79, 23),
+    (80, 24),
+    (99, 30),
+    (100, 30),
+    (120, 40),
+    (169, 44),
+    (170, 45),
+    (200, 60),
+    (250, 80),
+]
 
 
 def check(session: Session, size: tuple[int, int]) -> None:
@@ -25,7 +37,9 @@ def check(session: Session, size: tuple[int, int]) -> None:
     assert "Quit" in lines[-1], "the keys are seen"
 
 
-CASES = [(size, live) for size in SIZES] + [(size, other) for size in (SIZES[0], (120, 40), SIZES[-1]) for other in (empty, faulty)]
+CASES = [(size, live) for size in SIZES] + [
+    (size, other) for size in (SIZES[0], (120, 40), SIZES[-1]) for other in (empty, faulty)
+]
 
 
 @pytest.mark.parametrize(("size", "system"), CASES, ids=[f"{w}x{h}-{system.__name__}" for (w, h), system in CASES])

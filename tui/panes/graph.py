@@ -89,7 +89,7 @@ class GraphPane(Pane):
             text = self._problem
         else:
             text = "Nothing matches the filter; escape takes it away." if info.nodes else "No nodes yet ..."
-        self.query_one("#graph-status", Static).update(text)
+        self.query_one("#graph-status", Static).update(harmless(text))
 
     def on_diagram_view_selected(self, event: DiagramView.Selected) -> None:
         """Tell of the item."""

@@ -162,23 +162,23 @@ class ParametersPane(Pane):
         if row is None:
             if self._filter or self._view.only_changed:
                 return Text("Nothing matches. Press / to change the filter.", "dim")
-            return Text(self._snapshot.problem or "Waiting for nodes with parameters ...", "dim")
+            return Text(harmless(self._snapshot.problem) or "Waiting for nodes with parameters ...", "dim")
         parameter = row.parameter
         if parameter is None:
-            return Text(row.problem or f"{row.node}  {row.count} parameters", "dim")
+            return Text(harmless(row.problem or f"{row.node}  {row.count} parameters"), "dim")
         text = Text(no_wrap=False, overflow="fold")
         text.append(harmless(parameter.description) or "(no description)")
         facts = [parameter.kind.word, range_text(parameter.range, parameter.kind), harmless(parameter.constraints)]
         facts.append("read only" if parameter.read_only else "")
-        facts.append(f"default {value_text(parameter.default)}" if parameter.changed else "")
+        facts.append(f"default {harmless(value_text(parameter.default))}" if parameter.changed else "")
         facts.append(harmless(parameter.origin))
         text.append("\n" + " · ".join(each for each in facts if each), "dim")
         refused = self._list.refused.get((parameter.node, parameter.name))
         if refused:
             who = {"descriptor": "by its descriptor", "callback": "by the node", "node": "", "console": "here"}
             by = who.get(refused.refused_by, "")
-            text.append(f"\n✗ {value_text(refused.value)} refused {by}: {harmless(refused.reason)}", "bold")
-        text.append("\n" + command_of(parameter, parameter.value), "dim italic")
+            text.append(f"\n✗ {harmless(value_text(refused.value))} refused {by}: {harmless(refused.reason)}", "bold")
+        text.append("\n" + harmless(command_of(parameter, parameter.value)), "dim italic")
         return text
 
     # Changing -----------------------------------------------------------------------------------------------------
@@ -200,7 +200,7 @@ class ParametersPane(Pane):
         else:
             limits = range_text(parameter.range, parameter.kind)
             label = f"{parameter.name} ({', '.join(each for each in (parameter.kind.word, limits) if each)})"
-            text = "" if parameter.value is None else value_text(parameter.value)
+            text = _field_text(parameter)
             self.query_one(Prompt).open("edit", label, text, partial(_wrong, parameter))
 
     def _set(self, parameter: ParameterInfo, value: Value, source: ChangeSource = ChangeSource.EDIT) -> None:
@@ -277,7 +277,12 @@ class ParametersPane(Pane):
             answer = self.console.save_parameters(event.text)
             self.notify(answer.text, severity="information" if answer.ok else "error", markup=False)
         elif event.text is not None and event.purpose == "edit" and parameter is not None:
-            self._set(parameter, parse_value(event.text, parameter))
+            self._set_text(parameter, event.text)
+
+    def _set_text(self, parameter: ParameterInfo, text: str) -> None:
+        # A text with control characters is shown without them; left as it is, it stays what it was.
+        if text != _field_text(parameter):
+            self._set(parameter, parse_value(text, parameter))
 
     def _apply_filter(self, text: str) -> None:
         self._filter = text
@@ -334,6 +339,10 @@ class ParametersPane(Pane):
     def on_resize(self) -> None:
         """Fewer lines of detail where there is little room."""
         self.set_class(self.size.height < SHORT, "short")
+
+
+def _field_text(parameter: ParameterInfo) -> str:
+    return "" if parameter.value is None else harmless(value_text(parameter.value))
 
 
 def _wrong(parameter: ParameterInfo, text: str) -> str:

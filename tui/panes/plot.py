@@ -139,7 +139,7 @@ class PlotPane(Pane):
     def action_add(self) -> None:
         """Ask for a path."""
         prompt = self.query_one(Prompt)
-        prompt.open("add", "plot", "/", suggestions=self.console.plottable())
+        prompt.open("add", "plot", "/", suggestions=[each for each in self.console.plottable() if each.isprintable()])
 
     def add(self, path: str) -> None:
         """Plot a path, or say why not."""

@@ -85,9 +85,11 @@ class Timeline:
         """The window; it moves in whole dots, so that traces do not shimmer."""
         from bot_console.tui.panes.plot_view import Axes
 
-        end = self.paused_at if self.paused_at is not None else self.newest()
         dot = self.window / max(1, across * 2)
-        end = math.ceil(end / dot - 1e-6) * dot
+        if self.paused_at is not None:
+            end = math.floor(self.paused_at / dot) * dot
+        else:
+            end = math.ceil(self.newest() / dot - 1e-6) * dot
         return Axes(end - self.window, end, self.limits)
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
+from bot_console.tui.format import harmless
 from bot_console.tui.panes.plot_curves import Curve, Reach, reach
 from bot_console.tui.widgets.braille import BrailleCanvas, layered
 from bot_console.tui.widgets.picture import Line
@@ -153,11 +154,12 @@ def legend(curve: Curve, axes: Axes, width: int, chosen: bool) -> Line:
     """Name, newest value, and least, greatest and mean value of what is seen."""
     start, style = ("▸ " if chosen else "  "), _style(curve)
     latest = "" if curve.latest is None else short_number(curve.latest)
-    facts = "  " + (curve.problem or (_facts(curve, axes) if width >= 60 else ""))
+    facts = "  " + (harmless(curve.problem) or (_facts(curve, axes) if width >= 60 else ""))
     if curve.latest is None and not curve.problem:
         facts = "  waiting for the first sample"
     room = max(8, width - len(start) - 2 - 9 - len(facts))
-    name = curve.path if len(curve.path) <= room else "…" + curve.path[-room + 1 :]
+    path = harmless(curve.path)
+    name = path if len(path) <= room else "…" + path[-room + 1 :]
     return ((start, "strong"), ("━ " + name.ljust(min(room, 48)), style), (f"{latest:>8} ", "strong"), (facts, "dim"))
 
 

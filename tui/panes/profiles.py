@@ -9,7 +9,7 @@ from typing import Any
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, Profile, ProfileDifference, SetOutcome
 from bot_console.tui.console.protocol import Answer
-from bot_console.tui.format import counted
+from bot_console.tui.format import counted, harmless
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.profile_rows import DifferenceRows, ProfileRows, entries, turns_safety_off
 from bot_console.tui.screens.confirm import ConfirmScreen
@@ -68,8 +68,8 @@ class ProfilesPane(Pane):
         if profile is not None and not self._outcomes:
             self._differences = () if profile.problem else self.console.profile_differences(profile.name)
         self.query_one(DifferenceRows).show(entries(self._differences, self._outcomes))
-        self.query_one("#profile-head", Static).update(self._head(profile))
-        self.query_one("#profile-status", Static).update(self._told or self._summary(profile))
+        self.query_one("#profile-head", Static).update(harmless(self._head(profile)))
+        self.query_one("#profile-status", Static).update(harmless(self._told or self._summary(profile)))
 
     def _head(self, profile: Profile | None) -> str:
         if profile is None:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, WorldInfo
+from bot_console.tui.format import harmless
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.widgets.picture import Picture
 from textual.app import ComposeResult
@@ -95,7 +96,7 @@ class WorldPane(Pane):
             near = "free" if world.nearest is None else f"{world.nearest:.1f} m"
             where = f"x {pose.x:6.1f}  y {pose.y:6.1f}" if pose else "pose unknown"
             text = f"{where}  {world.speed:+.1f} m/s  nearest {near}  {self.query_one(WorldMap).scale}"
-        self.query_one("#world-facts", Static).update(text)
+        self.query_one("#world-facts", Static).update(harmless(text))
 
     def action_zoom_map(self, step: int) -> None:
         """Nearer, or farther."""

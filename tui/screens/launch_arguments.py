@@ -56,7 +56,7 @@ class ArgumentsScreen(ModalScreen["dict[str, str] | None"]):
                     with Vertical(classes="argument"):
                         yield Static(harmless(each.name), classes="name", markup=False)
                         suggester = SuggestFromList(each.choices) if each.choices else None
-                        yield Input(each.default or "", suggester=suggester, select_on_focus=True)
+                        yield Input(harmless(each.default or ""), suggester=suggester, select_on_focus=True)
                         yield Static(self._about(each), classes="about", markup=False)
             yield Static("", id="wrong", markup=False)
 
@@ -105,7 +105,13 @@ class ArgumentsScreen(ModalScreen["dict[str, str] | None"]):
         if wrong:
             self.query_one("#wrong", Static).update(harmless("; ".join(wrong)))
             return
-        self.dismiss({each.name: values[each.name] for each in self._arguments if values[each.name] != each.default})
+        self.dismiss(
+            {
+                each.name: values[each.name]
+                for each in self._arguments
+                if values[each.name] != harmless(each.default or "")
+            }
+        )
 
     def action_give_up(self) -> None:
         """Launch nothing."""

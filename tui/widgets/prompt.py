@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+from bot_console.tui.format import harmless
 from textual.app import ComposeResult
 from textual.containers import Horizontal
 from textual.message import Message
@@ -64,7 +65,7 @@ class Prompt(Horizontal):
         """
         self._purpose = purpose
         self._check = check or (lambda text: "")
-        self.query_one("#prompt-label", Label).update(label)
+        self.query_one("#prompt-label", Label).update(harmless(label))
         field = self.query_one("#prompt-input", Input)
         field.suggester = SuggestFromList(suggestions, case_sensitive=False) if suggestions else None
         field.select_on_focus = not suggestions
@@ -81,7 +82,7 @@ class Prompt(Horizontal):
 
     def _complain(self, text: str) -> str:
         wrong = self._check(text)
-        self.query_one("#prompt-wrong", Label).update(wrong)
+        self.query_one("#prompt-wrong", Label).update(harmless(wrong))
         return wrong
 
     def on_input_changed(self, event: Input.Changed) -> None:

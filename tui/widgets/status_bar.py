@@ -32,7 +32,7 @@ class StatusBar(Static):
 def status_text(snapshot: ConsoleSnapshot, held_back: int = 0) -> str:
     """The line."""
     if snapshot.problem:
-        return snapshot.problem
+        return harmless(snapshot.problem)
     parts = ["ALL STOP (! releases)"] if snapshot.drive.stopped else []
     dead = [each.label for each in snapshot.launch.processes if each.state is ProcessState.CRASHED]
     if dead:

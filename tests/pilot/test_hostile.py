@@ -1,0 +1,76 @@
+"""Texts from outside never act on the terminal, whichever pane shows them."""
+
+from __future__ import annotations
+
+import unicodedata
+
+import pytest
+from bot_console.tui.pane_table import PANES
+from piloting import Session, run
+from samples import BELL, empty, hostile
+
+
+def harmful(text: str) -> list[str]:
+    return [f"U+{ord(each):04X}" for each in text if unicodedata.category(each) in ("Cc", "Cf", "Co", "Cn", "Cs")]
+
+
+KEYS = {
+    "graph": ["down", "right", "enter"],
+    "launch": ["down", "enter"],
+    "logs": ["enter"],
+    "parameters": ["end", *["down"] * 16, "enter"],
+    "plot": ["a"],
+    "profiles": ["enter"],
+}
+
+
+@pytest.mark.parametrize("entry", PANES, ids=[each.id for each in PANES])
+def test_no_control_character_reaches_the_screen(entry) -> None:
+    async def play(session: Session) -> None:
+        await session.press("0")
+        assert harmful(session.text().replace("\n", "")) == []
+        await session.press(entry.digit)
+        for key in ("", *KEYS.get(entry.id, [])):
+            await session.press(*([key] if key else []))
+            for line in session.lines():
+                assert harmful(line) == [], (key, line)
+
+    run(hostile(), play, (120, 40))
+
+
+def test_a_hostile_problem_is_harmless_in_every_pane() -> None:
+    system = empty()
+    system[0].change(problem=BELL)
+
+    async def play(session: Session) -> None:
+        for entry in PANES:
+            await session.press(entry.digit)
+            for line in session.lines():
+                assert harmful(line) == [], (entry.id, line)
+
+    run(system, play, (120, 40))
+
+
+def test_markup_is_shown_as_it_is_written() -> None:
+    async def play(session: Session) -> None:
+        await session.press("2")
+        assert "evil[red]" in session.text()
+        await session.press("8")
+        assert "evil[red]" in session.text()
+        await session.press("enter", "down", "enter")
+        assert "evil[red]" in session.text()
+
+    run(hostile(), play, (120, 40))
+
+
+def test_the_arguments_form_and_the_picker_show_harmless_text() -> None:
+    async def play(session: Session) -> None:
+        await session.press("8", "o")
+        assert harmful(session.text().replace("\n", "")) == []
+        await session.press("enter")
+        await session.app.workers.wait_for_complete()
+        await session.settle()
+        # The value of a field is the person's own text, and Textual shows it cell by cell.
+        assert "evil[red]" in session.text()
+
+    run(hostile(), play, (120, 40))

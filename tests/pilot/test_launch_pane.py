@@ -1,0 +1,181 @@
+"""Launch: the tree, one process or a group steered, another launch file opened with its arguments."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from bot_console.tui.console.model import LaunchInfo, ProcessState
+from bot_console.tui.panes.launch import LaunchPane
+from bot_console.tui.panes.launch_rows import ProcessRows
+from bot_console.tui.screens.confirm import ConfirmScreen
+from bot_console.tui.screens.launch_arguments import ArgumentsScreen
+from bot_console.tui.screens.launch_picker import PickerScreen
+from piloting import Session, run
+from samples import arguments, empty, faulty, launched, live
+from textual.widgets import Input
+
+
+async def until(session: Session, kind: type) -> None:
+    """Wait until a screen of that class is there; reading a launch file happens in a thread."""
+    for _ in range(200):
+        if isinstance(session.app.screen, kind):
+            return
+        await session.app.workers.wait_for_complete()
+        await session.pilot.pause()
+    raise AssertionError(f"no {kind.__name__}")
+
+
+def test_processes_stand_as_a_tree_with_their_state() -> None:
+    async def play(session: Session) -> None:
+        await session.press("8")
+        text = session.text()
+        assert "robot_system.launch.py  5 of 6 running" in text
+        assert "✗ telemetry_publisher-4" in text and "exit 1" in text and "↻2" in text
+        assert "4104" in text and "12% CPU" in text
+        assert "telemetry_publisher-4 ended, exit code 1" in text
+
+    run(live(), play, (120, 40))
+
+
+def test_one_process_is_started_stopped_and_restarted_and_killing_is_asked_about() -> None:
+    async def play(session: Session) -> None:
+        await session.press("8", "down", "x", "r", "s")
+        key = "sensor_handler@0"
+        assert session.launcher.asked == [("stop", key), ("restart", key), ("start", key)]
+        await session.press("K")
+        assert isinstance(session.app.screen, ConfirmScreen)
+        await session.press("n", "K", "y")
+        assert session.launcher.asked[3:] == [("kill", key)]
+
+    run(live(), play)
+
+
+def test_on_a_group_the_keys_mean_all_of_it() -> None:
+    async def play(session: Session) -> None:
+        await session.press("8", "x")
+        assert "Stop 5 processes?" in session.text()
+        await session.press("y")
+        assert len(session.launcher.asked) == 5
+        assert ("stop", "telemetry_publisher@3") not in session.launcher.asked
+
+    run(live(), play)
+
+
+def test_groups_fold_and_the_cursor_stays_on_its_process() -> None:
+    async def play(session: Session) -> None:
+        await session.press("8", "left")
+        assert "sensor_handler-1" not in session.text()
+        await session.press("right", "down", "down")
+        rows = session.pane(LaunchPane).query_one(ProcessRows)
+        label = rows.current.process.label
+        info = launched()
+        extra = replace(info.processes[0], key="new", label="new-9", group=("a.launch.py",))
+        session.console.change(launch=replace(info, processes=(extra, *info.processes)))
+        await session.settle()
+        assert rows.current.process.label == label
+
+    run(live(), play)
+
+
+def test_details_and_timeline() -> None:
+    async def play(session: Session) -> None:
+        await session.press("8", *["down"] * 4, "enter")
+        text = session.text()
+        assert "crashed, last exit code 1" in text and "/telemetry_publisher" in text
+        await session.press("escape", "t")
+        assert "simulator-6 started, pid 4109" in session.text()
+
+    run(live(), play, (100, 30))
+
+
+def test_a_launch_file_is_picked_and_its_arguments_are_filled_in() -> None:
+    async def play(session: Session) -> None:
+        await session.press("8", "o")
+        assert isinstance(session.app.screen, PickerScreen)
+        await session.type("single")
+        await session.press("enter")
+        await until(session, ArgumentsScreen)
+        assert isinstance(session.app.focused, Input) and session.app.focused.value == "", "the required one first"
+        await session.press("enter")
+        assert "robot has to be given" in session.text()
+        await session.type("mine")
+        await session.press("down", "pagedown", "enter")
+        assert session.launcher.asked == [
+            ("launch", "/opt/launch/single_robot.launch.py", {"profile": "outdoor", "robot": "mine"})
+        ]
+
+    run(live(), play)
+
+
+def test_a_value_that_is_not_among_the_choices_is_refused() -> None:
+    async def play(session: Session) -> None:
+        session.launcher.declared = arguments()[:1]
+        await session.press("8", "o", "enter")
+        await until(session, ArgumentsScreen)
+        session.app.focused.value = "moon"
+        await session.press("enter")
+        assert "profile must be one of indoor, outdoor, warehouse" in " ".join(session.text().split())
+        await session.press("escape")
+        assert session.launcher.asked == []
+
+    run(live(), play, (100, 30))
+
+
+def test_a_path_may_be_typed_and_a_file_without_arguments_starts_at_once() -> None:
+    async def play(session: Session) -> None:
+        session.launcher.declared = ()
+        await session.press("8", "o")
+        session.app.focused.value = "/elsewhere/x.launch.py"
+        await session.press("enter")
+        await session.app.workers.wait_for_complete()
+        await session.settle()
+        assert session.launcher.asked == [("launch", "/elsewhere/x.launch.py", {})]
+
+    run(live(), play)
+
+
+def test_a_launch_file_that_cannot_be_read_is_shown_and_nothing_else_stops() -> None:
+    async def play(session: Session) -> None:
+        session.launcher.broken = "/opt/launch/robot_system.launch.py, line 3: invalid syntax"
+        await session.press("8", "o", "enter")
+        await session.app.workers.wait_for_complete()
+        await session.settle()
+        assert "line 3: invalid syntax" in session.text()
+        await session.press("escape")
+        assert "sensor_handler-1" in session.text()
+
+    run(live(), play, (100, 30))
+
+
+def test_a_launch_that_failed_is_told_in_the_pane() -> None:
+    async def play(session: Session) -> None:
+        await session.press("8")
+        assert "broken.launch.py, line 12: invalid syntax" in session.text()
+
+    run(faulty(), play, (100, 30))
+
+
+def test_an_empty_pane_says_what_to_do_and_a_process_that_comes_appears() -> None:
+    async def play(session: Session) -> None:
+        await session.press("8", "x", "s", "enter", "left", "right")
+        assert "o opens a launch file" in session.text()
+        session.console.change(launch=launched())
+        await session.settle()
+        assert "sensor_handler-1" in session.text()
+        session.console.change(launch=LaunchInfo())
+        await session.settle()
+        assert "sensor_handler-1" not in session.text()
+
+    run(empty(), play)
+
+
+def test_states_are_told_by_word_and_by_sign() -> None:
+    async def play(session: Session) -> None:
+        info = launched()
+        processes = tuple(replace(each, state=state) for each, state in zip(info.processes, ProcessState, strict=False))
+        session.console.change(launch=replace(info, processes=processes))
+        await session.press("8")
+        for state in ProcessState:
+            assert state.value in session.text()
+
+    run(live(), play)

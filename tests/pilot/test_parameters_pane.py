@@ -1,0 +1,135 @@
+"""Parameters: edited in place, refusals where they were made, undo, filter, save."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import MappingProxyType
+
+from bot_console.tui.panes.parameters import ParameterRows, ParametersPane
+from piloting import Session, run
+from samples import empty, faulty, live
+
+
+def rows(session: Session) -> ParameterRows:
+    return session.pane(ParametersPane).query_one(ParameterRows)
+
+
+async def go_to(session: Session, name: str) -> None:
+    found = rows(session)
+    at = next(index for index, row in enumerate(found.rows) if row.parameter and row.parameter.name == name)
+    await session.press(*["down"] * (at - found.cursor))
+
+
+def asked(session: Session) -> list[tuple[str, dict[str, object]]]:
+    return [each[1:] for each in session.console.asked if each[0] == "set"]
+
+
+def test_a_number_is_edited_and_moved_by_steps() -> None:
+    async def play(session: Session) -> None:
+        await session.press("1")
+        await go_to(session, "max_speed")
+        await session.press("e")
+        await session.type("2")
+        await session.press("enter", "plus", "greater_than_sign", "minus")
+        values = [each[1]["max_speed"] for each in asked(session)]
+        assert values == [2.0, 2.05, 2.55, 2.5]
+        assert "2.5 m/s" in session.text()
+
+    run(live(), play)
+
+
+def test_a_bool_toggles_and_a_text_that_is_no_value_is_explained() -> None:
+    async def play(session: Session) -> None:
+        await session.press("1")
+        await go_to(session, "enable_safety")
+        await session.press("enter")
+        assert asked(session) == [("/robot_navigator", {"enable_safety": False})]
+        await session.press("up", "enter")
+        await session.type("many")
+        await session.press("enter")
+        assert "is no integer" in session.text() and len(asked(session)) == 1
+        await session.press("escape")
+
+    run(live(), play)
+
+
+def test_a_refusal_snaps_back_and_says_who_refused_and_why() -> None:
+    async def play(session: Session) -> None:
+        session.console.refusals["/robot_navigator", "max_speed"] = "too fast for indoors"
+        await session.press("1")
+        await go_to(session, "max_speed")
+        await session.press("e")
+        await session.type("9")
+        await session.press("enter")
+        assert "✗ 9.0" in session.text() and "0.1" in session.text()
+        await session.press("e")
+        await session.type("3")
+        await session.press("enter")
+        text = session.text()
+        assert "✗ 3.0: too fast for indoors" in text and "refused by the node" in text
+        assert "1.0 m/s" in text
+
+    run(live(), play, (100, 30))
+
+
+def test_default_undo_redo_fold_and_filters() -> None:
+    async def play(session: Session) -> None:
+        await session.press("1", "c")
+        assert [row.name for row in rows(session).rows if row.parameter] == ["safety_distance"]
+        await go_to(session, "safety_distance")
+        await session.press("d")
+        assert asked(session)[-1] == ("/robot_navigator", {"safety_distance": 0.5})
+        await session.press("c", "u", "U")
+        assert ("undo",) in session.console.asked and ("redo",) in session.console.asked
+        await session.press("C")
+        assert all(row.parameter is None for row in rows(session).rows)
+        await session.press("C", "slash")
+        await session.type("lidar")
+        assert {row.node for row in rows(session).rows} == {"/simulator"}
+        await session.press("escape")
+        assert len({row.node for row in rows(session).rows}) == 2
+
+    run(live(), play)
+
+
+def test_the_command_is_shown_and_copied_and_values_are_saved() -> None:
+    async def play(session: Session) -> None:
+        await session.press("1")
+        await go_to(session, "max_speed")
+        assert "ros2 param set /robot_navigator max_speed 1.0" in session.text()
+        await session.press("y", "s", "enter")
+        assert ("save", "parameters.yaml") in session.console.asked
+
+    run(live(), play, (100, 30))
+
+
+def test_a_value_changed_elsewhere_is_seen_and_the_cursor_stays() -> None:
+    async def play(session: Session) -> None:
+        await session.press("1")
+        await go_to(session, "turn_rate")
+        trees = dict(session.console.current.parameters)
+        tree = trees["/robot_navigator"]
+        changed = tuple(replace(each, value=2.5) if each.name == "turn_rate" else each for each in tree.parameters)
+        trees["/robot_navigator"] = replace(tree, parameters=changed)
+        session.console.change(parameters=MappingProxyType({"/a": replace(tree, node="/a"), **trees}))
+        await session.settle()
+        assert "2.5 rad/s" in session.text()
+        assert rows(session).current.name == "turn_rate" and rows(session).current.node == "/robot_navigator"
+
+    run(live(), play)
+
+
+def test_a_node_that_does_not_answer_says_so() -> None:
+    async def play(session: Session) -> None:
+        await session.press("1")
+        assert "does not answer on its parameter services" in session.text()
+
+    run(faulty(), play, (120, 40))
+
+
+def test_an_empty_system_waits() -> None:
+    async def play(session: Session) -> None:
+        await session.press("1", "enter", "plus", "d", "p", "y", "left", "right", "C")
+        assert "Waiting for nodes" in session.text()
+
+    run(empty(), play)

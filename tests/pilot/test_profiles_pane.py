@@ -1,0 +1,116 @@
+"""Profiles: differences first, refusals and safety asked about, the world on request."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from bot_console.tui.panes.profiles import ProfilesPane
+from bot_console.tui.screens.confirm import ConfirmScreen
+from piloting import Session, run
+from samples import differences, empty, live
+
+
+def applied(session: Session) -> list[tuple[str, bool]]:
+    return [each[1:] for each in session.console.asked if each[0] == "apply"]
+
+
+def test_the_differences_stand_there_before_anything_is_applied() -> None:
+    async def play(session: Session) -> None:
+        await session.press("7")
+        assert "Nothing to change" in session.text()
+        await session.press("down")
+        text = session.text()
+        assert "max_speed" in text and "1.0 → 3.0" in text
+        assert "would be refused: Parameter turn_rate" in text
+        assert "turns safety off" in text and "needs a world reset" in text
+        assert "4 changes, 1 would be refused" in text
+        assert applied(session) == []
+
+    run(live(), play, (120, 40))
+
+
+def test_a_refusal_or_safety_is_asked_about_and_no_means_no() -> None:
+    async def play(session: Session) -> None:
+        await session.press("7", "down", "a")
+        assert isinstance(session.app.screen, ConfirmScreen)
+        assert "turns safety off" in session.text()
+        await session.press("n")
+        assert applied(session) == []
+        await session.press("a", "y")
+        assert applied(session) == [("competition", False)]
+        assert "3 taken, 1 refused" in session.text()
+        assert "✗ Parameter turn_rate must be" in session.text()
+
+    run(live(), play, (120, 40))
+
+
+def test_a_harmless_profile_is_applied_at_once_with_or_without_its_world() -> None:
+    system = live()
+    system[0].differences["competition"] = differences()[:1]
+
+    async def play(session: Session) -> None:
+        await session.press("7", "down", "a")
+        assert applied(session) == [("competition", False)]
+        assert "✓ taken" in session.text() and "● competition" in session.text()
+        await session.press("w")
+        assert applied(session)[-1] == ("competition", True)
+        assert "simulator was reset" in session.text()
+
+    run(system, play, (120, 40))
+
+
+def test_a_profile_that_cannot_be_read_says_how_to_mend_it() -> None:
+    async def play(session: Session) -> None:
+        await session.press("7", "down", "down", "a", "w")
+        assert "two underscores" in session.text()
+        assert applied(session) == []
+
+    run(live(), play, (120, 40))
+
+
+def test_an_error_while_applying_is_shown_where_it_was_made() -> None:
+    async def play(session: Session) -> None:
+        from concurrent.futures import Future
+
+        failed: Future[tuple[object, ...]] = Future()
+        failed.set_exception(RuntimeError("the node /robot_navigator does not answer"))
+        session.console.differences["competition"] = differences()[:1]
+        session.console.apply_profile = lambda name, reset_world=False: failed  # type: ignore[assignment]
+        await session.press("7", "down", "a")
+        assert "was not applied: the node /robot_navigator does not answer" in session.text()
+
+    run(live(), play, (120, 40))
+
+
+def test_a_changed_parameter_changes_the_differences() -> None:
+    async def play(session: Session) -> None:
+        await session.press("7", "down")
+        session.console.differences["competition"] = differences()[1:]
+        session.console.change(parameters=dict(session.console.current.parameters))
+        await session.settle()
+        assert "3 changes" in session.text()
+        assert session.pane(ProfilesPane).has_focus_within
+
+    run(live(), play, (120, 40))
+
+
+def test_without_profiles_it_says_so() -> None:
+    async def play(session: Session) -> None:
+        await session.press("7", "a", "w", "down", "r", "u")
+        assert "No profiles" in session.text()
+
+    run(empty(), play)
+
+
+def test_many_differences_scroll() -> None:
+    system = live()
+    many = tuple(replace(differences()[0], name=f"parameter_{at}") for at in range(60))
+    system[0].differences["competition"] = many
+
+    async def play(session: Session) -> None:
+        await session.press("7", "down")
+        assert "parameter_59" not in session.text()
+        await session.press(*["right"] * 12)
+        assert "parameter_59" in session.text() or "parameter_9" in session.text()
+
+    run(system, play)
