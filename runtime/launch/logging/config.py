@@ -14,7 +14,7 @@ SCREEN_FORMAT = "OVERRIDE_LAUNCH_SCREEN_FORMAT"
 LOG_FORMAT = "OVERRIDE_LAUNCH_LOG_FORMAT"
 
 
-class ScreenHandler(logging.StreamHandler[Any]):
+class ScreenHandler(logging.StreamHandler):
     """Writes to whatever `sys.stdout` is at that moment."""
 
     def __init__(self) -> None:
