@@ -17,7 +17,7 @@ from bot_console.runtime.rmw.bus import (
     ServiceEndpoint,
     SubscriptionEndpoint,
 )
-from bot_console.runtime.rmw.qos_matching import incompatible_policy
+from bot_console.runtime.rmw.qos_matching import LATCHING, incompatible_policy, wants_history
 
 _gids = itertools.count(1)
 
@@ -40,7 +40,7 @@ class LocalPublisher:
         self._number = 0
         self._now = current().clock.system_ns
         self._lifespan = endpoint.qos.lifespan.nanoseconds
-        keeps = endpoint.qos.durability.name == "TRANSIENT_LOCAL"
+        keeps = endpoint.qos.durability.name in LATCHING
         self.history: deque[Any] | None = deque(maxlen=_depth(endpoint.qos)) if keeps else None
 
     def publish(self, message: Any) -> None:
@@ -170,10 +170,12 @@ class LocalBus:
         with self._lock:
             self._own(endpoint.node, subscription)
             self._subscriptions.setdefault(endpoint.topic, []).append(subscription)
-            for publisher in self._publishers.get(endpoint.topic, ()):
+            publishers = self._publishers.get(endpoint.topic, ())
+            late = wants_history(endpoint.qos, [each.endpoint.qos for each in publishers])
+            for publisher in publishers:
                 if self._match(publisher, subscription):
                     publisher.targets = (*publisher.targets, subscription)
-                    if publisher.history and endpoint.qos.durability.name == "TRANSIENT_LOCAL":
+                    if late and publisher.history:
                         publisher.late(subscription)
         self._changed()
 

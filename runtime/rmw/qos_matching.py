@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
-INFINITE = 0
-"""A duration of zero stands for no limit."""
+INFINITE = (0, 2**63 - 2, 2**63 - 1)
+"""Durations that stand for no limit: not given, "best available", infinite."""
+LATCHING = ("TRANSIENT_LOCAL", "BEST_AVAILABLE")
+"""Durabilities with which a publisher keeps messages for subscriptions that come late."""
 
 
 def incompatible_policy(offered: Any, requested: Any) -> str:
@@ -26,7 +29,14 @@ def incompatible_policy(offered: Any, requested: Any) -> str:
 
 
 def _shorter(requested: int, offered: int) -> bool:
-    """Whether less is asked for than is offered; zero is for ever."""
-    if requested == INFINITE:
+    """Whether less is asked for than is offered."""
+    if requested in INFINITE:
         return False
-    return offered == INFINITE or offered > requested
+    return offered in INFINITE or offered > requested
+
+
+def wants_history(requested: Any, offers: Sequence[Any]) -> bool:
+    """Whether a subscription gets what came before it; "best available" does where all publishers keep it."""
+    if requested.durability.name == "BEST_AVAILABLE":
+        return all(offer.durability.name in LATCHING for offer in offers)
+    return requested.durability.name == "TRANSIENT_LOCAL"

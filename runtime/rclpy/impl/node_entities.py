@@ -186,7 +186,6 @@ class NodeEntities:
         """Make a timer (s) on a clock, the node's own by default."""
         period = int(float(timer_period_sec) * NANO)
         group = self._group(callback_group)
-        self._use()
         self.context.require_running("timer")
         timer = Timer(callback, group, period, clock or self.get_clock(), context=self.context, autostart=autostart)
         timer._node = self
@@ -196,7 +195,6 @@ class NodeEntities:
     def create_guard_condition(self, callback: Callable[[], Any] | None, callback_group: Any = None) -> GuardCondition:
         """Make a guard condition."""
         group = self._group(callback_group)
-        self._use()
         self.context.require_running("guard_condition")
         guard = GuardCondition(callback, group, context=self.context)
         self._enter(guard, group)
