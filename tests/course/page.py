@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import shlex
 import shutil
@@ -38,7 +39,7 @@ setup(
 )
 """
 DATA_FILES_ROW = 81
-LOG = re.compile(r"^\[(\w+)\] \[\d{10}\.\d{9}\] \[([^\]]+)\]: (.*)$")
+LOG = re.compile(r"^(?:\[\w+-\d+\] )?\[(\w+)\] \[\d{10}\.\d{9}\] \[([^\]]+)\]: (.*)$")
 STATED = re.compile(r"^\[(\w+)\] (?:\[([^\]]+)\]: )?(.*)$")
 
 
@@ -51,8 +52,9 @@ class Said(NamedTuple):
 
 
 def logs(program: Program) -> list[Said]:
-    """What a program has logged, in the form that real ROS 2 gives it."""
-    return [Said(*match.groups()) for line in program.stderr.splitlines() if (match := LOG.match(line))]
+    """What a program, or the nodes of a launch, have logged, in the form that real ROS 2 gives it (N2)."""
+    lines = "".join(text for _, text in program.output).splitlines()
+    return [Said(*match.groups()) for line in lines if (match := LOG.match(line))]
 
 
 def stated(text: str) -> Said:
@@ -125,6 +127,10 @@ class Page:
         """What `ros2 param get --hide-type` prints."""
         return self.ask(f"ros2 param get {node} {parameter} --hide-type").stdout.strip()
 
+    def work_in(self, folder: str) -> None:
+        """`cd`, for the rest of the test."""
+        os.chdir(folder)
+
     def _start(self, command: str) -> Program:
         words = shlex.split(command)
         assert words[0] == "ros2", command
@@ -143,15 +149,32 @@ def page(folder: Path, scratch: Path, *, own: bool = False) -> Iterator[Page]:
         discover.use(before)
 
 
-def make_workspace(folder: Path) -> Path:
-    """`src/my_package` and `src/intelligent_robot` with the page's files as they are."""
+STAND_IN = """import rclpy
+
+def main():
+    rclpy.init()
+    rclpy.spin(rclpy.create_node('stand_in', automatically_declare_parameters_from_overrides=True))
+"""
+NOT_PRINTED = {
+    "my_package": ("sensor_processor", "controller", "path_planner", "motion_controller"),
+    "intelligent_robot": ("sensor_node", "safety_node", "telemetry_node"),
+}
+
+
+def make_workspace(folder: Path, *, complete: bool = False) -> Path:
+    """`src/my_package`, `src/intelligent_robot` with the page's files as they are; `complete` adds stand-ins (N8)."""
     _package(folder / "src" / "my_package", sorted((COURSE / "nodes").glob("*.py")))
-    scripts = ", ".join(f"'{each.stem} = my_package.{each.stem}:main'" for each in (COURSE / "nodes").glob("*.py"))
+    names = sorted(each.stem for each in (COURSE / "nodes").glob("*.py"))
+    names += NOT_PRINTED["my_package"] if complete else ()
+    scripts = ", ".join(f"'{each} = my_package.{each}:main'" for each in names)
     setup = SETUP.format(data_files=rows()[DATA_FILES_ROW].quoted[0], scripts=scripts)
     (folder / "src" / "my_package" / "setup.py").write_text(setup, "utf-8")
     robot = folder / "src" / "intelligent_robot"
     _package(robot, sorted((COURSE / "nodes" / "intelligent_robot").glob("*.py")))
     shutil.copy(COURSE / "setup.py.txt", robot / "setup.py")
+    for package, modules in NOT_PRINTED.items() if complete else ():
+        for each in modules:
+            (folder / "src" / package / package / f"{each}.py").write_text(STAND_IN, "utf-8")
     return folder
 
 

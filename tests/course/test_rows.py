@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from course.page import make_workspace, page
 from course.rows import Row, rows
-from course.table import CHECKS, OWN, reason
+from course.table import CHECKS, COMPLETE, OWN, reason
 
 for _module in sorted(Path(__file__).parent.glob("checks_*.py")):
     importlib.import_module(f"course.{_module.stem}")
@@ -17,17 +17,24 @@ for _module in sorted(Path(__file__).parent.glob("checks_*.py")):
 
 @pytest.fixture(scope="module")
 def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The page's workspace; nobody writes into it."""
-    return make_workspace(tmp_path_factory.mktemp("ros2_ws"))
+    """The page's workspace as printed; nobody writes into it."""
+    return make_workspace(tmp_path_factory.mktemp("printed"))
+
+
+@pytest.fixture(scope="module")
+def complete(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The page's workspace with stand-ins for what it does not print."""
+    return make_workspace(tmp_path_factory.mktemp("complete"), complete=True)
 
 
 @pytest.mark.parametrize("row", rows().values(), ids=str)
-def test_row(row: Row, workspace: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_row(row: Row, workspace: Path, complete: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     check = CHECKS.get(row.number)
     if check is None:
         pytest.skip(reason(row.number))
     monkeypatch.chdir(workspace / "src" / "my_package")
-    with page(workspace, tmp_path, own=row.number in OWN) as running:
+    monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
+    with page(complete if row.number in COMPLETE else workspace, tmp_path, own=row.number in OWN) as running:
         check(running, row)
 
 

@@ -6,14 +6,15 @@ import itertools
 import os
 import re
 import shlex
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
+from bot_console.runtime.process import ProcessLocal
 from launch.substitution import Substitution
 from launch.substitutions.launch_configuration import LaunchConfiguration
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
-_numbers = itertools.count(1)
+_numbers: ProcessLocal[Iterator[int]] = ProcessLocal(lambda: itertools.count(1))
 
 
 class Executable:
@@ -111,7 +112,7 @@ class Executable:
         self.__final_cmd = [*self.__words_of_prefix, *cmd]
         first = os.path.basename(self.__final_cmd[0])
         name = first if self.__name is None else perform_substitutions(context, self.__name)
-        self.__final_name = f"{name}-{next(_numbers)}"
+        self.__final_name = f"{name}-{next(_numbers.get())}"
         self.__final_cwd = None if self.__cwd is None else perform_substitutions(context, self.__cwd)
         self.__final_env = self._environment(context)
 

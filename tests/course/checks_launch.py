@@ -1,0 +1,264 @@
+"""Chapter 2 and the project: launch files, their parameters, arguments and remappings."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+import yaml
+from course.page import Page, logs, says, stated
+from course.rows import Row
+from course.table import row
+from systems import Program
+
+PRINTED_NODES = {
+    "navigator": {"speed": "1.5", "robot_name": "Navigator", "enable_safety": "True"},
+    "sensor_handler": {"rate": "10.0", "threshold": "100"},
+    "motion_controller": {},
+}
+
+
+def launched(page: Page, command: str) -> Program:
+    """Start a launch; it runs on."""
+    launch = page.start(command, 1.5)
+    assert launch.exit is None, launch.output
+    return launch
+
+
+def nodes(page: Page) -> list[str]:
+    return page.ask("ros2 node list").stdout.split()
+
+
+def has(page: Page, node: str, **values: str) -> None:
+    assert {name: page.value(f"/{node}", name) for name in values} == values
+
+
+@row(64)
+def step_1_loads(page: Page, row: Row) -> None:
+    launch = launched(page, page.row(65).command)
+    assert nodes(page) == ["/my_robot"]
+    assert ("INFO", "my_robot", "Robot initialized with speed: 1.0 m/s") in logs(launch)
+
+
+@row(65, 69, 88, 106)
+def the_command_launches(page: Page, row: Row) -> None:
+    launch = launched(page, row.command)
+    assert re.search(r"\[INFO\] \[\w+-1\]: process started with pid \[\d+\]", launch.stdout)
+    assert page.stop(launch).exit is not None
+
+
+@row(66, 67)
+def the_node_is_listed(page: Page, row: Row) -> None:
+    launched(page, page.row(65).command)
+    assert page.ask(page.row(66).command).stdout == f"{page.row(67).command}\n"
+
+
+@row(60, 68)
+def step_2_gives_parameters(page: Page, row: Row) -> None:
+    launched(page, page.row(69).command)
+    has(page, "explorer_bot", speed="2.0", robot_name="Explorer-1", enable_safety="True")
+
+
+@row(70, 71, 72)
+def step_2_says(page: Page, row: Row) -> None:
+    launch = launched(page, page.row(69).command)
+    assert says(launch, stated(row.command)) == 1
+    assert f"[simple_robot_step2-1] [{stated(row.command).severity}] [" in launch.stdout
+
+
+@row(59, 73, complete=True)
+def step_3_starts_three_nodes(page: Page, row: Row) -> None:
+    launched(page, page.row(74).command)
+    assert nodes(page) == sorted(f"/{each}" for each in PRINTED_NODES)
+    for name, values in PRINTED_NODES.items():
+        has(page, name, **values)
+
+
+def lacks(page: Page, command: str, executable: str) -> None:
+    launch = page.ask(command)
+    assert launch.exit == 1
+    assert f"executable '{executable}' not found" in launch.stdout + launch.stderr
+
+
+@row(74, 85)
+def without_the_executables_that_are_not_printed_it_says_which_is_missing(page: Page, row: Row) -> None:
+    lacks(page, row.command, "sensor_processor")
+
+
+@row(75, 76, 77, 78, complete=True)
+def the_three_nodes_are_listed(page: Page, row: Row) -> None:
+    """In the order of names, not of the page (N9)."""
+    launched(page, page.row(74).command)
+    listed = page.ask(page.row(75).command).stdout.split()
+    assert row.number == 75 or row.command in listed
+    assert listed == sorted(listed)
+
+
+FROM_FILE = {
+    "navigator": {"speed": "2.0", "robot_name": "Navigator-Pro", "enable_safety": "True"},
+    "sensor_handler": {"rate": "20.0", "threshold": "150", "filter_enabled": "True"},
+    "motion_controller": {"kp_linear": "1.0", "kp_angular": "2.0", "max_acceleration": "0.5"},
+}
+
+
+@row(79, 80, complete=True)
+def step_4_gives_the_file_to_all(page: Page, row: Row) -> None:
+    launched(page, page.row(85).command)
+    for name, values in FROM_FILE.items():
+        has(page, name, **values)
+
+
+@row(86)
+def step_5_has_arguments(page: Page, row: Row) -> None:
+    launched(page, page.row(88).command)
+    has(page, "configurable_robot", speed="1.0", robot_name="MyRobot", enable_safety="True")
+
+
+@row(87, 89)
+def arguments_are_overridden(page: Page, row: Row) -> None:
+    launched(page, page.row(89).command)
+    has(page, "configurable_robot", speed="3.0", robot_name="SpeedRacer", enable_safety="False")
+
+
+@row(90, 91, 92, 93, 94)
+def arguments_are_shown(page: Page, row: Row) -> None:
+    """The words are those of real ROS 2, with what the page has lost (N10)."""
+    shown = page.ask(page.row(90).command)
+    assert (shown.exit, shown.stderr) == (0, "")
+    assert shown.stdout.startswith("Arguments (pass arguments as '<name>:=<value>'):\n")
+    if row.number > 91:
+        words = re.split(r": | \(default: ", row.command.rstrip(")"))
+        name, text, default = words[0], words[1], words[2]
+        assert re.search(rf"    {name}:\n        {re.escape(text)}\n        \(default: {default}\)\n", shown.stdout)
+
+
+@row(95)
+def the_basic_file_loads(page: Page, row: Row) -> None:
+    launched(page, "ros2 launch my_package basic_launch.py")
+    has(page, "robot_node", max_speed="2.0", safety_distance="0.5")
+
+
+@row(96, 105, complete=True)
+def the_system_loads(page: Page, row: Row) -> None:
+    """The configuration file is keyed by another name, so the defaults stay (N7)."""
+    launched(page, page.row(105).command)
+    assert nodes(page) == ["/controller", "/planner", "/robot_navigator", "/sensor_handler"]
+    has(page, "robot_navigator", max_speed="1.0")
+    shown = page.ask(f"{page.row(105).command} --show-args").stdout
+    assert "    'use_sim_time':\n        Use simulation clock if true\n        (default: 'false')\n" in shown
+    assert re.search(r"    'config_file':\n        .*\n        \(default: '.*robot_config.yaml'\)\n", shown)
+
+
+@row(61, 97, complete=True)
+def topics_are_remapped(page: Page, row: Row) -> None:
+    launched(page, page.row(105).command)
+    info = page.ask("ros2 node info /robot_navigator").stdout
+    assert "    /robot/scan: sensor_msgs/msg/LaserScan\n" in info
+    assert "    /robot/cmd_vel: geometry_msgs/msg/Twist\n" in info
+    assert " /cmd_vel:" not in info
+
+
+@row(98, complete=True)
+def each_node_gets_its_own(page: Page, row: Row) -> None:
+    launch = launched(page, page.row(105).command)
+    has(page, "sensor_handler", detection_threshold="100", update_rate="10.0")
+    has(page, "planner", algorithm="A*", resolution="0.05")
+    command = next(
+        line for line in page.stop(launch).stdout.splitlines() if "motion_controller-4" in line and "cmd '" in line
+    )
+    assert re.search(r"--params-file \S*robot_config.yaml", command)
+
+
+VALUES = ("max_speed", "safety_distance", "detection_threshold", "enable_safety")
+
+
+@row(99, 100, 101, 102, 103, 104)
+def the_environment_chooses_the_values(page: Page, row: Row) -> None:
+    name = re.match(r"environment (\w+): .* = (.*)", row.text)
+    environment = name[1] if name else "indoor" if row.number == 99 else "moon"
+    stated = name or re.match(r"environment (\w+): .* = (.*)", page.row(100).text)
+    assert stated is not None
+    argument = "" if row.number == 99 else f" environment:={environment}"
+    launched(page, f"ros2 launch my_package multi_environment_launch.py{argument}")
+    has(page, f"robot_{environment}", **dict(zip(VALUES, stated[2].split(", "), strict=True)))
+
+
+@row(107, complete=True)
+def a_file_that_is_not_there_leaves_the_defaults(page: Page, row: Row) -> None:
+    """Real launch warns and starts the nodes (N11)."""
+    launch = launched(page, row.command)
+    assert "Parameter file path is not a file: /path/to/custom_config.yaml" in "".join(
+        each for _, each in launch.output
+    )
+    has(page, "robot_navigator", max_speed="1.0")
+
+
+@row(108)
+def without_a_file_nothing_is_launched(page: Page, row: Row) -> None:
+    """Real ROS 2 lists nothing either (N12); the words are Jazzy's."""
+    answer = page.ask(row.command)
+    assert (answer.exit, answer.stdout) == (1, "")
+    assert "was not found in the share directory of package 'my_package'" in answer.stderr
+
+
+PROJECT = ("robot_navigator", "sensor_handler", "safety_monitor", "telemetry_publisher")
+
+
+def runs_all_four(page: Page, command: str) -> Program:
+    launch = launched(page, command)
+    assert {f"/{each}" for each in PROJECT} <= set(nodes(page))
+    return launch
+
+
+@row(268, complete=True)
+def the_projects_launch_file_gives_all_nodes_the_file(page: Page, row: Row) -> None:
+    runs_all_four(page, page.row(272).command)
+    assert nodes(page) == sorted(f"/{each}" for each in PROJECT)
+    has(page, "robot_navigator", detection_threshold="150", robot_name="IndoorBot")
+    has(page, "safety_monitor", emergency_stop_distance="0.3", warning_distance="0.7")
+
+
+@row(272, 274, 275, 276, 277, 278, 279, own=True)
+def our_system_has_the_projects_nodes(page: Page, row: Row) -> None:
+    runs_all_four(page, page.row(274).command)
+    assert row.number < 276 or row.command in page.ask(page.row(275).command).stdout.split()
+
+
+@row(273, 285, 286, 287, 288, own=True)
+def the_environment_is_switched(page: Page, row: Row) -> None:
+    """The file is looked for where the command runs (N11): beside the share folder's `config`."""
+    page.work_in(page.ask("ros2 pkg prefix --share intelligent_robot").stdout.strip())
+    launch = runs_all_four(page, row.command)
+    assert "is not a file" not in "".join(each for _, each in launch.output)
+    file = row.command.partition(":=")[2]
+    stated = yaml.safe_load(Path(file).read_text("utf-8"))["robot_navigator"]["ros__parameters"]
+    assert page.value("/robot_navigator", "robot_name") == stated["robot_name"]
+
+
+@row(295, 296, 297, 298, 333, 347, own=True)
+def our_launch_file_starts_the_node(page: Page, row: Row) -> None:
+    runs_all_four(page, "ros2 launch intelligent_robot robot_system.launch.py")
+
+
+def profile_values(page: Page, profile: str) -> Sequence[str]:
+    launch = runs_all_four(page, f"ros2 launch intelligent_robot robot_system.launch.py profile:={profile}")
+    found = [
+        page.value(f"/{node}", name)
+        for node, name in (("robot_navigator", "max_speed"), ("safety_monitor", "warning_distance"))
+    ]
+    page.stop(launch)
+    return found
+
+
+@row(299, 334, 335, 336, own=True)
+def the_profile_sets_all_nodes(page: Page, row: Row) -> None:
+    assert profile_values(page, "indoor") != profile_values(page, "competition")
+
+
+@row(321, 322, own=True)
+def the_launch_file_is_there(page: Page, row: Row) -> None:
+    name = re.search(r"[\w.]+\.py", row.text)
+    assert name is not None
+    launched(page, f"ros2 launch intelligent_robot {name[0]}")
+    assert "/robot_navigator" in nodes(page)
