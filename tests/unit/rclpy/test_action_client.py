@@ -117,7 +117,35 @@ def test_two_servers_of_an_action_are_told(ros: Any, capfd: pytest.CaptureFixtur
     assert "Ignoring unexpected goal response" in capfd.readouterr().err
 
 
-def test_done_callbacks_run_in_the_executor(ros: Any) -> None:
+def test_feedback_is_heard_until_the_result(ros: Any) -> None:
+    pair = Pair(ros)
+    seen: list[Any] = []
+    handle = pair.send(feedback_callback=seen.append)
+    pair.result(handle)
+    ros.settle()
+    pair.server._publish_feedback(Fibonacci.Impl.FeedbackMessage(goal_id=handle.goal_id))
+    ros.settle()
+    assert seen == []
+
+
+def test_an_ended_goal_is_followed_no_more(ros: Any) -> None:
+    pair = Pair(ros)
+    handle = pair.send()
+    ros.spin(lambda: handle.status == GoalStatus.STATUS_SUCCEEDED)
+    assert pair.client._goal_handles == {}
+
+
+def test_the_exception_of_a_done_callback_comes_out_of_the_executor(ros: Any) -> None:
+    def broken(future: Any) -> None:
+        raise ValueError("in a done callback")
+
+    pair = Pair(ros)
+    pair.client.send_goal_async(Fibonacci.Goal()).add_done_callback(broken)
+    with pytest.raises(ValueError, match="in a done callback"):
+        ros.settle()
+
+
+def test_done_callbacks_may_ask_on(ros: Any) -> None:
     pair = Pair(ros)
     order: list[str] = []
     pair.client.send_goal_async(Fibonacci.Goal()).add_done_callback(

@@ -64,7 +64,12 @@ def test_asynchronous_callbacks(ros: Any) -> None:
 
 
 def test_a_goal_id_is_accepted_once(ros: Any) -> None:
-    pair = Pair(ros, handle_accepted_callback=lambda handle: None)
+    asked: list[Any] = []
+    pair = Pair(
+        ros,
+        goal_callback=lambda goal: asked.append(goal) or GoalResponse.ACCEPT,
+        handle_accepted_callback=lambda handle: None,
+    )
     number = UUID(uuid=list(range(16)))
     node = ros.node("third")
     from rclpy.action import ActionClient
@@ -72,7 +77,7 @@ def test_a_goal_id_is_accepted_once(ros: Any) -> None:
     other = ActionClient(node, Fibonacci, "fib")
     first = pair.outcome(pair.client.send_goal_async(Fibonacci.Goal(), goal_uuid=number))
     second = pair.outcome(other.send_goal_async(Fibonacci.Goal(), goal_uuid=number))
-    assert (first.accepted, second.accepted) == (True, False)
+    assert (first.accepted, second.accepted, len(asked)) == (True, False, 1)
 
 
 def test_a_deferred_goal_waits_for_execute(ros: Any) -> None:
@@ -220,6 +225,17 @@ def test_a_destroyed_server_is_gone(ros: Any) -> None:
     asked = handle.get_result_async()
     ros.settle()
     assert not asked.done()
+
+
+def test_the_goals_of_a_destroyed_server_are_dead(ros: Any) -> None:
+    kept: list[Any] = []
+    pair = Pair(ros, handle_accepted_callback=kept.append)
+    pair.send()
+    pair.server.destroy()
+    (handle,) = kept
+    handle.publish_feedback(Fibonacci.Feedback())
+    handle.succeed()
+    assert (handle.status, handle.is_active) == (GoalStatus.STATUS_UNKNOWN, False)
 
 
 def test_a_server_is_destroyed_with_its_node(ros: Any) -> None:
