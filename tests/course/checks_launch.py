@@ -262,3 +262,15 @@ def the_launch_file_is_there(page: Page, row: Row) -> None:
     assert name is not None
     launched(page, f"ros2 launch intelligent_robot {name[0]}")
     assert "/robot_navigator" in nodes(page)
+
+
+@row(346, own=True)
+def each_profile_drives_otherwise(page: Page, row: Row) -> None:
+    """The fastest command (m/s) in the first seconds of each differs."""
+    fastest = set()
+    for profile in ("indoor", "outdoor", "warehouse", "competition"):
+        launch = launched(page, f"ros2 launch intelligent_robot robot_system.launch.py profile:={profile}")
+        echo = page.ask("ros2 topic echo /cmd_vel --csv", stop_after=2.0)
+        fastest.add(max(float(line.split(",")[0]) for line in echo.stdout.splitlines()))
+        page.stop(launch)
+    assert len(fastest) == 4

@@ -57,7 +57,6 @@ UNCHECKED: tuple[tuple[Iterable[int], str], ...] = (
     ((323,), "ours is named environment.launch.py"),
     (rows_from(324, 328), SCREEN),
     (rows_from(337, 341), PROSE),
-    ((346,), "needs the drive in the world: checked with the profiles"),
     ((348,), SCREEN),
     ((349,), PROSE),
     (rows_from(350, 354), BONUS),
