@@ -41,6 +41,7 @@ class LaunchDescriptionSource:
         except Exception:  # whatever a substitution needs that only a running launch has
             return None
         self.__launch_description = self._get_launch_description(location)
+        self.__expanded_location = location
         return self.__launch_description
 
     def get_launch_description(self, context: Any) -> Any:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 from ament_index_python.packages import PackageNotFoundError, get_package_prefix
@@ -12,12 +13,17 @@ from bot_console.runtime.importer import node_modules
 from bot_console.runtime.process import entry_point_program, file_program
 from bot_console.runtime.workspace.discover import workspace
 from bot_console.runtime.workspace.executables import Executable, executables
+from launch_ros import component_container
+from launch_ros.component_container import EXECUTABLES
 
 Program = Callable[[], object]
 
 
 def program_of(package: str | None, path: str) -> Program | None:
     """The program behind an executable's path; None where it is not Python."""
+    if _is_container(package, path):
+        threads = 1 if os.path.basename(path) == EXECUTABLES[0] else None
+        return partial(component_container.main, threads=threads)
     executable = _known(package, path)
     if executable is not None and executable.entry_point is not None:
         entry = executable.entry_point
@@ -26,6 +32,17 @@ def program_of(package: str | None, path: str) -> Program | None:
         return None
     folders = [os.path.dirname(os.path.abspath(path)), *_prefix_folders(package)]
     return file_program(path, node_modules(folders))
+
+
+def container_path(package: str, executable: str) -> str | None:
+    """The path by which our own component container stands for one that is not installed; None for other executables."""
+    place = os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib", package, executable)
+    return place if _is_container(package, place) else None
+
+
+def _is_container(package: str | None, path: str) -> bool:
+    known = package == component_container.PACKAGE and os.path.basename(path) in EXECUTABLES
+    return known and not os.path.isfile(path)
 
 
 def os_command(package: str | None, command: list[str], at: int) -> list[str]:

@@ -6,13 +6,14 @@ import os
 import shutil
 from typing import Any
 
-from ament_index_python.packages import get_package_prefix
+from ament_index_python.packages import PackageNotFoundError, get_package_prefix
 from bot_console.runtime.workspace.executables import executables
 from launch.frontend import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions import SubstitutionFailure
 from launch.substitutions.joined import described
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch_ros.node_program import container_path
 
 
 @expose_substitution("exec-in-pkg")
@@ -49,7 +50,13 @@ class ExecutableInPackage(Substitution):
         """The path; raises `PackageNotFoundError`, or `SubstitutionFailure` for a package without the executable."""
         executable = perform_substitutions(context, self.__executable)
         package = perform_substitutions(context, self.__package)
-        prefix = get_package_prefix(package)
+        try:
+            prefix = get_package_prefix(package)
+        except PackageNotFoundError:
+            container = container_path(package, executable)
+            if container is not None:
+                return container
+            raise
         libexec = os.path.join(prefix, "lib", package)
         found = shutil.which(executable, path=libexec) if os.path.isdir(libexec) else None
         if found is not None:

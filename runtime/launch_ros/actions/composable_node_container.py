@@ -1,0 +1,40 @@
+"""Running a container of nodes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.frontend import expose_action
+from launch_ros.actions.node import Node
+
+
+@expose_action("node_container")
+class ComposableNodeContainer(Node):
+    """Runs a container, and lets it load nodes."""
+
+    def __init__(self, *, name: Any, namespace: Any, composable_node_descriptions: Any = None, **kwargs: Any) -> None:
+        super().__init__(name=name, namespace=namespace, **kwargs)
+        self.__descriptions = composable_node_descriptions
+
+    @classmethod
+    def parse(cls, entity: Any, parser: Any, ignore: Any = None) -> tuple[Any, dict[str, Any]]:
+        """From XML or YAML."""
+        from launch_ros.actions.load_composable_nodes import parse_composable_nodes
+
+        _, kwargs = super().parse(entity, parser, ignore)
+        descriptions = parse_composable_nodes(entity, parser, optional=True)
+        if descriptions:
+            kwargs["composable_node_descriptions"] = descriptions
+        kwargs.setdefault("namespace", "")
+        return cls, kwargs
+
+    def execute(self, context: Any) -> list[Any] | None:
+        """Start it, then load the nodes whose conditions hold."""
+        from launch_ros.actions.load_composable_nodes import LoadComposableNodes, holds
+
+        wanted = [each for each in self.__descriptions or () if holds(each, context)]
+        loading = []
+        if wanted:
+            loading = [LoadComposableNodes(composable_node_descriptions=wanted, target_container=self)]
+        entities = super().execute(context)
+        return [*(entities or ()), *loading] or None

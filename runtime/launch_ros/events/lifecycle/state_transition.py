@@ -1,0 +1,48 @@
+"""A lifecycle node has changed its state."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.event import Event
+
+
+class StateTransition(Event):
+    """A lifecycle node has made a transition."""
+
+    name = "launch_ros.events.lifecycle.StateTransition"
+
+    def __init__(self, *, action: Any, msg: Any) -> None:
+        super().__init__()
+        self.__action = action
+        self.__msg = msg
+
+    @property
+    def action(self) -> Any:
+        """The action that runs the node."""
+        return self.__action
+
+    @property
+    def msg(self) -> Any:
+        """The message that tells of it."""
+        return self.__msg
+
+    @property
+    def timestamp(self) -> int:
+        """When (ns)."""
+        return self.__msg.timestamp
+
+    @property
+    def transition(self) -> str:
+        """The transition's label."""
+        return self.__msg.transition.label
+
+    @property
+    def start_state(self) -> str:
+        """The label of the state before."""
+        return self.__msg.start_state.label
+
+    @property
+    def goal_state(self) -> str:
+        """The label of the state now."""
+        return self.__msg.goal_state.label
