@@ -87,6 +87,7 @@ class LaunchPane(Pane):
                     shown.row_changed(index)
         else:
             shown.rows_changed()
+            shown.show_cursor()
         self._tell()
         self._show_events()
 

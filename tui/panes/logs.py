@@ -135,23 +135,23 @@ class LogsPane(Pane):
 
     def _tell(self) -> None:
         """Say what is shown of how much, by severity."""
-        self.query_one("#log-status", Static).update(self._problem or self.status_text())
+        self.query_one("#log-status", Static).update(harmless(self._problem or self.status_text()))
 
     def status_text(self) -> str:
         """The line below the log."""
         state, counts = self._state, self._state.counts
         parts = [f"{len(self._list.seqs)} of {state.end - state.first}"]
-        parts += [f"{LETTERS[each]} {counts[each]}" for each in reversed(Severity) if counts.get(each)]
-        if self._which.minimum:
-            parts.append(f">= {self._which.minimum.name}")
+        if not self._following:
+            parts.append("paused, f follows")
         if self._which.words:
             parts.append(f"/{self._which.words}")
+        if self._which.minimum:
+            parts.append(f">= {self._which.minimum.name}")
         if self._which.hidden_nodes:
             parts.append("hidden: " + " ".join(sorted(self._which.hidden_nodes)))
         if state.dropped:
             parts.append(f"{state.dropped} dropped")
-        if not self._following:
-            parts.append("paused, f follows")
+        parts += [f"{LETTERS[each]} {counts[each]}" for each in reversed(Severity) if counts.get(each)]
         return " · ".join(parts)
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:

@@ -144,6 +144,7 @@ class ParametersPane(Pane):
                 where = (each for each, row in enumerate(new) if (row.node, row.name) == (at.node, at.name))
                 shown.set_reactive(ParameterRows.cursor, next(where, min(shown.cursor, max(0, len(new) - 1))))
             shown.rows_changed()
+            shown.show_cursor()
         self._describe()
 
     def _forget_refusal(self, before: Row, after: Row) -> None:

@@ -74,7 +74,9 @@ class WorldPane(Pane):
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Draw the world anew when it is another object."""
-        self._snapshot = snapshot
+        before, self._snapshot = self._snapshot, snapshot
+        if snapshot.problem != before.problem or snapshot.capabilities is not before.capabilities:
+            self._facts()
         if snapshot.world is not self._world:
             self._world = snapshot.world
             self.query_one(WorldMap).show(snapshot.world)

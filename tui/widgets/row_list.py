@@ -85,10 +85,11 @@ class RowList(ScrollView, can_focus=True):
         """Redraw the two rows, keep the cursor in view, and tell."""
         self.row_changed(before)
         self.row_changed(after)
-        self._show_cursor()
+        self.show_cursor()
         self.post_message(self.Moved(self, after))
 
-    def _show_cursor(self) -> None:
+    def show_cursor(self) -> None:
+        """Scroll so that the cursor is seen."""
         top, height = self.scroll_offset.y, max(1, self.size.height)
         if self.cursor < top:
             self.scroll_to(y=self.cursor, animate=False, force=True)
@@ -120,7 +121,7 @@ class RowList(ScrollView, can_focus=True):
     def on_resize(self) -> None:
         """Fit the rows to the new width."""
         self.rows_changed()
-        self._show_cursor()
+        self.show_cursor()
 
 
 def _on(strip: Strip, base: Style) -> Strip:

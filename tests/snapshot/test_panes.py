@@ -1,0 +1,90 @@
+"""How every pane looks: empty, live, with faults, narrow, and in larger terminals. Review each change as one of design."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.pane_table import PANES
+from bot_console.tui.panes.steering import SteeringPane
+from fakes import FakeConsole, FakeLauncher
+from piloting import Clock
+from samples import empty, faulty, live
+
+System = Callable[[], tuple[FakeConsole, FakeLauncher]]
+STATES: list[tuple[str, System, tuple[int, int]]] = [
+    ("empty", empty, (80, 24)),
+    ("live", live, (80, 24)),
+    ("faulty", faulty, (80, 24)),
+    ("narrow", live, (60, 20)),
+    ("medium", live, (120, 40)),
+    ("large", live, (200, 60)),
+]
+
+
+def app_of(system: System, start: str = "overview") -> BotConsoleApp:
+    console, launcher = system()
+    return BotConsoleApp(console, launcher, refresh_hz=0, start_pane=start)
+
+
+@pytest.mark.parametrize(("state", "system", "size"), STATES, ids=[each[0] for each in STATES])
+@pytest.mark.parametrize("entry", PANES, ids=[each.id for each in PANES])
+def test_pane(entry: Any, state: str, system: System, size: tuple[int, int], snap_compare: Any) -> None:
+    assert snap_compare(app_of(system), terminal_size=size, press=[entry.digit])
+
+
+@pytest.mark.parametrize("size", [(100, 30), (120, 40), (200, 60)], ids=["small", "medium", "large"])
+def test_overview(size: tuple[int, int], snap_compare: Any) -> None:
+    assert snap_compare(app_of(live), terminal_size=size)
+
+
+def test_too_small(snap_compare: Any) -> None:
+    assert snap_compare(app_of(live), terminal_size=(50, 15))
+
+
+@pytest.mark.parametrize("entry", PANES, ids=[each.id for each in PANES])
+def test_help(entry: Any, snap_compare: Any) -> None:
+    assert snap_compare(app_of(live), terminal_size=(100, 40), press=[entry.digit, "question_mark"])
+
+
+OVERLAYS = {
+    "graph_node": ["3", "enter"],
+    "graph_filtered": ["3", "slash", "s", "a", "f", "e", "enter"],
+    "plot_strips": ["4", "f"],
+    "plot_add": ["4", "a"],
+    "parameter_edit": ["1", "down", "e"],
+    "parameter_refused": ["1", "down", "e", "9", "9", "9", "enter"],
+    "log_message": ["2", "enter"],
+    "profile_differences": ["7", "down"],
+    "profile_question": ["7", "down", "a"],
+    "profile_applied": ["7", "down", "a", "y"],
+    "launch_picker": ["8", "o"],
+    "launch_kill": ["8", "down", "K"],
+    "launch_process": ["8", "down", "down", "down", "down", "enter"],
+    "all_stop": ["exclamation_mark"],
+}
+
+
+@pytest.mark.parametrize("keys", OVERLAYS.values(), ids=OVERLAYS.keys())
+def test_in_use(keys: list[str], snap_compare: Any) -> None:
+    assert snap_compare(app_of(live), terminal_size=(100, 30), press=keys)
+
+
+def test_launch_arguments(snap_compare: Any) -> None:
+    async def fill(pilot: Any) -> None:
+        await pilot.press("8", "o", "enter")
+        await pilot.app.workers.wait_for_complete()
+        await pilot.pause()
+
+    assert snap_compare(app_of(live), terminal_size=(100, 30), run_before=fill)
+
+
+@pytest.mark.parametrize("size", [(80, 24), (120, 40)], ids=["small", "medium"])
+def test_steering_armed(size: tuple[int, int], snap_compare: Any) -> None:
+    async def steer(pilot: Any) -> None:
+        pilot.app.query_one(SteeringPane).clock = Clock()
+        await pilot.press("6", "enter", "w", "W", "a", "a", "a")
+
+    assert snap_compare(app_of(live), terminal_size=size, run_before=steer)
