@@ -7,7 +7,7 @@ from ament_index_python.packages import (
     get_package_share_path,
     get_packages_with_prefixes,
 )
-from ament_index_python.resources import get_resource, get_resources, get_search_paths, has_resource
+from ament_index_python.resources import get_resource, get_resource_types, get_resources, get_search_paths, has_resource
 
 __all__ = [
     "PackageNotFoundError",
@@ -16,6 +16,7 @@ __all__ = [
     "get_package_share_path",
     "get_packages_with_prefixes",
     "get_resource",
+    "get_resource_types",
     "get_resources",
     "get_search_paths",
     "has_resource",

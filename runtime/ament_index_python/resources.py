@@ -38,3 +38,15 @@ def get_resources(resource_type: str) -> dict[str, str]:
 def has_resource(resource_type: str, resource_name: str) -> str | bool:
     """The prefix of a resource, or False."""
     return get_resources(resource_type).get(resource_name, False)
+
+
+def get_resource_types() -> dict[str, set[str]]:
+    """The kinds of resources, each with the prefixes that have some."""
+    found: dict[str, set[str]] = {}
+    for prefix in get_search_paths():
+        folder = Path(prefix) / INDEX
+        if folder.is_dir():
+            for each in folder.iterdir():
+                if each.is_dir():
+                    found.setdefault(each.name, set()).add(prefix)
+    return found

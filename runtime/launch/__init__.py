@@ -8,12 +8,24 @@ from launch.launch_context import LaunchContext
 from launch.launch_description import LaunchDescription
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.launch_description_source import LaunchDescriptionSource
+from launch.launch_introspector import LaunchIntrospector
 from launch.launch_service import LaunchService
 from launch.some_entities_type import SomeEntitiesType
 from launch.some_substitutions_type import SomeSubstitutionsType
 from launch.substitution import Substitution
 
-from launch import actions, conditions, events, substitutions
+from launch import (
+    actions,
+    conditions,
+    descriptions,
+    event_handlers,
+    events,
+    frontend,
+    launch_description_sources,
+    logging,
+    substitutions,
+    utilities,
+)
 
 __all__ = [
     "Action",
@@ -25,12 +37,19 @@ __all__ = [
     "LaunchDescription",
     "LaunchDescriptionEntity",
     "LaunchDescriptionSource",
+    "LaunchIntrospector",
     "LaunchService",
     "SomeEntitiesType",
     "SomeSubstitutionsType",
     "Substitution",
     "actions",
     "conditions",
+    "descriptions",
+    "event_handlers",
     "events",
+    "frontend",
+    "launch_description_sources",
+    "logging",
     "substitutions",
+    "utilities",
 ]

@@ -46,6 +46,16 @@ class Action(LaunchDescriptionEntity):
         """Entities below the action."""
         return []
 
+    def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """The same, where there is no condition."""
+        return self.get_sub_entities() if self.__condition is None else []
+
+    def describe_conditional_sub_entities(self) -> list[tuple[str, list[LaunchDescriptionEntity]]]:
+        """The same, where there is a condition."""
+        if self.__condition is None:
+            return []
+        return [(f"Conditionally included by {self.describe()}", self.get_sub_entities())]
+
     def execute(self, context: Any) -> list[LaunchDescriptionEntity] | None:
         """Do it."""
         return None

@@ -89,7 +89,7 @@ class ComponentContainer:
 
 
 def make_component(request: Any) -> Any:
-    """The node that a request describes; raises `LookupError` where its class is not Python, and what the class raises."""
+    """The node that a request describes; raises `LookupError` for a class that is not Python, and what it raises."""
     from rclpy.parameter import Parameter
 
     arguments = ["--ros-args"]

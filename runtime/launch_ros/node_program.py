@@ -35,7 +35,7 @@ def program_of(package: str | None, path: str) -> Program | None:
 
 
 def container_path(package: str, executable: str) -> str | None:
-    """The path by which our own component container stands for one that is not installed; None for other executables."""
+    """The path by which our own container stands for one that is not installed; None for other executables."""
     place = os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib", package, executable)
     return place if _is_container(package, place) else None
 

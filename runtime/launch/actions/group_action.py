@@ -67,14 +67,6 @@ class GroupAction(Action):
         begin += [ResetEnvironment(), ResetLaunchConfigurations(self.__configurations)]
         return [*begin, *actions, *end]
 
-    def describe_sub_entities(self) -> list[Any]:
-        """The same."""
-        return [] if self.condition is not None else self.get_sub_entities()
-
-    def describe_conditional_sub_entities(self) -> list[tuple[str, list[Any]]]:
-        """The same, where there is a condition."""
-        return [("Conditionally included by GroupAction", self.get_sub_entities())] if self.condition else []
-
     def execute(self, context: Any) -> list[Any]:
         """Visit the actions."""
         return self.get_sub_entities()

@@ -60,17 +60,13 @@ class IncludeLaunchDescription(Action):
         """A short text for people."""
         return f"IncludeLaunchDescription({self.__source.location})"
 
-    def describe_sub_entities(self) -> list[Any]:
+    def get_sub_entities(self) -> list[Any]:
         """The description, where it can be read without a context."""
         try:
             description = self.__source.try_get_launch_description_without_context()
         except Exception:  # a file that cannot be read declares nothing; its errors come when it is visited
             return []
         return [] if description is None else [description]
-
-    def get_sub_entities(self) -> list[Any]:
-        """The same."""
-        return self.describe_sub_entities()
 
     def execute(self, context: Any) -> list[Any]:
         """Read the file, check its required arguments, and visit it."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import os
 import sys
-from typing import Any, TextIO
+from typing import TextIO
 
 from launch.logging import formats
 from launch.logging.log_directory import new_run_directory

@@ -10,6 +10,7 @@ from launch.actions import ExecuteProcess
 from launch.frontend import expose_action
 from launch.substitutions import LocalSubstitution, TextSubstitution
 from launch.utilities import ensure_argument_type, normalize_to_list_of_substitutions, perform_substitutions
+from launch_ros.missing_executables import may_start
 from launch_ros.node_program import os_command, program_of
 from launch_ros.parameter_arguments import ParameterArgument, global_parameter_arguments, own_parameter_arguments
 from launch_ros.substitutions import ExecutableInPackage
@@ -138,6 +139,8 @@ class Node(ExecuteProcess):
     def execute(self, context: Any) -> list[Any] | None:
         """Evaluate names, parameters and rules, then start."""
         self._perform_substitutions(context)
+        if self.__package is not None and not may_start(context, self.process_description.cmd[0], self.__package_text):
+            return None
         words = {"name": f"__node:={self.__expanded_name}"} if self.__name is not None else {}
         context.extend_locals({LOCALS: words})
         entities = super().execute(context)

@@ -59,6 +59,9 @@ def _arguments(parser: argparse.ArgumentParser) -> None:
         "--launch-prefix-filter",
         help="Regular expression for the names of executables that get the --launch-prefix",
     )
+    parser.add_argument(
+        "--allow-missing", action="store_true", help="Go on without nodes whose executables are not installed"
+    )
     parser.add_argument("package_name", help="The package that has the launch file, or the path of a launch file")
     parser.add_argument("launch_file_name", nargs="?", help="The launch file's name, in a package")
     parser.add_argument(
@@ -108,10 +111,18 @@ def _act(arguments: argparse.Namespace, path: str, words: list[str]) -> Result:
     ):
         if value is not None:
             given[name] = value
-    return launch(path, given, noninteractive=arguments.noninteractive, debug=arguments.debug)
+    options = {"noninteractive": arguments.noninteractive, "debug": arguments.debug}
+    return launch(path, given, missing_allowed=arguments.allow_missing, **options)
 
 
-def launch(path: str, arguments: dict[str, str], *, noninteractive: bool = False, debug: bool = False) -> int:
+def launch(
+    path: str,
+    arguments: dict[str, str],
+    *,
+    noninteractive: bool = False,
+    debug: bool = False,
+    missing_allowed: bool = False,
+) -> int:
     """Run a launch file to its end; 1 when the launch itself failed, whatever became of its processes."""
     from launch.actions import IncludeLaunchDescription
     from launch.launch_description_sources import AnyLaunchDescriptionSource
@@ -120,6 +131,10 @@ def launch(path: str, arguments: dict[str, str], *, noninteractive: bool = False
 
     service = LaunchService(argv=sys.argv[1:], noninteractive=noninteractive, debug=debug)
     include = IncludeLaunchDescription(AnyLaunchDescriptionSource(path), launch_arguments=arguments.items())
+    if missing_allowed:
+        from launch_ros.missing_executables import allow_missing
+
+        allow_missing(service)
     service.include_launch_description(LaunchDescription([include]))
     return service.run()
 
