@@ -58,6 +58,8 @@ class Service(Entity):
             client, number, request = self.endpoint.queue.popleft()
         except IndexError:
             return None
+        if self.endpoint.queue:
+            self.notify()  # a reentrant group lets the next one begin before this one has ended
         if self.events is not None:
             self.events.tell(1, client, number, request=request)
         if self._is_async:

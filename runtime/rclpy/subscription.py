@@ -112,6 +112,8 @@ class Subscription(Entity):
             message, stamp, number, expires = self._queue.popleft()
         except IndexError:  # another thread was faster
             return None
+        if self._queue:
+            self.notify()  # a reentrant group lets the next one begin before this one has ended
         if expires is not None and current().clock.system_ns() > expires:
             return None
         result = self._callback(message) if self._message_only else self._callback(message, self._info(stamp, number))

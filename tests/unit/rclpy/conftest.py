@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import pytest
+from bot_console.runtime.process.stepping import stepped
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -76,3 +77,12 @@ def ros() -> Iterator[Ros]:
     made = Ros()
     yield made
     made.end()
+
+
+@pytest.fixture
+def stepped_ros() -> Iterator[Ros]:
+    """Nodes in stepped time: what waits lets time jump to the next thing that happens."""
+    with stepped(stall_s=30.0):
+        made = Ros()
+        yield made
+        made.end()

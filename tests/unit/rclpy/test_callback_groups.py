@@ -1,0 +1,159 @@
+"""Which callbacks may run at the same time."""
+
+from __future__ import annotations
+
+import threading
+from typing import Any
+
+import pytest
+from rclpy.callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.task import Future
+from std_msgs.msg import Int32
+
+PATIENCE = 20.0
+
+
+def test_membership(ros: Any) -> None:
+    node, group = ros.node(), ReentrantCallbackGroup()
+    guard = node.create_guard_condition(None, group)
+    other = node.create_guard_condition(None)
+    assert group.has_entity(guard) and not group.has_entity(other)
+    assert node.default_callback_group.has_entity(other)
+    assert isinstance(node.default_callback_group, MutuallyExclusiveCallbackGroup)
+
+
+def test_exclusive_lets_one_begin() -> None:
+    group, first, second = MutuallyExclusiveCallbackGroup(), object(), object()
+    assert group.can_execute(first) and group.beginning_execution(first)
+    assert not group.can_execute(second) and not group.beginning_execution(second)
+    assert not group.beginning_execution(first)
+    group.ending_execution(second)
+    assert not group.can_execute(second), "only the one that runs can end"
+    group.ending_execution(first)
+    assert group.beginning_execution(second)
+
+
+def test_reentrant_lets_all_begin() -> None:
+    group = ReentrantCallbackGroup()
+    assert group.beginning_execution(1) and group.beginning_execution(1) and group.can_execute(2)
+
+
+def test_the_base_class_decides_nothing() -> None:
+    with pytest.raises(NotImplementedError):
+        CallbackGroup().can_execute(None)
+
+
+class Overlap:
+    """Callbacks that wait for each other as long as that many are asked to run together."""
+
+    def __init__(self, ros: Any, groups: list[Any], threads: int = 4) -> None:
+        self.peak = self.active = self.calls = 0
+        self._lock = threading.Lock()
+        self._leave = threading.Event()
+        self.together = threading.Event()
+        node = ros.node()
+        self._executor = MultiThreadedExecutor(threads, context=ros.context)
+        self._executor.add_node(node)
+        for group in groups:
+            node.create_guard_condition(self._work, group).trigger()
+
+    def _work(self) -> None:
+        with self._lock:
+            self.active += 1
+            self.calls += 1
+            self.peak = max(self.peak, self.active)
+            if self.active == self.wanted:
+                self.together.set()
+        self._leave.wait(PATIENCE)
+        with self._lock:
+            self.active -= 1
+
+    def run(self, wanted: int, calls: int) -> int:
+        """How many ran together at most."""
+        self.wanted = wanted
+        thread = threading.Thread(target=self._executor.spin, daemon=True)
+        thread.start()
+        assert self.together.wait(PATIENCE)
+        self._leave.set()
+        while self.calls < calls or self.active:
+            assert thread.is_alive()
+        self._executor.shutdown()
+        thread.join(PATIENCE)
+        return self.peak
+
+
+def test_two_exclusive_groups_overlap(ros: Any) -> None:
+    assert Overlap(ros, [MutuallyExclusiveCallbackGroup(), MutuallyExclusiveCallbackGroup()]).run(2, 2) == 2
+
+
+def test_one_exclusive_group_does_not(ros: Any) -> None:
+    group = MutuallyExclusiveCallbackGroup()
+    assert Overlap(ros, [group, group, group]).run(1, 3) == 1
+
+
+def test_a_reentrant_group_does(ros: Any) -> None:
+    group = ReentrantCallbackGroup()
+    assert Overlap(ros, [group, group, group]).run(3, 3) == 3
+
+
+def test_a_group_may_span_nodes_and_executors(ros: Any) -> None:
+    group, got = MutuallyExclusiveCallbackGroup(), []
+    first, second = ros.node("first"), ros.node("second")
+    other = MultiThreadedExecutor(2, context=ros.context)
+    other.add_node(second)
+    go = Future()
+
+    async def hold() -> None:
+        await go
+        got.append("first")
+
+    first.create_guard_condition(hold, group).trigger()
+    done = threading.Event()
+    second.create_guard_condition(lambda: (got.append("second"), done.set()), group).trigger()
+    first.executor.spin_once()
+    other.spin_once(timeout_sec=0)
+    assert got == []
+    go.set_result(None)
+    first.executor.spin_once()
+    other.spin_once(timeout_sec=PATIENCE)
+    assert done.wait(PATIENCE)
+    other.shutdown()
+    assert got == ["first", "second"]
+
+
+def test_a_waiting_coroutine_keeps_its_exclusive_group(ros: Any) -> None:
+    node, go, got = ros.node(), Future(), []
+
+    async def take(message: Int32) -> None:
+        got.append(("start", message.data))
+        await go
+        got.append(("end", message.data))
+
+    node.create_subscription(Int32, "t", take, 10)
+    publisher = node.create_publisher(Int32, "t", 10)
+    for number in (1, 2):
+        publisher.publish(Int32(data=number))
+    ros.settle()
+    assert got == [("start", 1)]
+    go.set_result(None)
+    ros.spin(lambda: len(got) >= 4)
+    assert got == [("start", 1), ("end", 1), ("start", 2), ("end", 2)]
+
+
+def test_a_waiting_coroutine_leaves_a_reentrant_group_free(ros: Any) -> None:
+    node, go, got = ros.node(), Future(), []
+
+    async def take(message: Int32) -> None:
+        got.append(("start", message.data))
+        await go
+        got.append(("end", message.data))
+
+    node.create_subscription(Int32, "t", take, 10, callback_group=ReentrantCallbackGroup())
+    publisher = node.create_publisher(Int32, "t", 10)
+    for number in (1, 2):
+        publisher.publish(Int32(data=number))
+    ros.spin(lambda: len(got) >= 2)
+    assert got == [("start", 1), ("start", 2)]
+    go.set_result(None)
+    ros.spin(lambda: len(got) >= 4)

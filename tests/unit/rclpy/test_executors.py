@@ -1,0 +1,275 @@
+"""Executors: in which order they serve, how long they wait, what ends them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from rclpy._rclpy_pybind11 import RCLError
+from rclpy.context import Context
+from rclpy.executors import (
+    ExternalShutdownException,
+    MultiThreadedExecutor,
+    SingleThreadedExecutor,
+    TimeoutException,
+)
+from rclpy.task import Future
+from std_msgs.msg import Int32
+from std_srvs.srv import Trigger
+
+
+def everything(ros: Any, node: Any, got: list[str], tag: str = "") -> None:
+    """Make one entity of each kind in the reverse order of service, and let all be ready."""
+    asker = ros.node(f"asker{tag}")
+    node.create_service(Trigger, f"s{tag}", lambda request, response: (got.append(f"service{tag}"), response)[1])
+    guard = node.create_guard_condition(lambda: got.append(f"guard{tag}"))
+    node.create_subscription(Int32, f"t{tag}", lambda message: got.append(f"subscription{tag}"), 10)
+    timer = node.create_timer(0.0, lambda: (got.append(f"timer{tag}"), timer.cancel()))
+    client = asker.create_client(Trigger, f"s{tag}")
+    client.call_async(Trigger.Request())
+    asker.create_publisher(Int32, f"t{tag}", 10).publish(Int32())
+    guard.trigger()
+
+
+def test_kinds_are_served_in_order(ros: Any) -> None:
+    got: list[str] = []
+    everything(ros, ros.node(), got)
+    ros.spin(lambda: "service" in got)
+    assert got == ["timer", "subscription", "guard", "service"]
+
+
+def test_nodes_are_served_one_after_the_other(ros: Any) -> None:
+    got: list[str] = []
+    first, second = ros.node("first"), ros.node("second")
+    everything(ros, second, got, "2")
+    everything(ros, first, got, "1")
+    ros.spin(lambda: len(got) >= 8)
+    assert [each[-1] for each in got] == ["1"] * 4 + ["2"] * 4
+
+
+def test_one_message_of_each_subscription_per_wake(ros: Any) -> None:
+    node, got = ros.node(), []
+    for topic in ("b", "a"):
+        node.create_subscription(Int32, topic, lambda message, topic=topic: got.append((topic, message.data)), 10)
+    publishers = [node.create_publisher(Int32, topic, 10) for topic in ("a", "b")]
+    for number in range(3):
+        for publisher in publishers:
+            publisher.publish(Int32(data=number))
+    ros.spin(lambda: len(got) >= 6)
+    assert got == [("b", 0), ("a", 0), ("b", 1), ("a", 1), ("b", 2), ("a", 2)]
+
+
+def test_one_callback_per_spin_once(ros: Any) -> None:
+    node, got = ros.node(), []
+    for name in "abc":
+        node.create_guard_condition(lambda name=name: got.append(name)).trigger()
+    executor = node.executor
+    seen = []
+    for _ in range(3):
+        executor.spin_once(timeout_sec=1.0)
+        seen.append("".join(got))
+    assert seen == ["a", "ab", "abc"]
+
+
+def test_tasks_come_first_and_the_newest_before_all(ros: Any) -> None:
+    node, got = ros.node(), []
+    node.create_guard_condition(lambda: got.append("guard")).trigger()
+    for name in ("old", "new"):
+        node.executor.create_task(got.append, name)
+    for _ in range(3):
+        node.executor.spin_once(timeout_sec=1.0)
+    assert got == ["new", "old", "guard"]
+
+
+def test_a_poll_after_the_last_callback_of_a_wake_takes_nothing(ros: Any) -> None:
+    node, got = ros.node(), []
+    node.create_subscription(Int32, "t", lambda message: got.append(message.data), 10)
+    publisher = node.create_publisher(Int32, "t", 10)
+    for number in range(3):
+        publisher.publish(Int32(data=number))
+    seen = []
+    for _ in range(6):
+        node.executor.spin_once(timeout_sec=0)
+        seen.append(len(got))
+    assert seen == [1, 1, 2, 2, 3, 3]
+
+
+def test_entities_made_and_destroyed_within_a_wake(ros: Any) -> None:
+    node, got = ros.node(), []
+
+    def first() -> None:
+        got.append("first")
+        node.destroy_guard_condition(second)
+        node.create_guard_condition(lambda: got.append("new")).trigger()
+
+    node.create_guard_condition(first).trigger()
+    second = node.create_guard_condition(lambda: got.append("second"))
+    second.trigger()
+    ros.spin(lambda: "new" in got)
+    assert got == ["first", "new"]
+
+
+def test_spin_once_waits_as_long_as_it_may(stepped_ros: Any) -> None:
+    node = stepped_ros.node()
+    clock = node.get_clock()
+    before = clock.now()
+    assert node.executor.spin_once(timeout_sec=0.25) is None
+    assert (clock.now() - before).nanoseconds == 250_000_000
+    node.executor.spin_once(timeout_sec=0)
+    assert (clock.now() - before).nanoseconds // 1_000_000 == 250
+
+
+def test_a_negative_time_out_waits_for_ever(stepped_ros: Any) -> None:
+    node, got = stepped_ros.node(), []
+    node.create_timer(3600.0, lambda: got.append(1))
+    node.executor.spin_once(timeout_sec=-1)
+    assert got == [1]
+
+
+def test_an_exception_comes_out_of_spin(ros: Any) -> None:
+    node = ros.node()
+    group = node.default_callback_group
+    node.create_guard_condition(lambda: {}["missing"]).trigger()
+    with pytest.raises(KeyError, match="missing"):
+        node.executor.spin_once()
+    assert group.can_execute(None), "the callback's group is free again"
+
+
+def test_an_exception_in_a_coroutine_comes_out_of_spin(ros: Any) -> None:
+    node, go = ros.node(), Future()
+
+    async def fail() -> None:
+        await go
+        raise KeyError("late")
+
+    node.create_guard_condition(fail).trigger()
+    node.executor.spin_once()
+    go.set_result(None)
+    with pytest.raises(KeyError, match="late"):
+        node.executor.spin_once()
+    assert node.default_callback_group.can_execute(None)
+
+
+def test_coroutines_resume_newest_first(ros: Any) -> None:
+    node, go, got = ros.node(), Future(), []
+
+    async def wait(name: str) -> None:
+        await go
+        got.append(name)
+
+    for name in "abc":
+        node.executor.create_task(wait, name)
+    for _ in range(3):
+        node.executor.spin_once(timeout_sec=1.0)
+    go.set_result(None)
+    for _ in range(3):
+        node.executor.spin_once(timeout_sec=1.0)
+    assert got == ["c", "b", "a"]
+
+
+def test_a_node_belongs_to_one_executor(ros: Any) -> None:
+    node = ros.node()
+    first, second = node.executor, SingleThreadedExecutor(context=ros.context)
+    assert second.add_node(node) and not second.add_node(node)
+    assert (node.executor, first.get_nodes(), second.get_nodes()) == (second, [], [node])
+    assert second.remove_node(node) is None
+    assert node.executor is second, "upstream leaves the pointer"
+    second.remove_node(node)
+
+
+def test_a_node_taken_out_is_not_served(ros: Any) -> None:
+    node, other, got = ros.node(), ros.node("other"), []
+    guard = node.create_guard_condition(lambda: got.append("node"))
+    guard.trigger()
+    node.executor.remove_node(node)
+    other.create_guard_condition(lambda: got.append("other")).trigger()
+    other.executor.spin_once(timeout_sec=1.0)
+    assert got == ["other"]
+    other.executor.add_node(node)
+    other.executor.spin_once(timeout_sec=1.0)
+    assert got == ["other", "node"], "what it was told meanwhile is not lost"
+
+
+def test_a_destroyed_node_does_not_disturb_the_others(ros: Any) -> None:
+    node, other, got = ros.node(), ros.node("other"), []
+    node.create_guard_condition(lambda: got.append("node")).trigger()
+    other.create_guard_condition(lambda: got.append("other")).trigger()
+    node.destroy_node()
+    ros.spin(lambda: bool(got))
+    assert got == ["other"]
+
+
+@pytest.mark.parametrize("kind", [SingleThreadedExecutor, MultiThreadedExecutor])
+def test_needs_a_context_that_runs(kind: Any) -> None:
+    context = Context()
+    with pytest.raises(TypeError):
+        kind(context=context)
+    context.init([])
+    context.shutdown()
+    with pytest.raises(RCLError, match="failed to create guard_condition: the given context is not valid"):
+        kind(context=context)
+
+
+def test_an_executor_that_is_shut_down(ros: Any) -> None:
+    node, got = ros.node(), []
+    executor = SingleThreadedExecutor(context=ros.context)
+    node.create_guard_condition(lambda: got.append(1)).trigger()
+    executor.add_node(node)
+    assert executor.shutdown() is True
+    executor.spin_once()
+    executor.spin()
+    executor.wake()
+    assert (got, executor.get_nodes(), executor.shutdown()) == ([], [], True)
+    with pytest.raises(AttributeError):
+        executor.create_task(print)
+    with pytest.raises(AttributeError):
+        executor.add_node(node)
+
+
+def test_a_with_block_shuts_it_down(ros: Any) -> None:
+    with SingleThreadedExecutor(context=ros.init()) as executor:
+        executor.create_task(lambda: None)
+    with pytest.raises(AttributeError):
+        executor.create_task(print)
+
+
+def test_spin_ends_silently_where_a_callback_shuts_down(ros: Any) -> None:
+    node = ros.node()
+    node.create_guard_condition(ros.context.shutdown).trigger()
+    assert node.executor.spin() is None
+
+
+def test_spin_once_of_a_context_that_ended(ros: Any) -> None:
+    node = ros.node()
+    ros.context.shutdown()
+    with pytest.raises(ExternalShutdownException):
+        node.executor.spin_once(timeout_sec=0)
+
+
+@pytest.mark.parametrize(("timeout", "waited"), [(0.5, 500), (0, 0)])
+def test_spin_until_future_complete_gives_up(stepped_ros: Any, timeout: float, waited: int) -> None:
+    node = stepped_ros.node()
+    start = node.get_clock().now()
+    assert node.executor.spin_until_future_complete(Future(), timeout) is None
+    assert (node.get_clock().now() - start).nanoseconds // 1_000_000 == waited
+
+
+def test_spin_until_future_complete_ends_with_the_future(stepped_ros: Any) -> None:
+    node, future = stepped_ros.node(), Future()
+    start = node.get_clock().now()
+    node.create_timer(0.1, lambda: future.set_result("x") if future.done() is False else None)
+    node.executor.spin_until_future_complete(future, 5.0)
+    assert future.result() == "x"
+    assert (node.get_clock().now() - start).nanoseconds == 100_000_000
+
+
+def test_create_task_gives_a_future(ros: Any) -> None:
+    executor = ros.node().executor
+    task = executor.create_task(lambda a, b=0: a + b, 2, b=3)
+    assert (task.done(), task.result()) == (False, None)
+    executor.spin_until_future_complete(task)
+    assert task.result() == 5
+
+
+def test_time_outs_are_no_error_of_user_code() -> None:
+    assert not issubclass(TimeoutException, TimeoutError)

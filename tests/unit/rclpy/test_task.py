@@ -1,0 +1,163 @@
+"""Futures and tasks."""
+
+from __future__ import annotations
+
+import gc
+import threading
+from typing import Any
+
+import pytest
+from rclpy.task import Future, Task
+
+
+def test_a_result() -> None:
+    future: Future[int] = Future()
+    assert (future.done(), future.result(), future.exception(), future.cancelled()) == (False, None, None, False)
+    assert future.set_result(3) is None
+    assert (future.done(), future.result()) == (True, 3)
+    future.set_result(4)
+    assert future.result() == 4
+
+
+def test_an_exception() -> None:
+    future: Future[int] = Future()
+    error = KeyError("x")
+    future.set_exception(error)
+    assert future.done() and future.exception() is error
+    with pytest.raises(KeyError):
+        future.result()
+
+
+def test_a_cancelled_future_is_not_done_and_may_still_be() -> None:
+    future: Future[int] = Future()
+    assert future.cancel() is None
+    assert (future.cancelled(), future.done(), future.result()) == (True, False, None)
+    future.set_result(1)
+    assert (future.cancelled(), future.done(), future.result()) == (False, True, 1)
+    future.cancel()
+    assert not future.cancelled()
+
+
+def test_done_callbacks() -> None:
+    future, got = Future(), []
+    future.add_done_callback(lambda each: got.append(("first", each is future)))
+    future.add_done_callback(lambda each: got.append(("second", each.result())))
+    future.set_result(5)
+    future.add_done_callback(lambda each: got.append(("late", each.result())))
+    assert got == [("first", True), ("second", 5), ("late", 5)]
+
+
+def test_a_cancel_calls_back() -> None:
+    future, got = Future(), []
+    future.add_done_callback(lambda each: got.append(each.cancelled()))
+    future.cancel()
+    assert got == [True]
+
+
+def test_a_callback_that_raises_does_not_stop_the_next() -> None:
+    future, got = Future(), []
+    future.add_done_callback(lambda each: {}["missing"])
+    future.add_done_callback(lambda each: got.append("next"))
+    with pytest.warns(RuntimeWarning, match="missing"):
+        future.set_result(1)
+    assert got == ["next"]
+
+
+def test_a_callback_taken_away() -> None:
+    future, got = Future(), []
+    future.add_done_callback(got.append)
+    assert future.remove_done_callback(got.append) and not future.remove_done_callback(print)
+    future.set_result(1)
+    assert got == []
+
+
+def test_an_exception_that_nobody_asks_for_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    future: Any = Future()
+    future.set_exception(RuntimeError("forgotten"))
+    del future
+    gc.collect()
+    assert "The following exception was never retrieved: forgotten" in capsys.readouterr().err
+
+
+def test_awaiting_yields_until_it_is_done() -> None:
+    future: Future[int] = Future()
+
+    async def wait() -> Any:
+        return await future
+
+    coroutine = wait()
+    assert coroutine.send(None) is None
+    assert coroutine.send(None) is None
+    future.set_result(7)
+    with pytest.raises(StopIteration) as ended:
+        coroutine.send(None)
+    assert ended.value.value == 7
+
+
+@pytest.mark.parametrize("work", [lambda a, b: a + b, None])
+def test_a_task(work: Any) -> None:
+    async def add(a: int, b: int) -> int:
+        return a + b
+
+    task: Task[int] = Task(work or add, (1,), {"b": 2})
+    assert not task.executing()
+    task()
+    assert (task.done(), task.result()) == (True, 3)
+    task()
+    assert task.result() == 3
+
+
+def test_a_task_keeps_its_exception() -> None:
+    task: Task[None] = Task(lambda: {}["x"])
+    task()
+    assert isinstance(task.exception(), KeyError)
+
+
+def test_done_callbacks_run_in_the_executor(ros: Any) -> None:
+    executor, got = ros.node().executor, []
+    task = executor.create_task(lambda: 1)
+    task.add_done_callback(lambda each: got.append(each.result()))
+    executor.spin_once()
+    assert got == []
+    executor.spin_once()
+    assert got == [1]
+
+
+def test_a_cancelled_task_runs_all_the_same(ros: Any) -> None:
+    executor, got = ros.node().executor, []
+    task = executor.create_task(got.append, 1)
+    task.cancel()
+    assert (task.cancelled(), task.done()) == (True, False)
+    executor.spin_once(timeout_sec=0)
+    assert (got, task.cancelled(), task.done()) == ([1], False, True)
+
+
+def test_awaiting_futures_of_another_thread(ros: Any) -> None:
+    node, future, got = ros.node(), Future(), []
+
+    async def wait() -> None:
+        got.append(await future)
+
+    task = node.executor.create_task(wait)
+    node.executor.spin_once()
+    thread = threading.Thread(target=future.set_result, args=(9,))
+    thread.start()
+    node.executor.spin_until_future_complete(task, 20.0)
+    thread.join()
+    assert got == [9]
+
+
+def test_nested_coroutines(ros: Any) -> None:
+    node, inner, got = ros.node(), Future(), []
+
+    async def deep() -> int:
+        return 1 + (await inner or 0)
+
+    async def outer() -> None:
+        got.append(await deep() + await deep())
+
+    task = node.executor.create_task(outer)
+    node.executor.spin_once()
+    inner.set_result(20)
+    node.executor.spin_until_future_complete(task, 20.0)
+    assert got == [42]

@@ -1,0 +1,263 @@
+"""Timers and rates, in stepped time."""
+
+from __future__ import annotations
+
+import threading
+from typing import Any
+
+import pytest
+from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
+from rclpy.exceptions import ROSInterruptException
+
+MS = 1_000_000
+
+
+class Recorder:
+    """Calls with the time (ms) at which they came."""
+
+    def __init__(self, node: Any) -> None:
+        self._clock = node.get_clock()
+        self._start = self.now()
+        self.times: list[int] = []
+
+    def now(self) -> int:
+        """The node's time in ms."""
+        return self._clock.now().nanoseconds // MS
+
+    def __call__(self) -> None:
+        self.times.append(self.now() - self._start)
+
+
+def test_fires_first_after_one_period(stepped_ros: Any) -> None:
+    node = stepped_ros.node()
+    record = Recorder(node)
+    node.create_timer(0.1, record)
+    stepped_ros.spin(lambda: len(record.times) >= 4)
+    assert record.times == [100, 200, 300, 400]
+
+
+def test_missed_periods_are_skipped_and_the_phase_kept(stepped_ros: Any) -> None:
+    node = stepped_ros.node()
+    record = Recorder(node)
+
+    def slow() -> None:
+        record()
+        if len(record.times) == 1:
+            Clock().sleep_for(duration(0.32), node.context)
+
+    node.create_timer(0.1, slow)
+    stepped_ros.spin(lambda: len(record.times) >= 4)
+    assert record.times == [100, 420, 500, 600]
+
+
+def duration(seconds: float) -> Any:
+    from rclpy.duration import Duration
+
+    return Duration(seconds=seconds)
+
+
+def test_timers_due_at_once_are_served_as_they_were_made(stepped_ros: Any) -> None:
+    node, got = stepped_ros.node(), []
+    for name in "cab":
+        node.create_timer(0.1, lambda name=name: got.append(name))
+    stepped_ros.spin(lambda: len(got) >= 6)
+    assert "".join(got) == "cabcab"
+
+
+def test_different_periods(stepped_ros: Any) -> None:
+    node, got = stepped_ros.node(), []
+    record = Recorder(node)
+    for milliseconds in (30, 20):
+        node.create_timer(
+            milliseconds / 1000, lambda name=milliseconds: got.append((record.now() - record._start, name))
+        )
+    stepped_ros.spin(lambda: len(got) >= 5)
+    assert got == [(20, 20), (30, 30), (40, 20), (60, 30), (60, 20)]
+
+
+def test_cancel_and_reset(stepped_ros: Any) -> None:
+    node = stepped_ros.node()
+    record = Recorder(node)
+    timer = node.create_timer(0.1, lambda: (record(), timer.cancel()))
+    node.executor.spin_once(timeout_sec=1.0)
+    assert (timer.is_canceled(), timer.time_until_next_call()) == (True, None)
+    node.executor.spin_once(timeout_sec=1.0)
+    timer.reset()
+    assert (timer.is_canceled(), timer.time_until_next_call()) == (False, 100 * MS)
+    node.executor.spin_once(timeout_sec=1.0)
+    assert record.times == [100, 1200]
+
+
+def test_reset_puts_a_timer_off(stepped_ros: Any) -> None:
+    node = stepped_ros.node()
+    record = Recorder(node)
+    watchdog = node.create_timer(0.5, record)
+    left = [5]
+
+    def feed() -> None:
+        left[0] -= 1
+        if left[0] >= 0:
+            watchdog.reset()
+
+    node.create_timer(0.2, feed)
+    stepped_ros.spin(lambda: bool(record.times))
+    assert record.times == [1500]
+    assert len(node.executor._timers.entries) == 2, "a timer that is put off leaves nothing behind"
+
+
+def test_autostart_false_waits_for_reset(stepped_ros: Any) -> None:
+    node = stepped_ros.node()
+    record = Recorder(node)
+    timer = node.create_timer(0.1, record, autostart=False)
+    node.executor.spin_once(timeout_sec=1.0)
+    assert (record.times, timer.is_canceled()) == ([], True)
+    timer.reset()
+    node.executor.spin_once(timeout_sec=1.0)
+    assert record.times == [1100]
+
+
+def test_a_new_period_counts_from_the_next_call(stepped_ros: Any) -> None:
+    node = stepped_ros.node()
+    record = Recorder(node)
+    timer = node.create_timer(0.1, record)
+    timer.timer_period_ns = 250 * MS
+    stepped_ros.spin(lambda: len(record.times) >= 3)
+    assert record.times == [100, 350, 600]
+
+
+def test_readings(stepped_ros: Any) -> None:
+    node = stepped_ros.node()
+    timer = node.create_timer(0.1, None)
+    assert timer.time_until_next_call() == 100 * MS
+    Clock().sleep_for(duration(0.13), node.context)
+    assert (timer.is_ready(), timer.time_since_last_call(), timer.time_until_next_call()) == (True, 130 * MS, -30 * MS)
+    node.executor.spin_once(timeout_sec=0)
+    assert (timer.is_ready(), timer.time_since_last_call(), timer.time_until_next_call()) == (False, 0, 70 * MS)
+
+
+@pytest.mark.parametrize("period", [1, 1.0, "1", True])
+def test_periods(ros: Any, period: Any) -> None:
+    assert ros.node().create_timer(period, None).timer_period_ns == 1_000_000_000
+
+
+@pytest.mark.parametrize(
+    ("period", "kind"), [(None, TypeError), ("fast", ValueError), (float("inf"), OverflowError), (-0.1, RCLError)]
+)
+def test_bad_periods(ros: Any, period: Any, kind: type[Exception]) -> None:
+    with pytest.raises(kind):
+        ros.node().create_timer(period, None)
+
+
+def test_a_period_of_zero_is_always_due(ros: Any) -> None:
+    node, got = ros.node(), []
+    node.create_timer(0.0, lambda: got.append(1))
+    for _ in range(3):
+        node.executor.spin_once(timeout_sec=1.0)
+    assert len(got) == 3
+
+
+def test_a_coroutine(stepped_ros: Any) -> None:
+    node, got = stepped_ros.node(), []
+
+    async def tick() -> None:
+        got.append(1)
+
+    node.create_timer(0.1, tick)
+    stepped_ros.spin(lambda: len(got) >= 2)
+
+
+def test_another_callback_later(stepped_ros: Any) -> None:
+    node, got = stepped_ros.node(), []
+    timer = node.create_timer(0.1, lambda: got.append("old"))
+
+    async def new() -> None:
+        got.append("new")
+
+    timer.callback = new
+    node.executor.spin_once(timeout_sec=1.0)
+    assert got == ["new"]
+
+
+def test_destroyed(ros: Any) -> None:
+    node = ros.node()
+    timer = node.create_timer(1.0, None)
+    assert node.destroy_timer(timer) and not node.destroy_timer(timer)
+    for use in (timer.cancel, timer.reset, timer.is_ready, timer.is_canceled, timer.time_until_next_call):
+        with pytest.raises(InvalidHandle, match="cannot use Destroyable because destruction was requested"):
+            use()
+
+
+def test_a_clock_of_its_own(stepped_ros: Any) -> None:
+    node = stepped_ros.node()
+    record = Recorder(node)
+    steady = Clock(clock_type=ClockType.STEADY_TIME)
+    assert node.create_timer(0.1, record, clock=steady).clock is steady
+    node.executor.spin_once(timeout_sec=1.0)
+    assert record.times == [100]
+
+
+def test_moving_a_node_moves_its_timers(stepped_ros: Any) -> None:
+    from rclpy.executors import SingleThreadedExecutor
+
+    node = stepped_ros.node()
+    record = Recorder(node)
+    node.create_timer(0.1, record)
+    before, other = node.executor, SingleThreadedExecutor(context=node.context)
+    other.add_node(node)
+    before.spin_once(timeout_sec=0.15)
+    assert record.times == []
+    other.spin_once(timeout_sec=1.0)
+    assert record.times == [150]
+
+
+def test_spin_once_again_and_again_leaves_one_entry(stepped_ros: Any) -> None:
+    node = stepped_ros.node()
+    executor = node.executor
+    node.create_timer(3600.0, None)
+    for _ in range(100):
+        executor.remove_node(node)
+        executor.add_node(node)
+    assert len(executor._timers.entries) == 1
+
+
+@pytest.mark.parametrize("frequency", [0, -1.0])
+def test_rate_needs_a_frequency(ros: Any, frequency: float) -> None:
+    with pytest.raises(ValueError, match="frequency must be > 0"):
+        ros.node().create_rate(frequency)
+
+
+def test_a_rate_ticks_while_another_thread_serves(stepped_ros: Any) -> None:
+    node = stepped_ros.node()
+    record = Recorder(node)
+    rate = node.create_rate(10)
+    thread = threading.Thread(target=node.executor.spin_until_future_complete, args=(never(), 0.75), daemon=True)
+    thread.start()
+    for _ in range(5):
+        rate.sleep()
+        record()
+    thread.join()
+    assert record.times == [100, 200, 300, 400, 500]
+    assert node.destroy_rate(rate) and not node.destroy_rate(rate)
+
+
+def never() -> Any:
+    from rclpy.task import Future
+
+    return Future()
+
+
+def test_rate_after_shutdown(ros: Any) -> None:
+    rate = ros.node().create_rate(10)
+    ros.context.shutdown()
+    with pytest.raises(ROSInterruptException, match=r"rclpy.shutdown\(\) has been called"):
+        rate.sleep()
+
+
+def test_a_shutdown_wakes_who_sleeps(stepped_ros: Any) -> None:
+    node = stepped_ros.node()
+    rate = node.create_rate(0.001)
+    threading.Timer(0.2, node.context.shutdown).start()
+    with pytest.raises(ROSInterruptException):
+        rate.sleep()
