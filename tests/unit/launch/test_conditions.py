@@ -1,0 +1,75 @@
+"""Conditions: which texts are true, which false, and what is said of the others."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from launch.actions import LogInfo
+from launch.conditions import (
+    IfCondition,
+    InvalidConditionExpressionError,
+    LaunchConfigurationEquals,
+    LaunchConfigurationNotEquals,
+    UnlessCondition,
+)
+from launch.substitutions import LaunchConfiguration
+
+from launch import Condition, LaunchContext
+
+from .conftest import Launch
+
+TRUE = ["true", "True", " TRUE ", "1", "1\n"]
+FALSE = ["false", "False", " 0 "]
+NEITHER = ["yes", "on", "t", "1.0", "", "None", "no", "2"]
+
+
+def holds(condition: Condition, text: str = "") -> bool:
+    context = LaunchContext()
+    context.launch_configurations["x"] = text
+    return condition.evaluate(context)
+
+
+@pytest.mark.parametrize(("text", "value"), [(each, True) for each in TRUE] + [(each, False) for each in FALSE])
+def test_truth(text: str, value: bool) -> None:
+    assert holds(IfCondition(LaunchConfiguration("x")), text) is value
+    assert holds(UnlessCondition(LaunchConfiguration("x")), text) is not value
+
+
+@pytest.mark.parametrize("text", NEITHER)
+def test_everything_else_is_an_error(text: str) -> None:
+    with pytest.raises(InvalidConditionExpressionError) as caught:
+        holds(IfCondition(LaunchConfiguration("x")), text)
+    said = str(caught.value)
+    assert said.startswith(
+        f"invalid condition expression, expected one of [true, 1, false, 0] but got '{text.strip().lower()}', expanded "
+        "from '<launch.substitutions.launch_configuration.LaunchConfiguration object at 0x"
+    )
+    assert isinstance(caught.value, ValueError)
+
+
+def test_a_bool_is_no_text() -> None:
+    wrong: Any = True
+    with pytest.raises(TypeError, match="'bool' object is not iterable"):
+        IfCondition(wrong)
+
+
+def test_conditions_of_one_configuration_are_old() -> None:
+    with pytest.warns(UserWarning):
+        assert holds(LaunchConfigurationEquals("x", "a"), "a")
+    with pytest.warns(UserWarning):
+        assert holds(LaunchConfigurationNotEquals("y", "a"))
+    with pytest.warns(UserWarning):
+        unset: Any = None
+        assert holds(LaunchConfigurationEquals("y", unset))
+
+
+def test_a_false_condition_is_silent(run: Launch) -> None:
+    outcome = run([LogInfo(msg="a", condition=IfCondition("0")), LogInfo(msg="b", condition=UnlessCondition("0"))])
+    assert outcome.said == ["b"]
+
+
+def test_a_bad_condition_ends_the_launch(run: Launch) -> None:
+    outcome = run([LogInfo(msg="a", condition=IfCondition("yes"))])
+    assert outcome.code == 1
+    assert outcome.caught.startswith("invalid condition expression")
