@@ -239,6 +239,7 @@ class BotConsoleApp(App[None]):
         """Hold the robot still, or let it go."""
         hold = not self._snapshot.drive.stopped
         self.console_of_robot.all_stop(hold)
+        self.pull()
         self.notify("All stop: the robot is held. ! lets it go." if hold else "The robot may move again.")
 
     def action_help(self) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from bot_console.tui.console.model import SetOutcome
 from bot_console.tui.panes.profiles import ProfilesPane
 from bot_console.tui.screens.confirm import ConfirmScreen
 from piloting import Session, run
@@ -21,7 +22,7 @@ def test_the_differences_stand_there_before_anything_is_applied() -> None:
         await session.press("down")
         text = session.text()
         assert "max_speed" in text and "1.0 → 3.0" in text
-        assert "would be refused: Parameter turn_rate" in text
+        assert "✗ would be refused" in text and "Parameter turn_rate must be within" in text
         assert "turns safety off" in text and "needs a world reset" in text
         assert "4 changes, 1 would be refused" in text
         assert applied(session) == []
@@ -39,7 +40,7 @@ def test_a_refusal_or_safety_is_asked_about_and_no_means_no() -> None:
         await session.press("a", "y")
         assert applied(session) == [("competition", False)]
         assert "3 taken, 1 refused" in session.text()
-        assert "✗ Parameter turn_rate must be" in session.text()
+        assert "✗ refused" in session.text() and "Parameter turn_rate must be" in session.text()
 
     run(live(), play, (120, 40))
 
@@ -78,6 +79,25 @@ def test_an_error_while_applying_is_shown_where_it_was_made() -> None:
         session.console.apply_profile = lambda name, reset_world=False: failed  # type: ignore[assignment]
         await session.press("7", "down", "a")
         assert "was not applied: the node /robot_navigator does not answer" in session.text()
+
+    run(live(), play, (120, 40))
+
+
+def test_the_list_stays_while_its_values_change() -> None:
+    async def play(session: Session) -> None:
+        from concurrent.futures import Future
+
+        slow: Future[tuple[object, ...]] = Future()
+        session.console.differences["competition"] = differences()[:1]
+        session.console.apply_profile = lambda name, reset_world=False: slow  # type: ignore[assignment]
+        await session.press("7", "down", "a")
+        session.console.differences["competition"] = ()
+        session.console.change(parameters=dict(session.console.current.parameters))
+        await session.settle()
+        assert "applying competition" in session.text() and "1.0 → 3.0" in session.text()
+        slow.set_result((SetOutcome("/robot_navigator", "max_speed", 3.0, True),))
+        await session.settle()
+        assert "✓ taken" in session.text()
 
     run(live(), play, (120, 40))
 

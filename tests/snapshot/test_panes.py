@@ -1,4 +1,4 @@
-"""How every pane looks: empty, live, with faults, narrow, and in larger terminals. Review each change as one of design."""
+"""How every pane looks: empty, live, with faults, narrow, and larger. Review each change as a change of design."""
 
 from __future__ import annotations
 

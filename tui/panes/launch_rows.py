@@ -114,9 +114,8 @@ class ProcessRows(RowList):
         if process.cpu is not None and width >= 60:
             columns.append(f"  {process.cpu:.0%} CPU")
         nodes = "  " + " ".join(process.nodes) if width >= 90 and process.nodes else ""
-        if process.problem:
-            return [Segment(name + "".join(columns) + "  ", self._style(style)),
-                    Segment(harmless(process.problem), self._style(style))]  # fmt: skip
+        if process.problem and process.exit_code is None:
+            columns.append(f"  {harmless(process.problem)}")
         plain = None if process.state is ProcessState.RUNNING else self._style(style)
         head = [Segment(name[: len(indent) + 1], self._style(style)), Segment(name[len(indent) + 1 :], plain)]
         return [*head, Segment("".join(columns), plain), Segment(harmless(nodes), self._style("dim"))]

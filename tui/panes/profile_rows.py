@@ -45,11 +45,15 @@ class ProfileRows(RowList):
 
 @dataclass(frozen=True)
 class Entry:
-    """A line of the differences: a node, or one value of it; `outcome` is what became of it when it was applied."""
+    """A line of the differences: a node, one value of it, or below that the reason of a refusal.
+
+    `outcome` is what became of the value when it was applied.
+    """
 
     node: str
     difference: ProfileDifference | None = None
     outcome: SetOutcome | None = None
+    reason: str = ""
 
 
 class DifferenceRows(RowList):
@@ -78,6 +82,8 @@ class DifferenceRows(RowList):
         """A node, or `name  now → then` with what is to be said about it."""
         entry = self.entries[index]
         change = entry.difference
+        if entry.reason:
+            return [Segment(f"    {harmless(entry.reason)}", self._style("error"))]
         if change is None:
             return [Segment(harmless(entry.node), self._style("head"))]
         names = min(NAMES, max(12, width // 3))
@@ -95,9 +101,9 @@ class DifferenceRows(RowList):
 def _note(entry: Entry, change: ProfileDifference) -> tuple[str, str]:
     outcome = entry.outcome
     if outcome is not None:
-        return ("✓ taken", "good") if outcome.accepted else (f"✗ {harmless(outcome.reason)}", "error")
+        return ("✓ taken", "good") if outcome.accepted else ("✗ refused", "error")
     if change.refusal:
-        return f"✗ would be refused: {harmless(change.refusal)}", "error"
+        return "✗ would be refused", "error"
     if turns_safety_off(change):
         return "⚠ turns safety off", "warn"
     return ("needs a world reset", "dim") if change.needs_reset else ("", "dim")
@@ -118,5 +124,9 @@ def entries(
         if each.node != node:
             node = each.node
             found.append(Entry(each.node))
-        found.append(Entry(each.node, each, outcomes.get((each.node, each.name))))
+        outcome = outcomes.get((each.node, each.name))
+        found.append(Entry(each.node, each, outcome))
+        reason = each.refusal if outcome is None else outcome.reason
+        if reason and not (outcome and outcome.accepted):
+            found.append(Entry(each.node, reason=reason))
     return tuple(found)

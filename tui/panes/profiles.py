@@ -17,6 +17,9 @@ from bot_console.tui.widgets.row_list import RowList
 from textual.app import ComposeResult
 from textual.widgets import Static
 
+MOST = 6
+"""Profiles that are seen at once."""
+
 
 class ProfilesPane(Pane):
     """Named parameter files, and what each would change now."""
@@ -35,6 +38,7 @@ class ProfilesPane(Pane):
         self._differences: Sequence[ProfileDifference] = ()
         self._outcomes: dict[tuple[str, str], SetOutcome] = {}
         self._told = ""
+        self._held = False
 
     def compose(self) -> ComposeResult:
         """The profiles, the differences, a line that sums them up."""
@@ -57,7 +61,7 @@ class ProfilesPane(Pane):
         shown = self._list
         if snapshot.profiles is not before.profiles or snapshot.active_profile != shown.active:
             shown.profiles, shown.active = snapshot.profiles, snapshot.active_profile
-            shown.styles.height = max(1, min(len(snapshot.profiles), max(3, self.size.height // 3)))
+            shown.styles.height = max(1, min(len(snapshot.profiles), MOST))
             shown.rows_changed()
         elif snapshot.parameters is before.parameters and snapshot.problem == before.problem:
             return
@@ -65,7 +69,7 @@ class ProfilesPane(Pane):
 
     def _compare(self) -> None:
         profile = self._list.current
-        if profile is not None and not self._outcomes:
+        if profile is not None and not self._held:
             self._differences = () if profile.problem else self.console.profile_differences(profile.name)
         self.query_one(DifferenceRows).show(entries(self._differences, self._outcomes))
         self.query_one("#profile-head", Static).update(harmless(self._head(profile)))
@@ -101,7 +105,7 @@ class ProfilesPane(Pane):
 
     def action_again(self) -> None:
         """Forget the outcome and compare anew."""
-        self._outcomes, self._told = {}, ""
+        self._outcomes, self._told, self._held = {}, "", False
         self._compare()
 
     def action_scroll(self, step: int) -> None:
@@ -131,6 +135,8 @@ class ProfilesPane(Pane):
 
     def _apply(self, name: str, reset_world: bool) -> None:
         self._told = f"applying {name} ..."
+        # The list stays while its values change one by one, and shows in the end what became of each.
+        self._held = True
         answer = self.console.apply_profile(name, reset_world=reset_world)
         answer.add_done_callback(lambda done: self.host.call_later(self._outcome, name, reset_world, done))
         self._compare()

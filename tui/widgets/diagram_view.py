@@ -104,7 +104,12 @@ class DiagramView(ScrollView, can_focus=True):
         self.show_selected()
 
     def _first(self) -> str:
-        return min(self.places, key=lambda each: (self.places[each].x, self.places[each].y), default="")
+
+        def order(item: str) -> tuple[bool, int, int]:
+            place = self.places[item]
+            return not place.boxed, place.x, place.y
+
+        return min(self.places, key=order, default="")
 
     # Drawing ------------------------------------------------------------------------------------------------------
 
