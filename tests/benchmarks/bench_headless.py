@@ -1,7 +1,7 @@
 """How much faster than real time the complete system runs: `python tests/benchmarks/bench_headless.py`, JSON out.
 
 Each run is `bot-console --headless --fast` in a process of its own. `factor` is simulated seconds by CPU seconds of the
-whole process, its start included; `steady_factor` leaves the start out, as the difference of a long run and a short one.
+whole process, its start included; `steady_factor` leaves the start out: the difference of a long run and a short one.
 Medians of some runs, with the lowest and the highest.
 """
 
