@@ -62,8 +62,8 @@ VALUES: list[tuple[str, Make, str]] = [
     ("not off", lambda: NotSubstitution("off"), "true"),
     ("and", lambda: AndSubstitution("1", "true"), "true"),
     ("or", lambda: OrSubstitution("0", "false"), "false"),
-    ("any of none", lambda: AnySubstitution(), "false"),
-    ("all of none", lambda: AllSubstitution(), "true"),
+    ("any of none", AnySubstitution, "false"),
+    ("all of none", AllSubstitution, "true"),
     ("any", lambda: AnySubstitution("0", "1"), "true"),
     ("all", lambda: AllSubstitution("0", "1"), "false"),
     ("equal truths", lambda: EqualsSubstitution("1", "true"), "true"),
@@ -78,10 +78,25 @@ VALUES: list[tuple[str, Make, str]] = [
 ]
 
 ERRORS: list[tuple[str, Make, type[Exception], str]] = [
-    ("configuration", lambda: LaunchConfiguration("nope"), SubstitutionFailure, "launch configuration 'nope' does not exist"),
-    ("variable", lambda: EnvironmentVariable("NOPE_X"), SubstitutionFailure, "environment variable 'NOPE_X' does not exist"),
+    (
+        "configuration",
+        lambda: LaunchConfiguration("nope"),
+        SubstitutionFailure,
+        "launch configuration 'nope' does not exist",
+    ),
+    (
+        "variable",
+        lambda: EnvironmentVariable("NOPE_X"),
+        SubstitutionFailure,
+        "environment variable 'NOPE_X' does not exist",
+    ),
     ("file", lambda: FileContent("/no/such"), SubstitutionFailure, "File not found: /no/such"),
-    ("truth", lambda: NotSubstitution("maybe"), SubstitutionFailure, "Cannot convert value 'maybe' to '<class 'bool'>'"),
+    (
+        "truth",
+        lambda: NotSubstitution("maybe"),
+        SubstitutionFailure,
+        "Cannot convert value 'maybe' to '<class 'bool'>'",
+    ),
     ("and evaluates both", lambda: AndSubstitution("0", "maybe"), SubstitutionFailure, "Cannot convert value 'maybe'"),
     ("command fails", lambda: Command("false"), SubstitutionFailure, "executed command failed. Command: false"),
     (
@@ -97,7 +112,12 @@ ERRORS: list[tuple[str, Make, type[Exception], str]] = [
         SubstitutionFailure,
         "expected 'on_stderr' to be one of: 'fail', 'ignore', 'warn' or 'capture'",
     ),
-    ("lower-case truth in an expression", lambda: PythonExpression("not true"), NameError, "name 'true' is not defined"),
+    (
+        "lower-case truth in an expression",
+        lambda: PythonExpression("not true"),
+        NameError,
+        "name 'true' is not defined",
+    ),
     (
         "no program",
         lambda: FindExecutable(name="nope"),

@@ -1,0 +1,324 @@
+"""Arguments, configurations and environment, with scopes as they really are. Contract, section 1.2."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import pytest
+from launch.actions import (
+    AppendEnvironmentVariable,
+    DeclareLaunchArgument,
+    GroupAction,
+    IncludeLaunchDescription,
+    LogInfo,
+    OpaqueFunction,
+    PopEnvironment,
+    PopLaunchConfigurations,
+    PushEnvironment,
+    PushLaunchConfigurations,
+    ResetEnvironment,
+    ResetLaunchConfigurations,
+    SetEnvironmentVariable,
+    SetLaunchConfiguration,
+    UnsetEnvironmentVariable,
+    UnsetLaunchConfiguration,
+)
+from launch.substitutions import EnvironmentVariable, LaunchConfiguration
+
+from launch import LaunchDescription, LaunchDescriptionSource
+
+from .conftest import Launch
+
+X = LaunchConfiguration("x", default="unset")
+
+
+def say(text: Any = X) -> LogInfo:
+    return LogInfo(msg=text)
+
+
+def include(*entities: Any, **arguments: Any) -> IncludeLaunchDescription:
+    source = LaunchDescriptionSource(LaunchDescription(list(entities)))
+    return IncludeLaunchDescription(source, launch_arguments=arguments.items())
+
+
+def environment(name: str) -> LogInfo:
+    return LogInfo(msg=EnvironmentVariable(name, default_value="unset"))
+
+
+Entities = Callable[[], list[Any]]
+
+SAID: list[tuple[str, Mapping[str, str], Entities, list[str]]] = [
+    ("a default", {}, lambda: [DeclareLaunchArgument("x", default_value="1"), say()], ["1"]),
+    ("a default loses", {"x": "2"}, lambda: [DeclareLaunchArgument("x", default_value="1"), say()], ["2"]),
+    (
+        "the first default of a name counts",
+        {},
+        lambda: [DeclareLaunchArgument("x", default_value="1"), DeclareLaunchArgument("x", default_value="2"), say()],
+        ["1"],
+    ),
+    (
+        "a default in pieces",
+        {"y": "b"},
+        lambda: [DeclareLaunchArgument("x", default_value=["a", LaunchConfiguration("y")]), say()],
+        ["ab"],
+    ),
+    ("what is not declared can be read", {"x": "2"}, lambda: [say()], ["2"]),
+    (
+        "an include's arguments leak",
+        {},
+        lambda: [include(say(), x="1"), say()],
+        ["1", "1"],
+    ),
+    (
+        "an include's defaults leak",
+        {},
+        lambda: [include(DeclareLaunchArgument("x", default_value="1")), say()],
+        ["1"],
+    ),
+    (
+        "a second include keeps the first one's defaults",
+        {},
+        lambda: [
+            include(DeclareLaunchArgument("x", default_value="1")),
+            include(DeclareLaunchArgument("x", default_value="2"), say()),
+        ],
+        ["1"],
+    ),
+    (
+        "a group is a scope",
+        {},
+        lambda: [SetLaunchConfiguration("x", "1"), GroupAction([SetLaunchConfiguration("x", "2"), say()]), say()],
+        ["2", "1"],
+    ),
+    (
+        "an unscoped group is none",
+        {},
+        lambda: [GroupAction([SetLaunchConfiguration("x", "2")], scoped=False), say()],
+        ["2"],
+    ),
+    (
+        "a group without forwarding",
+        {"x": "1", "y": "1"},
+        lambda: [
+            GroupAction(
+                [say(), say(LaunchConfiguration("y", default="none"))],
+                forwarding=False,
+                launch_configurations={"x": ["kept ", LaunchConfiguration("y")]},
+            ),
+            say(),
+        ],
+        ["kept 1", "none", "1"],
+    ),
+    (
+        "push and pop",
+        {},
+        lambda: [
+            PushLaunchConfigurations(),
+            SetLaunchConfiguration("x", "1"),
+            say(),
+            PopLaunchConfigurations(),
+            say(),
+        ],
+        ["1", "unset"],
+    ),
+    ("unset", {"x": "1"}, lambda: [UnsetLaunchConfiguration("x"), UnsetLaunchConfiguration("none"), say()], ["unset"]),
+    (
+        "reset",
+        {"x": "1", "y": "2"},
+        lambda: [
+            ResetLaunchConfigurations({"x": LaunchConfiguration("y")}),
+            say(),
+            say(LaunchConfiguration("y", default="-")),
+        ],
+        ["2", "-"],
+    ),
+    (
+        "a function in between",
+        {},
+        lambda: [
+            OpaqueFunction(function=lambda context, *args, **more: [say(f"{args} {more}")], args=[1], kwargs={"a": 2}),
+            OpaqueFunction(function=lambda context: context.launch_configurations.update(x="3")),
+            say(),
+        ],
+        ["(1,) {'a': 2}", "3"],
+    ),
+    (
+        "the environment",
+        {},
+        lambda: [
+            SetEnvironmentVariable("BC_A", "1"),
+            AppendEnvironmentVariable("BC_A", "2"),
+            AppendEnvironmentVariable("BC_A", "0", prepend=True, separator="-"),
+            AppendEnvironmentVariable("BC_B", "only"),
+            environment("BC_A"),
+            environment("BC_B"),
+            UnsetEnvironmentVariable("BC_A"),
+            UnsetEnvironmentVariable("BC_NONE"),
+            environment("BC_A"),
+        ],
+        [f"0-1{os.pathsep}2", "only", "unset"],
+    ),
+    (
+        "scopes of the environment",
+        {},
+        lambda: [
+            PushEnvironment(),
+            SetEnvironmentVariable("BC_A", "1"),
+            PopEnvironment(),
+            environment("BC_A"),
+            GroupAction([SetEnvironmentVariable("BC_A", "2")]),
+            environment("BC_A"),
+            GroupAction([SetEnvironmentVariable("BC_A", "3")], scoped=False),
+            environment("BC_A"),
+            ResetEnvironment(),
+            environment("BC_A"),
+        ],
+        ["unset", "unset", "3", "unset"],
+    ),
+]
+
+CAUGHT: list[tuple[str, Mapping[str, str], Entities, str]] = [
+    (
+        "required",
+        {},
+        lambda: [include(DeclareLaunchArgument("must", description="needed"))],
+        "Included launch description missing required argument 'must' (description: 'needed'), given: []",
+    ),
+    (
+        "required, known to the parent only",
+        {"must": "1"},
+        lambda: [include(DeclareLaunchArgument("must"), other="1")],
+        "Included launch description missing required argument 'must' (description: 'no description given'), "
+        "given: [other]",
+    ),
+    (
+        "a wrong choice",
+        {"m": "C"},
+        lambda: [DeclareLaunchArgument("m", choices=["A", "B"])],
+        "Argument \"m\" provided value \"C\" is not valid. Valid options are: ['A', 'B']",
+    ),
+    ("a pop too many", {}, lambda: [PopLaunchConfigurations()], "launch_configurations stack unexpectedly empty"),
+    ("an environment pop too many", {}, lambda: [PopEnvironment()], "environment stack unexpectedly empty"),
+    (
+        "a function that gives a text",
+        {},
+        lambda: [OpaqueFunction(function=lambda context: "text")],
+        "'str' object has no attribute 'visit'",
+    ),
+    (
+        "a function before its argument",
+        {},
+        lambda: [
+            OpaqueFunction(function=lambda context: [LogInfo(msg=LaunchConfiguration("env"))]),
+            DeclareLaunchArgument("env", default_value="1"),
+        ],
+        "launch configuration 'env' does not exist",
+    ),
+]
+
+
+@pytest.mark.parametrize(("arguments", "entities", "said"), [row[1:] for row in SAID], ids=[row[0] for row in SAID])
+def test_said(run: Launch, arguments: Mapping[str, str], entities: Entities, said: list[str]) -> None:
+    outcome = run(entities(), arguments)
+    assert (outcome.code, outcome.said) == (0, said), outcome.text
+
+
+@pytest.mark.parametrize(("arguments", "entities", "text"), [row[1:] for row in CAUGHT], ids=[row[0] for row in CAUGHT])
+def test_caught(run: Launch, arguments: Mapping[str, str], entities: Entities, text: str) -> None:
+    outcome = run(entities(), arguments)
+    assert (outcome.code, outcome.caught) == (1, text), outcome.text
+
+
+@pytest.mark.parametrize(
+    ("options", "text"),
+    [
+        ({}, "no description given"),
+        ({"description": "a"}, "a"),
+        ({"choices": ["A", "B"]}, "One of: ['A', 'B']"),
+        ({"choices": ["A"], "description": "Which"}, "Which. Valid choices are: ['A']"),
+        ({"choices": ["A"], "description": "Which."}, "Which. Valid choices are: ['A']"),
+    ],
+)
+def test_description_of_an_argument(options: Any, text: str) -> None:
+    assert DeclareLaunchArgument("x", **options).description == text
+
+
+@pytest.mark.parametrize(
+    ("options", "text"),
+    [
+        ({"choices": []}, "Provided choices arg is empty. Use None to ignore the choice list."),
+        (
+            {"choices": ["A"], "default_value": "X"},
+            'Provided default_value "X" is not in provided choices "[\'A\']".',
+        ),
+    ],
+)
+def test_wrong_choices(log_lines: list[str], options: Any, text: str) -> None:
+    with pytest.raises(RuntimeError) as caught:
+        DeclareLaunchArgument("x", **options)
+    assert str(caught.value) == text
+    assert log_lines == [f"[ERROR] [launch.actions.declare_launch_argument]: {text}"]
+
+
+@pytest.mark.parametrize("default", [5, True])
+def test_a_default_that_is_no_text(default: Any) -> None:
+    with pytest.raises(TypeError, match="object is not iterable"):
+        DeclareLaunchArgument("x", default_value=default)
+
+
+def test_a_wrong_value_is_said_twice(run: Launch) -> None:
+    outcome = run([DeclareLaunchArgument("m", choices=["A"])], {"m": "C"})
+    said = 'Argument "m" provided value "C" is not valid. Valid options are: [\'A\']'
+    assert outcome.lines[2] == f"[ERROR] [launch.actions.declare_launch_argument]: {said}"
+    assert outcome.caught == said
+
+
+@pytest.mark.parametrize(
+    ("arguments", "text"),
+    [({"a": "1"}, "not enough values to unpack (expected 2, got 1)"), ([("a", 5)], "'int' object is not iterable")],
+)
+def test_arguments_in_a_wrong_form(run: Launch, arguments: Any, text: str) -> None:
+    source = LaunchDescriptionSource(LaunchDescription([]))
+    outcome = run(
+        [OpaqueFunction(function=lambda context: [IncludeLaunchDescription(source, launch_arguments=arguments)])]
+    )
+    assert outcome.caught == text
+
+
+def test_the_directory_stays_that_of_the_included_file(run_file: Launch, tmp_path: Any) -> None:
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "sub" / "b.launch.py").write_text(
+        "from launch import LaunchDescription\ndef generate_launch_description():\n    return LaunchDescription()\n"
+    )
+    outcome = run_file(
+        """
+        from launch import LaunchDescription
+        from launch.actions import IncludeLaunchDescription, LogInfo
+        from launch.substitutions import ThisLaunchFileDir
+
+        def generate_launch_description():
+            here = ThisLaunchFileDir()
+            return LaunchDescription(
+                [LogInfo(msg=here), IncludeLaunchDescription([here, "/sub/b.launch.py"]), LogInfo(msg=here)]
+            )
+        """
+    )
+    assert outcome.said == [str(tmp_path), str(tmp_path / "sub")]
+
+
+def test_a_missing_local_names_those_that_are_there() -> None:
+    from launch import LaunchContext
+
+    context = LaunchContext()
+    context.extend_locals({"a": 1})
+    with pytest.raises(AttributeError) as caught:
+        context.locals.b  # noqa: B018
+    assert str(caught.value) == "context.locals does not contain attribute 'b', it contains: [a]"
+
+
+def test_a_deprecated_description(run: Launch) -> None:
+    outcome = run([LaunchDescription([], deprecated_reason="use the other")])
+    assert outcome.lines[-1].endswith("is deprecated: use the other")
+    assert outcome.lines[-1].startswith("[WARNING] [root]: ")

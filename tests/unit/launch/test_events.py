@@ -1,0 +1,385 @@
+"""Events, handlers, timers and processes. Contract, sections 1.3, 1.4 and 4."""
+
+from __future__ import annotations
+
+import asyncio
+import re
+import sys
+import threading
+from pathlib import Path
+from typing import Any
+
+import pytest
+from launch.actions import (
+    EmitEvent,
+    ExecuteProcess,
+    GroupAction,
+    LogInfo,
+    OpaqueCoroutine,
+    OpaqueFunction,
+    RegisterEventHandler,
+    SetLaunchConfiguration,
+    Shutdown,
+    TimerAction,
+    UnregisterEventHandler,
+)
+from launch.event_handlers import OnExecutionComplete, OnProcessExit, OnProcessIO, OnProcessStart, OnShutdown
+from launch.events import Shutdown as ShutdownEvent
+from launch.events import matches_action
+from launch.events.process import ShutdownProcess, SignalProcess
+from launch.substitutions import LaunchConfiguration, LocalSubstitution
+
+from launch import Event, EventHandler, LaunchDescription, LaunchService
+
+from .conftest import Launch, Outcome
+
+
+def python(code: str, **options: Any) -> ExecuteProcess:
+    options.setdefault("name", "p")
+    return ExecuteProcess(cmd=[sys.executable, "-S", "-c", code], **options)
+
+
+def of_process(outcome: Outcome) -> list[str]:
+    """Lines about and from processes, without their numbers."""
+    lines = [each for each in outcome.lines if re.search(r"-\d+\]", each)]
+    lines = [re.sub(r"\[p-\d+\]", "[p]", each) for each in lines]
+    return [re.sub(r"pid \[?\d+\]?", "pid", each) for each in lines]
+
+
+def test_a_process_and_what_it_prints(run: Launch) -> None:
+    outcome = run([python("print('a'); import sys; sys.exit(3)", output="screen")])
+    started, printed, died = of_process(outcome)
+    assert (started, printed) == ("[INFO] [p]: process started with pid", "[p] a")
+    assert re.fullmatch(r"\[ERROR\] \[p\]: process has died \[pid, exit code 3, cmd '.*'\]\.", died)
+    assert outcome.code == 0
+
+
+OUT = "import sys; print('out'); print('err', file=sys.stderr)"
+OUTPUTS: list[tuple[Any, set[str], str]] = [
+    ("screen", {"out", "err"}, ""),
+    ("log", {"err"}, "out err"),
+    ("both", {"out", "err"}, "out err"),
+    ("own_log", set(), ""),
+    ("full", {"out", "err"}, "out err"),
+    ({"stdout": "screen"}, {"out"}, ""),
+    ({"both": {"screen", "log"}}, {"out", "err"}, "out err"),
+    ({"stdout": "log", "stderr": "screen"}, {"err"}, "out"),
+]
+
+
+@pytest.mark.parametrize(("output", "shown", "logged"), OUTPUTS, ids=[str(row[0]) for row in OUTPUTS])
+def test_output(run: Launch, output: Any, shown: set[str], logged: str) -> None:
+    import launch.logging
+
+    outcome = run([python(OUT, output=output)])
+    assert {each.partition("] ")[2] for each in outcome.lines if re.match(r"\[p-\d+\]", each)} == shown
+    log = Path(launch.logging.launch_config.get_log_file_path()).read_text()
+    for word in ("out", "err"):
+        assert bool(re.search(rf"^\d+\.\d{{7}} \[p-\d+\] {word}$", log, re.M)) is (word in logged.split())
+
+
+def test_the_environment_overrules_the_output(run: Launch, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("OVERRIDE_LAUNCH_PROCESS_OUTPUT", "screen")
+    assert "[p] out" in of_process(run([python(OUT, output="nonsense")]))
+
+
+def test_a_bad_output(run: Launch) -> None:
+    text = 'nonsense is not a valid standard output config i.e. "screen", "log" or "both"'
+    assert run([python(OUT, output="nonsense")]).caught == text
+
+
+def test_an_unfinished_line_comes_after_the_end(run: Launch) -> None:
+    lines = of_process(run([python("print('part', end='')", output="screen")]))
+    assert lines[1:] == ["[INFO] [p]: process has finished cleanly [pid", "[p] part"]
+
+
+def test_output_format(run: Launch) -> None:
+    outcome = run([python("print('a')", output="screen", output_format="<{line}>")])
+    assert "<a>" in outcome.lines
+
+
+def test_cached_output(run: Launch) -> None:
+    process = python("print('kept')", cached_output=True)
+    assert process.return_code is None
+    run([process])
+    assert (process.get_stdout(), process.return_code) == ("kept\n", 0)
+    with pytest.raises(RuntimeError):
+        python("").get_stdout()
+
+
+def test_an_executable_that_is_not_there(run: Launch) -> None:
+    outcome = run([ExecuteProcess(cmd=["/no/such/program"]), LogInfo(msg="on")])
+    assert outcome.code == 0
+    assert "exception occurred while executing process:" in outcome.text
+
+
+def test_labels_count_up_and_never_start_again(run: Launch) -> None:
+    first, second = python("", name="a"), python("", name="b")
+    run([first, second])
+    names = [each.process_description.final_name or "" for each in (first, second)]
+    assert int(names[1].rpartition("-")[2]) == int(names[0].rpartition("-")[2]) + 1
+
+
+def test_the_same_action_twice(run: Launch) -> None:
+    process = python("")
+    outcome = run([process, process])
+    assert re.match(r"ExecuteLocal action 'p-\d+': executed more than once: <", outcome.caught)
+
+
+def test_a_text_as_command_is_taken_apart(run: Launch) -> None:
+    process = ExecuteProcess(cmd="/x y")
+    assert [each[0].describe() for each in process.cmd] == ["'/'", "'x'", "' '", "'y'"]
+
+
+def test_prefix_and_its_filter(run: Launch) -> None:
+    code = "import os; print(os.environ.get('BC_P'))"
+    filtered = {"launch-prefix": "env BC_P=1", "launch-prefix-filter": "nothing"}
+    assert "1" in [
+        each.partition("] ")[2] for each in run([python(code, output="screen")], {"launch-prefix": "env BC_P=1"}).lines
+    ]
+    assert "None" in [each.partition("] ")[2] for each in run([python(code, output="screen")], filtered).lines]
+    own = python(code, output="screen", prefix="env BC_P=2")
+    assert "2" in [each.partition("] ")[2] for each in run([own], filtered).lines]
+
+
+def test_environment_of_a_process(run: Launch) -> None:
+    code = "import os; print(os.environ.get('BC_A'), 'PATH' in os.environ)"
+    added = python(code, output="screen", additional_env={"BC_A": LaunchConfiguration("x")})
+    replaced = python(code, output="screen", env={"BC_A": "2"})
+    text = run([added, replaced], {"x": "1"}).text
+    assert "] 1 True" in text
+    assert "] 2 False" in text
+
+
+def test_respawn_until_the_retries_are_used_up(run: Launch) -> None:
+    ended: list[int] = []
+    process = python("", respawn=True, respawn_max_retries=2, on_exit=lambda event, context: ended.append(event.pid))
+    outcome = run([process])
+    assert len(ended) == len(set(ended)) == 3
+    assert outcome.text.count("process has finished cleanly") == 3
+
+
+def test_no_respawn_in_a_shutdown(run: Launch) -> None:
+    process = python("", respawn=True, respawn_delay=60.0)
+    outcome = run(
+        [process, RegisterEventHandler(OnProcessExit(on_exit=[TimerAction(period=0.01, actions=[Shutdown()])]))]
+    )
+    assert outcome.text.count("process started") == 1
+
+
+def test_a_required_process(run: Launch) -> None:
+    outcome = run([python("import sys; sys.exit(1)", on_exit=Shutdown())])
+    assert outcome.code == 0
+    assert re.search(r"\[INFO\] \[launch\]: process\[p-\d+\] was required: shutting down launched system", outcome.text)
+
+
+WAITS = "import os, signal, time; signal.signal(signal.SIGINT, {}); print('up', flush=True); time.sleep(60)"
+
+
+def test_shutdown_sends_sigint(run: Launch) -> None:
+    process = python(WAITS.format("lambda *_: os._exit(0)"), output="screen")
+    on_io = OnProcessIO(target_action=process, on_stdout=lambda event: EmitEvent(event=ShutdownEvent()))
+    lines = of_process(run([process, RegisterEventHandler(on_io)]))
+    assert lines[2] == "[INFO] [p]: sending signal 'SIGINT' to process[p]", lines
+    assert lines[3] == "[INFO] [p]: process has finished cleanly [pid"
+
+
+def test_escalation_to_sigkill(run: Launch) -> None:
+    code = "import signal, time\nfor each in (signal.SIGINT, signal.SIGTERM): signal.signal(each, signal.SIG_IGN)\n"
+    code += "print('up', flush=True)\ntime.sleep(60)"
+    process = python(code, sigterm_timeout="0.1", sigkill_timeout="0.2", output="screen")
+    on_io = OnProcessIO(target_action=process, on_stdout=lambda event: Shutdown())
+    text = run([process, RegisterEventHandler(on_io)]).text
+    assert "failed to terminate '0.1' seconds after receiving 'SIGINT', escalating to 'SIGTERM'" in text
+    assert re.search(r"failed to terminate '0\.3\d*' seconds after receiving 'SIGTERM', escalating to 'SIGKILL'", text)
+    assert "exit code -9" in text
+
+
+def test_a_signal_by_its_name_ends_the_launch(run: Launch) -> None:
+    process = python(WAITS.format("signal.default_int_handler"), output="screen")
+
+    def signal_it(event: Any) -> Any:
+        return EmitEvent(event=SignalProcess(signal_number="SIGTERM", process_matcher=matches_action(process)))
+
+    outcome = run(
+        [process, RegisterEventHandler(OnProcessIO(target_action=process, on_stdout=signal_it, handle_once=True))]
+    )
+    assert "sending signal 'SIGTERM'" in outcome.text
+    assert outcome.caught == "'str' object cannot be interpreted as an integer"
+    assert outcome.code == 1
+
+
+def test_one_process_can_be_shut_down(run: Launch) -> None:
+    process = python(WAITS.format("lambda *_: os._exit(0)"), output="screen")
+    event = ShutdownProcess(process_matcher=matches_action(process))
+    on_io = OnProcessIO(target_action=process, on_stdout=lambda _: EmitEvent(event=event))
+    assert "sending signal 'SIGINT'" in run([process, RegisterEventHandler(on_io)]).text
+
+
+def test_start_and_exit_handlers(run: Launch) -> None:
+    process = python("")
+    seen: list[Any] = []
+
+    def exited(event: Any, context: Any) -> Any:
+        seen.append((event.action is process, event.returncode, event.process_name, event.pid > 0))
+        return [LogInfo(msg="exited")]
+
+    outcome = run(
+        [
+            process,
+            RegisterEventHandler(OnProcessExit(target_action=process, on_exit=exited)),
+            RegisterEventHandler(OnProcessStart(target_action=process, on_start=[LogInfo(msg="started")])),
+            RegisterEventHandler(
+                OnProcessExit(target_action=lambda action: action is process, on_exit=LogInfo(msg="predicate"))
+            ),
+            RegisterEventHandler(OnProcessExit(target_action=python(""), on_exit=LogInfo(msg="never"))),
+        ]
+    )
+    assert outcome.said == ["started", "predicate", "exited"]  # the newest handler is asked first
+    assert seen == [(True, 0, process.process_description.final_name, True)]
+
+
+@pytest.mark.parametrize(
+    ("make", "text"),
+    [
+        (
+            lambda: OnProcessExit(on_exit=["x"]),
+            "expected all items in 'on_event' iterable to be of type 'LaunchDescriptionEntity' but got '<class 'str'>'",
+        ),
+        (
+            lambda: OnProcessExit(target_action=5, on_exit=[]),
+            "action_matcher must be an 'ExecuteLocal' instance or a callable",
+        ),
+    ],
+)
+def test_wrong_handlers(make: Any, text: str) -> None:
+    with pytest.raises(TypeError) as caught:
+        make()
+    assert str(caught.value) == text
+
+
+def test_emit_something_else() -> None:
+    wrong: Any = "x"
+    with pytest.raises(RuntimeError, match=r"EmitEvent\(\) expected an event instance, got 'x'."):
+        EmitEvent(event=wrong)
+
+
+def test_the_static_tree_comes_before_every_process(run: Launch) -> None:
+    lines = run([python(""), LogInfo(msg="later")]).lines
+    assert lines.index("[INFO] [launch.user]: later") < next(i for i, each in enumerate(lines) if "started" in each)
+
+
+def test_configurations_in_a_handler_are_those_of_the_event(run: Launch) -> None:
+    process = python("")
+    on_exit = OnProcessExit(target_action=process, on_exit=[LogInfo(msg=LaunchConfiguration("x"))])
+    group = GroupAction([SetLaunchConfiguration("x", "in"), RegisterEventHandler(on_exit), process])
+    assert run([SetLaunchConfiguration("x", "out"), group]).said == ["out"]
+
+
+def test_timers(run: Launch) -> None:
+    def timer(period: Any, text: str) -> TimerAction:
+        return TimerAction(period=period, actions=[LogInfo(msg=text)])
+
+    outcome = run(
+        [timer(0.05, "late"), timer(0.0, "zero"), timer(-1.0, "negative"), timer([LaunchConfiguration("t")], "text")],
+        {"t": "0.02"},
+    )
+    assert outcome.said == ["zero", "negative", "text", "late"]
+    with pytest.raises(TypeError):
+        timer(1, "int")
+
+
+def test_a_period_that_is_no_number_is_an_error(run: Launch) -> None:
+    outcome = run([TimerAction(period=LaunchConfiguration("t"), actions=[])], {"t": "soon"})
+    assert (outcome.code, outcome.caught) == (1, "could not convert string to float: 'soon'")
+
+
+def test_shutdown_cancels_timers(run: Launch) -> None:
+    assert run([TimerAction(period=60.0, actions=[LogInfo(msg="never")]), Shutdown()]).said == []
+
+
+def test_shutdown_handlers_and_reasons(run: Launch) -> None:
+    reason = LogInfo(msg=LocalSubstitution("event.reason"))
+    assert run([RegisterEventHandler(OnShutdown(on_shutdown=[reason])), Shutdown(reason="done")]).said == ["done"]
+    assert run([RegisterEventHandler(OnShutdown(on_shutdown=lambda event, context: [reason]))]).said[-1] == "idle"
+
+
+def test_completion_needs_a_handler_that_is_there_before(run: Launch) -> None:
+    timer = TimerAction(period=0.01, actions=[])
+    before = RegisterEventHandler(OnExecutionComplete(target_action=timer, on_completion=[LogInfo(msg="complete")]))
+    assert run([before, timer]).said == ["complete"]
+    late = TimerAction(period=0.01, actions=[])
+    after = RegisterEventHandler(OnExecutionComplete(target_action=late, on_completion=[LogInfo(msg="never")]))
+    assert run([late, after]).said[1:] == []
+
+
+def test_handlers_of_own_events(run: Launch) -> None:
+    class Own(Event):
+        name = "own"
+
+    once = EventHandler(matcher=lambda event: isinstance(event, Own), entities=[LogInfo(msg="once")], handle_once=True)
+    gone = EventHandler(matcher=lambda event: isinstance(event, Own), entities=[LogInfo(msg="gone")])
+    entities = [RegisterEventHandler(once), RegisterEventHandler(gone), UnregisterEventHandler(gone)]
+    assert run([*entities, EmitEvent(event=Own()), EmitEvent(event=Own())]).said == ["once"]
+
+
+def test_coroutines(run: Launch) -> None:
+    ran: list[str] = []
+
+    async def later(context: Any, word: str) -> None:
+        await asyncio.sleep(0)
+        ran.append(word)
+
+    async def for_ever() -> None:
+        await asyncio.Event().wait()
+
+    assert run([OpaqueCoroutine(coroutine=later, args=["a"])]).code == 0
+    assert ran == ["a"]
+    assert run([OpaqueCoroutine(coroutine=for_ever, ignore_context=True), Shutdown()]).code == 0
+
+
+def test_an_exception_later_stops_what_runs(run: Launch) -> None:
+    process = python(WAITS.format("lambda *_: os._exit(0)"), output="screen")
+
+    def fail(event: Any) -> None:
+        raise ValueError("on purpose")
+
+    outcome = run([process, RegisterEventHandler(OnProcessIO(on_stdout=fail, handle_once=True))])
+    assert (outcome.code, outcome.caught) == (1, "on purpose")
+    assert "sending signal 'SIGINT'" in outcome.text
+
+
+def test_a_service_in_another_thread(log_lines: list[str]) -> None:
+    service = LaunchService(noninteractive=True)
+    codes: list[int] = []
+    runs = threading.Event()
+    service.include_launch_description(LaunchDescription([OpaqueFunction(function=lambda context: runs.set())]))
+    thread = threading.Thread(target=lambda: codes.append(service.run(shutdown_when_idle=False)))
+    thread.start()
+    assert runs.wait(10)
+    heard = threading.Event()
+    service.include_launch_description(LaunchDescription([OpaqueFunction(function=lambda context: heard.set())]))
+    assert heard.wait(10)
+    service.shutdown()
+    thread.join(10)
+    assert codes == [0]
+
+
+def test_a_service_runs_once_at_a_time(log_lines: list[str]) -> None:
+    service = LaunchService()
+
+    async def twice() -> None:
+        first = asyncio.ensure_future(service.run_async(shutdown_when_idle=False))
+        await asyncio.sleep(0)
+        with pytest.raises(RuntimeError, match=r"LaunchService cannot be run multiple times concurrently\."):
+            await service.run_async()
+        service.shutdown()
+        await first
+
+    asyncio.run(twice())
+
+
+def test_the_first_lines_are_always_the_same(run: Launch) -> None:
+    first, second = run([]).lines
+    assert first.startswith("[INFO] [launch]: All log files can be found below ")
+    assert second == "[INFO] [launch]: Default logging verbosity is set to INFO"
