@@ -161,13 +161,9 @@ class _Plan:
         x = 0
         left: list[int] = []
         for at, here in enumerate(self.channels):
-            if at == 0 and not self.trunks[0]:
-                left.append(0)
-                continue
             first = x
-            room = self.flow.room(here.tracks)
-            if at == len(self.channels) - 1 and not self.trunks[at]:
-                room = 0
+            outermost = at in (0, len(self.channels) - 1)
+            room = 0 if outermost and not self.trunks[at] else self.flow.room(here.tracks)
             x += room
             left.append(x)
             for trunk in self.trunks[at]:

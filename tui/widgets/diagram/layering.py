@@ -38,8 +38,9 @@ def _ranks(items: Mapping[str, Item], edges: list[Edge]) -> dict[str, float]:
         after[a].add(b)
         before[b].add(a)
     boxes = [each for each, item in items.items() if item.boxed]
+    gives = {each: len(after[each]) - len(before[each]) for each in boxes}
     ahead = {each: _boxes_reached(each, after, items) - {each} for each in boxes}
-    rank: dict[str, float] = {each: float(at) for at, each in enumerate(_greedy_order(boxes, ahead))}
+    rank: dict[str, float] = {each: float(at) for at, each in enumerate(_greedy_order(boxes, ahead, gives))}
     for each in (one for one, item in items.items() if not item.boxed):
         leading = [rank[one] for one in before[each] if one in rank]
         following = [rank[one] for one in after[each] if one in rank]
@@ -55,8 +56,11 @@ def _boxes_reached(start: str, after: Mapping[str, set[str]], items: Mapping[str
     return found
 
 
-def _greedy_order(nodes: Iterable[str], after: Mapping[str, set[str]]) -> list[str]:
-    """The order of Eades, Lin and Smyth: sources first, sinks last, else what leads to most more than it is led to."""
+def _greedy_order(nodes: Iterable[str], after: Mapping[str, set[str]], gives: Mapping[str, int]) -> list[str]:
+    """The order of Eades, Lin and Smyth: sources first, sinks last, else what leads to most more than it is led to.
+
+    `gives` decides between equals: the surplus of arrows that leave over arrows that come.
+    """
     left = set(nodes)
     before: dict[str, set[str]] = {each: set() for each in left}
     for a, targets in after.items():
@@ -74,7 +78,8 @@ def _greedy_order(nodes: Iterable[str], after: Mapping[str, set[str]]) -> list[s
             tail = sinks + tail
             left -= set(sinks)
         else:
-            best = min(left, key=lambda each: (len(before[each] & left) - len(after[each] & left), each))
+            surplus = {each: len(after[each] & left) - len(before[each] & left) for each in left}
+            best = min(left, key=lambda each: (-surplus[each], -gives[each], each))
             head.append(best)
             left.remove(best)
     return head + tail
