@@ -107,32 +107,36 @@ class Context:
             callbacks, self._callbacks = self._callbacks, []
         for endpoint in list(self.lingering):
             self.bus.remove(endpoint)
-        for callback in callbacks:
-            callback()
+        for held in callbacks:
+            callback = held()
+            if callback is not None:
+                callback()
 
     def on_shutdown(self, callback: Callable[[], Any]) -> Callable[[], None]:
         """Call back once at the shutdown, at once where it has happened; returns what takes the callback away."""
         if not callable(callback):
             raise TypeError(f"callback should be a callable, got {type(callback)}")
         self._require_init()
-        held = _weakly(callback)
-
-        def call() -> None:
-            found = held() if held is not None else callback
-            if found is not None:
-                found()
-
+        held = self._held(callback)
         with self._lock:
             if not self.ended:
-                self._callbacks.append(call)
-                return lambda: self._forget(call)
-        call()
+                self._callbacks.append(held)
+                return lambda: self._forget(held)
+        callback()
         return lambda: None
 
-    def _forget(self, call: Callable[[], Any]) -> None:
+    def _held(self, callback: Callable[[], Any]) -> Callable[[], Any]:
+        """What gives the callback: a method is held weakly, so that a context keeps nobody alive."""
+        if ismethod(callback):
+            try:
+                return weakref.WeakMethod(callback, self._forget)
+            except TypeError:  # its object allows no weak references
+                pass
+        return lambda: callback
+
+    def _forget(self, held: Any) -> None:
         with self._lock:
-            if call in self._callbacks:
-                self._callbacks.remove(call)
+            self._callbacks = [each for each in self._callbacks if each is not held]
 
     def track_node(self, node: Any) -> None:
         """A node was made in this context."""
@@ -163,14 +167,6 @@ class Context:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.try_shutdown()
-
-
-def _weakly(callback: Callable[[], Any]) -> Any:
-    """A weak reference to a method, so that a context keeps nobody alive; None for what is held as it is."""
-    try:
-        return weakref.WeakMethod(callback) if ismethod(callback) else None
-    except TypeError:  # its object allows no weak references
-        return None
 
 
 def _domain_of_environment() -> int:

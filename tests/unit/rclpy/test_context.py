@@ -1,0 +1,206 @@
+"""init, shutdown, contexts, and what nodes and entities still do afterwards."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+import rclpy
+from rclpy._rclpy_pybind11 import InvalidHandle, RCLError, UnknownROSArgsError
+from rclpy.context import Context
+from rclpy.exceptions import NotInitializedException
+from rclpy.signals import SignalHandlerOptions, get_current_signal_handlers_options
+from std_msgs.msg import Int32
+
+
+@pytest.fixture
+def default() -> Iterator[None]:
+    """The default context, ended after the test."""
+    yield
+    rclpy.try_shutdown()
+
+
+def test_ok_follows_the_default_context(default: None) -> None:
+    states = [rclpy.ok()]
+    rclpy.init(args=[])
+    states.append(rclpy.ok())
+    rclpy.shutdown()
+    assert [*states, rclpy.ok()] == [False, True, False]
+
+
+def test_twice(default: None) -> None:
+    rclpy.init(args=[])
+    with pytest.raises(RuntimeError, match=r"^Context.init\(\) must only be called once$"):
+        rclpy.init(args=[])
+    rclpy.shutdown()
+    with pytest.raises(RuntimeError, match=r"^Context must be initialized before it can be shutdown$"):
+        rclpy.shutdown()
+    rclpy.try_shutdown()
+
+
+def test_again_after_a_shutdown(default: None) -> None:
+    names = []
+    for number in range(3):
+        rclpy.init(args=[])
+        with rclpy.create_node(f"n{number}") as node:
+            names.append(node.get_name())
+        rclpy.shutdown()
+    assert names == ["n0", "n1", "n2"]
+
+
+def test_a_with_block() -> None:
+    with rclpy.init(args=[]):
+        assert rclpy.ok()
+    assert not rclpy.ok()
+    with Context() as context:
+        assert context.ok()
+    assert not context.ok()
+
+
+def test_a_context_of_ones_own(default: None) -> None:
+    context = Context()
+    assert not context.ok()
+    rclpy.init(args=[], context=context, domain_id=77)
+    assert (context.ok(), rclpy.ok(), context.get_domain_id()) == (True, False, 77)
+    rclpy.shutdown(context=context)
+    with pytest.raises(RCLError, match="failed to shutdown: rcl_shutdown already called on the given context"):
+        rclpy.shutdown(context=context)
+    with pytest.raises(RuntimeError, match="must only be called once"):
+        context.init([])
+
+
+def test_a_bad_domain() -> None:
+    with pytest.raises(RuntimeError, match=r"Domain id \(-5\) should not be lower than zero."):
+        Context().init([], domain_id=-5)
+
+
+@pytest.mark.parametrize(
+    ("words", "kind", "text"),
+    [
+        (["--ros-args", "--foo"], UnknownROSArgsError, "['--foo']"),
+        (["--ros-args", "-r", "a"], RCLError, "failed to initialize rcl: Couldn't parse remap rule: '-r a'. "
+         "Error: Expected lexeme type (19) not found, search ended at index 1"),
+    ],
+)  # fmt: skip
+def test_bad_words(words: list[str], kind: type[Exception], text: str) -> None:
+    with pytest.raises(kind) as caught:
+        Context().init(words)
+    assert str(caught.value) == text
+
+
+def test_shutdown_callbacks_in_order_and_once(ros: Any) -> None:
+    context, got = ros.init(), []
+    for name in "ab":
+        context.on_shutdown(lambda name=name: got.append(name))
+    context.shutdown()
+    context.on_shutdown(lambda: got.append("late"))
+    assert got == ["a", "b", "late"]
+    with pytest.raises(TypeError):
+        context.on_shutdown("x")
+
+
+def test_a_context_keeps_no_object_alive_by_its_method(ros: Any) -> None:
+    got = []
+
+    class Listener:
+        def hear(self) -> None:
+            got.append(1)
+
+    context, listener = ros.init(), Listener()
+    context.on_shutdown(listener.hear)
+    del listener
+    context.shutdown()
+    assert got == []
+
+
+def test_ok_may_be_asked_within_a_shutdown_callback(ros: Any) -> None:
+    context, got = ros.init(), []
+    context.on_shutdown(lambda: got.append(context.ok()))
+    context.shutdown()
+    assert got == [False]
+
+
+def test_nodes_need_a_context_that_runs(ros: Any) -> None:
+    with pytest.raises(NotInitializedException) as caught:
+        rclpy.create_node("n", context=Context())
+    assert str(caught.value) == "rclpy.init() has not been called. msg:cannot create node"
+    ros.init().shutdown()
+    with pytest.raises(NotInitializedException):
+        ros.node()
+
+
+def test_signal_handlers(default: None) -> None:
+    states = [get_current_signal_handlers_options()]
+    rclpy.init(args=[])
+    states.append(get_current_signal_handlers_options())
+    rclpy.shutdown()
+    states.append(get_current_signal_handlers_options())
+    rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.SIGINT)
+    states.append(get_current_signal_handlers_options())
+    assert [state.name for state in states] == ["NO", "ALL", "NO", "SIGINT"]
+
+
+def test_what_a_destroyed_node_refuses(ros: Any) -> None:
+    node = ros.node()
+    node.declare_parameter("p", 1)
+    assert node.destroy_node() is None
+    node.destroy_node()
+    for use in (
+        node.get_name,
+        node.get_namespace,
+        node.get_fully_qualified_name,
+        node.get_node_names,
+        lambda: node.create_publisher(Int32, "t", 1),
+        lambda: node.set_parameters([rclpy.Parameter("p", value=2)]),
+        lambda: node.count_publishers("t"),
+        lambda: node.resolve_topic_name("t"),
+    ):
+        with pytest.raises(InvalidHandle, match="cannot use Destroyable because destruction was requested"):
+            use()
+    assert node.get_parameter("p").value == 1
+    assert node.get_logger().info("still heard")
+    assert node.get_clock().now().nanoseconds > 0
+    assert [*node.publishers, *node.subscriptions, *node.services, *node.timers] == []
+
+
+def test_what_still_works_after_shutdown(ros: Any) -> None:
+    node = ros.node()
+    node.declare_parameter("p", 1)
+    ros.context.shutdown()
+    assert node.get_parameter("p").value == 1
+    assert node.get_name() == "n"
+    assert node.get_logger().info("still heard")
+    for make in (lambda: node.create_timer(1.0, None), lambda: node.create_guard_condition(None)):
+        with pytest.raises(RCLError, match="the given context is not valid, either rcl_init"):
+            make()
+    node.destroy_node()
+
+
+def test_the_global_executor_ends_with_its_context(default: None) -> None:
+    rclpy.init(args=[])
+    node = rclpy.create_node("n")
+    first = rclpy.get_global_executor()
+    assert rclpy.get_global_executor() is first
+    node.create_guard_condition(lambda: threading.Thread(target=rclpy.shutdown).start()).trigger()
+    rclpy.spin(node)
+    with pytest.raises(TypeError):
+        rclpy.spin_once(node, timeout_sec=0)
+    rclpy.init(args=[])
+    assert rclpy.get_global_executor() is not first
+
+
+def test_spin_takes_the_node_out_again(default: None) -> None:
+    rclpy.init(args=[])
+    with rclpy.create_node("n") as node:
+        rclpy.spin_once(node, timeout_sec=0)
+        assert rclpy.get_global_executor().get_nodes() == []
+        assert node.executor is rclpy.get_global_executor()
+
+
+def test_use_before_init() -> None:
+    node: Any = None
+    for spin in (rclpy.spin, rclpy.spin_once):
+        with pytest.raises(TypeError):
+            spin(node)

@@ -1,0 +1,254 @@
+"""Nodes: names, graph queries, destruction, attributes."""
+
+from __future__ import annotations
+
+import gc
+from typing import Any
+
+import pytest
+from rclpy._rclpy_pybind11 import NodeNameNonExistentError, RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
+from rclpy.exceptions import (
+    InvalidNamespaceException,
+    InvalidNodeNameException,
+    InvalidServiceNameException,
+    InvalidTopicNameException,
+)
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, LivelinessPolicy, ReliabilityPolicy, qos_profile_sensor_data
+from rclpy.topic_endpoint_info import TopicEndpointTypeEnum
+from std_msgs.msg import Int32, String
+from std_srvs.srv import Trigger
+
+
+@pytest.mark.parametrize(
+    ("options", "names"),
+    [
+        ({}, ("n", "/", "/n", "n")),
+        ({"namespace": ""}, ("n", "/", "/n", "n")),
+        ({"namespace": "/"}, ("n", "/", "/n", "n")),
+        ({"namespace": "ns"}, ("n", "/ns", "/ns/n", "ns.n")),
+        ({"namespace": "/a/b"}, ("n", "/a/b", "/a/b/n", "a.b.n")),
+        ({"cli_args": ["--ros-args", "-r", "__node:=m", "-r", "__ns:=/x"]}, ("m", "/x", "/x/m", "x.m")),
+    ],
+)
+def test_names(ros: Any, options: dict[str, Any], names: tuple[str, ...]) -> None:
+    node = ros.node(**options)
+    found = (node.get_name(), node.get_namespace(), node.get_fully_qualified_name(), node.get_logger().name)
+    assert found == names
+
+
+@pytest.mark.parametrize(
+    ("name", "namespace", "kind", "text"),
+    [
+        ("my-node", "", InvalidNodeNameException, "Invalid node name: node name must not contain characters other "
+         "than alphanumerics or '_':\n  'my-node'\n     ^"),
+        ("", "", InvalidNodeNameException, "Invalid node name: node name must not be empty:\n  ''\n   ^"),
+        ("n", "/a/", InvalidNamespaceException, "Invalid namespace: namespace must not end with a '/', unless only "
+         "a '/':\n  '/a/'\n     ^"),
+        ("n", "a b", InvalidNamespaceException, "Invalid namespace: namespace must not contain characters other "
+         "than alphanumerics, '_', or '/':\n  '/a b'\n     ^"),
+    ],
+)  # fmt: skip
+def test_bad_names(ros: Any, name: str, namespace: str, kind: type[Exception], text: str) -> None:
+    with pytest.raises(kind) as caught:
+        ros.node(name, namespace=namespace)
+    assert str(caught.value) == text
+
+
+@pytest.mark.parametrize(
+    ("rule", "text"),
+    [
+        (
+            "__ns:=/a/",
+            "error creating node: invalid node namespace: node name must not start with a number",
+        ),
+        (
+            "__node:=" + "a" * 256,
+            "error creating node: invalid node name: node name length should not exceed '255'",
+        ),
+    ],
+)
+def test_bad_names_by_remapping(ros: Any, rule: str, text: str) -> None:
+    ros.init("-r", rule)
+    with pytest.raises(RCLError) as caught:
+        ros.node()
+    assert str(caught.value) == text
+
+
+@pytest.mark.parametrize(
+    ("words", "kind", "text"),
+    [
+        (["--ros-args", "--foo"], UnknownROSArgsError, "['--foo']"),
+        (["--ros-args", "-r"], RCLInvalidROSArgsError, "Failed to parse ROS arguments: "
+         "Couldn't parse trailing -r flag. No remap rule found."),
+    ],
+)  # fmt: skip
+def test_bad_command_lines(ros: Any, words: list[str], kind: type[Exception], text: str) -> None:
+    with pytest.raises(kind) as caught:
+        ros.node(cli_args=words)
+    assert str(caught.value) == text
+
+
+@pytest.mark.parametrize(("use_global", "topic"), [(True, "/local"), (False, "/local")])
+def test_a_nodes_own_rules_come_first(ros: Any, use_global: bool, topic: str) -> None:
+    ros.init("-r", "a:=global", "-r", "b:=everywhere")
+    node = ros.node(cli_args=["--ros-args", "-r", "a:=local"], use_global_arguments=use_global)
+    assert node.resolve_topic_name("a") == topic
+    assert node.resolve_topic_name("b") == ("/everywhere" if use_global else "/b")
+    assert node.resolve_service_name("a", only_expand=True) == "/a"
+
+
+@pytest.mark.parametrize(
+    ("name", "resolved", "counted", "made"),
+    [
+        ("a b", RCLError, ValueError, InvalidTopicNameException),
+        ("{x}", RCLError, ValueError, ValueError),
+        ("a//b", RCLError, InvalidTopicNameException, InvalidTopicNameException),
+    ],
+)
+def test_bad_topic_names(ros: Any, name: str, resolved: Any, counted: Any, made: Any) -> None:
+    node = ros.node()
+    with pytest.raises(resolved, match=r"^failed to resolve name: (?!topic name '.*' is invalid)"):
+        node.resolve_topic_name(name)
+    for count in (node.count_publishers, node.count_subscribers, node.get_publishers_info_by_topic):
+        with pytest.raises(counted):
+            count(name)
+    with pytest.raises(made):
+        node.create_publisher(Int32, name, 1)
+    with pytest.raises(InvalidServiceNameException if made is InvalidTopicNameException else made):
+        node.create_client(Trigger, name)
+
+
+@pytest.fixture
+def system(ros: Any) -> Any:
+    """An observer of a small graph."""
+    talker, listener = ros.node("talker"), ros.node("listener", namespace="/ns")
+    talker.create_publisher(String, "chatter", qos_profile_sensor_data)
+    talker.create_client(Trigger, "/ns/do")
+    listener.create_subscription(String, "/chatter", print, 10)
+    listener.create_service(Trigger, "do", lambda request, response: response)
+    return ros.node("observer")
+
+
+def test_nodes_of_the_graph(system: Any) -> None:
+    assert system.get_node_names() == ["talker", "listener", "observer"]
+    assert system.get_fully_qualified_node_names() == ["/talker", "/ns/listener", "/observer"]
+    assert system.get_node_names_and_namespaces() == [("talker", "/"), ("listener", "/ns"), ("observer", "/")]
+    assert ("listener", "/ns", "/") in system.get_node_names_and_namespaces_with_enclaves()
+
+
+def test_topics_and_services_of_the_graph(system: Any) -> None:
+    assert ("/chatter", ["std_msgs/msg/String"]) in system.get_topic_names_and_types()
+    assert ("/ns/do", ["std_srvs/srv/Trigger"]) in system.get_service_names_and_types()
+    assert (system.count_publishers("chatter"), system.count_subscribers("/chatter")) == (1, 1)
+    assert (system.count_services("/ns/do"), system.count_clients("/ns/do")) == (1, 1)
+
+
+def test_what_one_node_has(system: Any) -> None:
+    node = system
+    assert ("/chatter", ["std_msgs/msg/String"]) in node.get_publisher_names_and_types_by_node("talker", "/")
+    assert node.get_subscriber_names_and_types_by_node("talker", "/") == []
+    assert node.get_subscriber_names_and_types_by_node("listener", "/ns") == [("/chatter", ["std_msgs/msg/String"])]
+    assert node.get_client_names_and_types_by_node("talker", "") == [("/ns/do", ["std_srvs/srv/Trigger"])]
+    assert ("/ns/do", ["std_srvs/srv/Trigger"]) in node.get_service_names_and_types_by_node("listener", "/ns")
+
+
+@pytest.mark.parametrize("what", ["publisher", "subscriber", "service", "client"])
+def test_what_an_unknown_node_has(system: Any, what: str) -> None:
+    ask = getattr(system, f"get_{what}_names_and_types_by_node")
+    with pytest.raises(NodeNameNonExistentError, match=f"^cannot get {what} names and types for nonexistent node"):
+        ask("nobody", "/")
+    with pytest.raises(RCLError, match="node_name argument is invalid: node name must not be empty"):
+        ask("", "/")
+
+
+def test_infos_tell_what_is_in_effect(system: Any) -> None:
+    (info,) = system.get_publishers_info_by_topic("chatter")
+    assert (info.node_name, info.node_namespace, info.topic_type) == ("talker", "/", "std_msgs/msg/String")
+    assert (info.endpoint_type, len(info.endpoint_gid)) == (TopicEndpointTypeEnum.PUBLISHER, 16)
+    qos = info.qos_profile
+    assert (qos.reliability, qos.durability) == (ReliabilityPolicy.BEST_EFFORT, DurabilityPolicy.VOLATILE)
+    assert (qos.liveliness, str(qos.deadline), str(qos.lifespan)) == (
+        LivelinessPolicy.AUTOMATIC,
+        "Infinite",
+        "Infinite",
+    )
+    (info,) = system.get_subscriptions_info_by_topic("/chatter")
+    assert info.qos_profile.reliability is ReliabilityPolicy.RELIABLE
+    assert system.get_publishers_info_by_topic("/nothing") == []
+
+
+def test_counts_are_not_remapped_and_infos_are(ros: Any) -> None:
+    ros.init("-r", "a:=b")
+    node = ros.node()
+    node.create_publisher(String, "a", 1)
+    assert (node.count_publishers("a"), node.count_publishers("b")) == (0, 1)
+    assert len(node.get_publishers_info_by_topic("a")) == 1
+
+
+def test_a_destroyed_node_leaves_the_graph(ros: Any) -> None:
+    node, observer = ros.node("gone"), ros.node("observer")
+    node.create_publisher(String, "t", 1)
+    node.destroy_node()
+    assert observer.get_node_names() == ["observer"]
+    assert observer.count_publishers("t") == 0
+    services = [name for name, _ in observer.get_service_names_and_types() if name.startswith("/gone/")]
+    assert services == ["/gone/get_type_description"], "upstream keeps this one while the object lives"
+    ros._executor.remove_node(node)
+    del node
+    gc.collect()
+    services = [name for name, _ in observer.get_service_names_and_types() if name.startswith("/gone/")]
+    assert services == []
+
+
+def test_what_a_destroyed_node_left_goes_with_the_context(ros: Any) -> None:
+    from rclpy.context import Context
+
+    observer, context = ros.node("observer"), Context()
+    context.init([], domain_id=ros.domain)
+    node = Node("gone", context=context)
+    node.destroy_node()
+    context.shutdown()
+    assert [name for name, _ in observer.get_service_names_and_types() if name.startswith("/gone/")] == []
+
+
+def test_twins_are_allowed_and_rosout_warns(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
+    ros.node("twin")
+    twin = ros.node("twin")
+    assert twin.get_node_names() == ["twin", "twin"]
+    assert "Publisher already registered for node name: 'twin'." in capfd.readouterr().err
+
+
+def test_domains_are_apart(ros: Any) -> None:
+    from rclpy.context import Context
+
+    node, context = ros.node(), Context()
+    context.init([], domain_id=ros.domain + 100_000)
+    with Node("far", context=context):
+        assert node.get_node_names() == ["n"]
+    context.shutdown()
+
+
+def test_a_node_without_rosout(ros: Any) -> None:
+    node = ros.node(enable_rosout=False)
+    assert [publisher.topic_name for publisher in node.publishers] == ["/parameter_events"]
+    assert node.count_publishers("/rosout") == 0
+
+
+def test_wait_for_node(stepped_ros: Any) -> None:
+    import threading
+
+    node = stepped_ros.node("early")
+    assert node.wait_for_node("/early", 1.0)
+    assert not node.wait_for_node("/late", 1.0)
+    threading.Timer(0.5, lambda: stepped_ros.node("late")).start()
+    assert node.wait_for_node("/late", 5.0)
+
+
+def test_a_class_that_forgets_its_base(ros: Any) -> None:
+    class Forgetful(Node):
+        def __init__(self) -> None:
+            self.create_timer(1.0, print)
+
+    with pytest.raises(AttributeError):
+        Forgetful()
