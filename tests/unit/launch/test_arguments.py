@@ -26,10 +26,9 @@ from launch.actions import (
     UnsetLaunchConfiguration,
 )
 from launch.substitutions import EnvironmentVariable, LaunchConfiguration
+from launching import Launch
 
 from launch import LaunchDescription, LaunchDescriptionSource
-
-from .conftest import Launch
 
 X = LaunchConfiguration("x", default="unset")
 

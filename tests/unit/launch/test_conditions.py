@@ -14,10 +14,9 @@ from launch.conditions import (
     UnlessCondition,
 )
 from launch.substitutions import LaunchConfiguration
+from launching import Launch
 
 from launch import Condition, LaunchContext
-
-from .conftest import Launch
 
 TRUE = ["true", "True", " TRUE ", "1", "1\n"]
 FALSE = ["false", "False", " 0 "]

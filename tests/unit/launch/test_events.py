@@ -28,10 +28,9 @@ from launch.events import Shutdown as ShutdownEvent
 from launch.events import matches_action
 from launch.events.process import ShutdownProcess, SignalProcess
 from launch.substitutions import LaunchConfiguration, LocalSubstitution
+from launching import Launch, Outcome
 
 from launch import Event, EventHandler, LaunchDescription, LaunchService
-
-from .conftest import Launch, Outcome
 
 
 def python(code: str, **options: Any) -> ExecuteProcess:
@@ -173,7 +172,7 @@ def test_a_required_process(run: Launch) -> None:
     assert re.search(r"\[INFO\] \[launch\]: process\[p-\d+\] was required: shutting down launched system", outcome.text)
 
 
-WAITS = "import os, signal, time; signal.signal(signal.SIGINT, {}); print('up', flush=True); time.sleep(60)"
+WAITS = "import os, signal, time; signal.signal(signal.SIGINT, {}); os.write(1, b'up\\n'); time.sleep(60)"
 
 
 def test_shutdown_sends_sigint(run: Launch) -> None:
@@ -186,7 +185,7 @@ def test_shutdown_sends_sigint(run: Launch) -> None:
 
 def test_escalation_to_sigkill(run: Launch) -> None:
     code = "import signal, time\nfor each in (signal.SIGINT, signal.SIGTERM): signal.signal(each, signal.SIG_IGN)\n"
-    code += "print('up', flush=True)\ntime.sleep(60)"
+    code += "import os; os.write(1, b'up\\n')\ntime.sleep(60)"
     process = python(code, sigterm_timeout="0.1", sigkill_timeout="0.2", output="screen")
     on_io = OnProcessIO(target_action=process, on_stdout=lambda event: Shutdown())
     text = run([process, RegisterEventHandler(on_io)]).text

@@ -1,0 +1,373 @@
+"""Launch files in XML and YAML: the same trees as in Python, and what is said of wrong ones. Contract, section 2."""
+
+from __future__ import annotations
+
+import io
+import re
+from typing import Any
+
+import pytest
+from launch.actions import ExecuteProcess, GroupAction, LogInfo
+from launch.conditions import IfCondition, UnlessCondition
+from launch.frontend.parse_substitution import parse_substitution
+from launch.frontend.process_attributes import parse_command_line
+from launch_ros.actions import Node
+from launch_ros.descriptions import ParameterFile, ParameterValue
+from launch_xml import Parser as XmlParser
+from launch_yaml import Parser as YamlParser
+from launching import Launch
+
+from launch import LaunchDescription
+
+PYTHON = """
+    from launch import LaunchDescription
+    from launch.actions import *
+    from launch.conditions import IfCondition, UnlessCondition
+    from launch.substitutions import *
+    from launch_ros.actions import *
+
+    def generate_launch_description():
+        x = LaunchConfiguration("x")
+        return LaunchDescription([
+            DeclareLaunchArgument("x", default_value="1", description="a number", choices=["1", "2"]),
+            SetLaunchConfiguration("y", ["a", x]),
+            LogInfo(msg=["x ", x]),
+            LogInfo(msg="never", condition=IfCondition(NotSubstitution("true"))),
+            LogInfo(msg="always", condition=UnlessCondition("0")),
+            GroupAction([
+                SetLaunchConfiguration("x", "in"),
+                PushRosNamespace("n"),
+                LogInfo(msg=LaunchConfiguration("ros_namespace")),
+                LogInfo(msg=x),
+            ]),
+            GroupAction([SetLaunchConfiguration("z", "leaks")], scoped=False),
+            GroupAction(
+                [LogInfo(msg=LaunchConfiguration("z", default="gone")), LogInfo(msg=LaunchConfiguration("k"))],
+                forwarding=False, launch_configurations={"k": x},
+            ),
+            SetEnvironmentVariable("BC_E", "1"),
+            AppendEnvironmentVariable("BC_E", "2", separator=","),
+            LogInfo(msg=EnvironmentVariable("BC_E")),
+            UnsetEnvironmentVariable("BC_E"),
+            LogInfo(msg=EnvironmentVariable("BC_E", default_value="none")),
+            LogInfo(msg=PythonExpression(["'", x, "' == '1'"])),
+            LogInfo(msg=ThisLaunchFileDir()),
+            TimerAction(period=0.01, actions=[LogInfo(msg="timer"), Shutdown(reason="done")]),
+            ForLoop("2", name="i", function=lambda i: [LogInfo(msg=["round ", str(i)])]),
+        ])
+"""
+
+XML = """
+    <launch>
+      <arg name="x" default="1" description="a number"><choice value="1"/><choice value="2"/></arg>
+      <let name="y" value="a$(var x)"/>
+      <log message="x $(var x)"/>
+      <log message="never" if="$(not true)"/>
+      <log message="always" unless="0"/>
+      <group>
+        <let name="x" value="in"/>
+        <push-ros-namespace namespace="n"/>
+        <log message="$(var ros_namespace)"/>
+        <log message="$(var x)"/>
+      </group>
+      <group scoped="false"><let name="z" value="leaks"/></group>
+      <group forwarding="false">
+        <keep name="k" value="$(var x)"/>
+        <log message="$(var z gone)"/>
+        <log message="$(var k)"/>
+      </group>
+      <set_env name="BC_E" value="1"/>
+      <append_env name="BC_E" value="2" separator=","/>
+      <log message="$(env BC_E)"/>
+      <unset_env name="BC_E"/>
+      <log message="$(env BC_E none)"/>
+      <log message="$(eval &quot;'$(var x)' == '1'&quot;)"/>
+      <log message="$(dirname)"/>
+      <timer period="0.01"><log message="timer"/><shutdown reason="done"/></timer>
+      <for len="2" name="i"><log message="round $(index i)"/></for>
+    </launch>
+"""
+
+YAML = """
+    launch:
+      - arg: {name: x, default: "1", description: a number, choice: [{value: "1"}, {value: "2"}]}
+      - let: {name: y, value: a$(var x)}
+      - log: {message: x $(var x)}
+      - log: {message: never, if: $(not true)}
+      - log: {message: always, unless: "0"}
+      - group:
+          - let: {name: x, value: in}
+          - push_ros_namespace: {namespace: n}
+          - log: {message: $(var ros_namespace)}
+          - log: {message: $(var x)}
+      - group:
+          scoped: false
+          children: [{let: {name: z, value: leaks}}]
+      - group:
+          forwarding: false
+          keep: [{name: k, value: $(var x)}]
+          children: [{log: {message: $(var z gone)}}, {log: {message: $(var k)}}]
+      - set_env: {name: BC_E, value: "1"}
+      - append_env: {name: BC_E, value: "2", separator: ","}
+      - log: {message: $(env BC_E)}
+      - unset_env: {name: BC_E}
+      - log: {message: $(env BC_E none)}
+      - log: {message: "$(eval \\"'$(var x)' == '1'\\")"}
+      - log: {message: $(dirname)}
+      - timer: {period: 0.01, children: [{log: {message: timer}}, {shutdown: {reason: done}}]}
+      - for: {len: "2", name: i, children: [{log: {message: round $(index i)}}]}
+"""
+
+
+@pytest.mark.parametrize(("name", "text"), [("x.launch.py", PYTHON), ("x.launch.xml", XML), ("x.launch.yaml", YAML)])
+def test_the_same_launch_file_three_times(run_file: Launch, tmp_path: Any, name: str, text: str) -> None:
+    outcome = run_file(text, name)
+    assert outcome.said == [
+        "x 1", "always", "/n", "in", "gone", "1", "1,2", "none", "True", str(tmp_path), "round 0", "round 1", "timer",
+    ], outcome.text  # fmt: skip
+
+
+def xml(text: str) -> list[Any]:
+    return described(XmlParser, f"<launch>{text}</launch>")
+
+
+def yaml(text: str) -> list[Any]:
+    return described(YamlParser, f"launch:\n{text}")
+
+
+def described(kind: Any, text: str) -> list[Any]:
+    root, parser = kind.load(io.StringIO(text))
+    description: LaunchDescription = parser.parse_description(root)
+    return description.entities
+
+
+def test_a_node_with_everything() -> None:
+    [node] = xml(
+        """<node pkg="p" exec="e" name="n" namespace="s" exec_name="l" args="-a $(var b) c"
+        ros_args="--log-level debug"
+        output="screen" respawn="true" respawn_delay="2.5" respawn_max_retries="3" launch-prefix="nice" cwd="/tmp"
+        on_exit="shutdown" if="true" sigterm_timeout="7">
+          <param name="i" value="7"/><param name="t" value="'7'"/><param name="s" value="7" type="str"/>
+          <param name="l" value="[1, 2]"/><param name="d" value="1;2" value-sep=";"/>
+          <param name="g"><param name="a" value="true"/></param>
+          <param from="f.yaml" allow_substs="true"/><remap from="a" to="b"/><env name="A" value="$(var x)"/>
+        </node>"""
+    )
+    assert isinstance(node, Node)
+    assert isinstance(node.condition, IfCondition)
+    values: list[Any] = []
+    for each in node.parameters:
+        values += [each] if isinstance(each, ParameterFile) else list(each.values())
+    integer, quoted, text, items, split, nested, file = values
+    assert (integer, quoted, items, split, nested) == (7, "7", (1, 2), (1, 2), True)
+    assert isinstance(text, ParameterValue)
+    assert text.value_type is str
+    assert isinstance(file, ParameterFile)
+    words = [" ".join(each.describe() for each in word) for word in node.cmd]
+    assert words[1:6] == ["'-a'", "LaunchConfig('b')", "'c'", "'--ros-args'", "'--log-level'"]
+
+
+def test_a_process() -> None:
+    [process] = yaml(
+        "  - executable: {cmd: \"echo a 'b c'\", name: e, shell: true, output: screen, env: [{name: A, value: b}]}"
+    )
+    assert isinstance(process, ExecuteProcess)
+    assert process.shell
+    assert [word[0].describe() for word in process.cmd] == ["'echo'", "'a'", "'b c'"]
+
+
+def test_unless() -> None:
+    [log] = xml('<log message="a" unless="$(var x)"/>')
+    assert isinstance(log.condition, UnlessCondition)
+
+
+def test_group_in_a_map() -> None:
+    [group] = yaml("  - group: {scoped: false, children: [{log: {message: a}}]}")
+    assert isinstance(group, GroupAction)
+    assert [type(each) for each in group.get_sub_entities()] == [LogInfo]
+
+
+XML_ERRORS: list[tuple[str, type[Exception], str]] = [
+    ('<node exec="e" bogus="1"/>', ValueError, "Unexpected attribute(s) found in `node`: {'bogus'}"),
+    ('<node exec="e"><bogus/></node>', ValueError, "Unexpected nested tag(s) found in `node`: {'bogus'}"),
+    ("<nodes/>", RuntimeError, "Unrecognized entity of the type: nodes"),
+    ('<node pkg="p"/>', AttributeError, "Attribute 'exec' of type '<class 'str'>' not found in Entity 'node'"),
+    ('<log message="a" if="1" unless="1"/>', RuntimeError, "if and unless conditions can't be used simultaneously"),
+    (
+        '<node exec="e" on_exit="restart"/>',
+        ValueError,
+        "Attribute on_exit of Entity node expected to be shutdown but got `restart`"
+        "Other on_exit actions not yet supported",
+    ),
+    (
+        '<node exec="e"><param name="a" value="1" type="double"/></node>',
+        ValueError,
+        "Got invalid type identifier 'double'",
+    ),
+    (
+        '<node exec="e"><param name="a" value="2.5" type="int"/></node>',
+        TypeError,
+        "value='2.5' is not an instance of <class 'int'>",
+    ),
+    ('<node exec="e"><param name="a"/></node>', RuntimeError, "either a value attribute or nested params are needed"),
+    (
+        '<node exec="e"><param name="a" from="b"/></node>',
+        RuntimeError,
+        "name and from attributes are mutually exclusive",
+    ),
+    ('<node exec="e"><param name="a" value="[1, a]"/></node>', ValueError, "The result is a non-uniform list"),
+    (
+        '<node exec="e"><param name="a" value="null"/></node>',
+        TypeError,
+        "Attribute 'value' of Entity 'param' expected to be of type 'None'.'null' can not be converted to one of "
+        "those types",
+    ),
+]
+
+
+@pytest.mark.parametrize(("text", "kind", "said"), XML_ERRORS, ids=[row[2][:50] for row in XML_ERRORS])
+def test_errors_in_xml(text: str, kind: type[Exception], said: str) -> None:
+    with pytest.raises(kind) as caught:
+        xml(text)
+    assert str(caught.value) == said
+
+
+YAML_ERRORS: list[tuple[str, type[Exception], str]] = [
+    (
+        "  - log: {message: true}",
+        TypeError,
+        "Attribute 'message' of Entity 'log' expected to be of type '<class 'str'>', got '<class 'bool'>'",
+    ),
+    (
+        "  - log: {message: a, if: true}",
+        TypeError,
+        "Attribute 'if' of Entity 'log' expected to be of type '<class 'str'>', got '<class 'bool'>'",
+    ),
+    ("  - node: {pkg: p}", AttributeError, "Can not find attribute 'exec' in Entity 'node'"),
+    ("  - node: {exec: e, bogus: 1}", ValueError, "Unexpected key(s) found in `node`: {'bogus'}"),
+    (
+        "  - {log: {message: a}, let: {}}",
+        RuntimeError,
+        "Subentities must be a dictionary with only one key, which is the entity type",
+    ),
+    (
+        "  group: {}",
+        ValueError,
+        "Expected entity `launch` to have children entities."
+        "That can be a list of subentities or a dictionary with a `children` list element",
+    ),
+]
+
+
+@pytest.mark.parametrize(("text", "kind", "said"), YAML_ERRORS, ids=[row[2][:50] for row in YAML_ERRORS])
+def test_errors_in_yaml(text: str, kind: type[Exception], said: str) -> None:
+    with pytest.raises(kind) as caught:
+        yaml(text)
+    assert str(caught.value) == said
+
+
+SUBSTITUTIONS: list[tuple[str, list[str]]] = [
+    ("plain", ["'plain'"]),
+    ("", ["''"]),
+    ("costs 5$", ["'costs 5$'"]),
+    (r"\$(var x)", ["'$(var x)'"]),
+    ("a $(var x)b", ["'a '", "LaunchConfig('x')", "'b'"]),
+    ("$(var x 'a b')", ["LaunchConfig('x')"]),
+    ("$(env HOME)", ["EnvVar('HOME')"]),
+    ("$(find-exec ls)", ["FindExec('ls')"]),
+    ("$(command 'echo a')", ["Command('echo a')"]),
+    ("$(eval '1 + $(var x)')", ["PythonExpr('1 + ' + LaunchConfig('x'), ['math'])"]),
+    ("$(find-pkg-share $(var p))/x", ["FindPackageShare(pkg=LaunchConfig('p'))", "'/x'"]),
+    ("$(find-pkg-prefix p)", ["FindPackagePrefix(pkg='p')"]),
+    ("$(exec-in-pkg e p)", ["ExecInPkg(pkg='p', exec='e')"]),
+    ("$(dirname)", ["ThisLaunchFileDir()"]),
+    ("$(anon a)", ["AnonName('a')"]),
+    ("$(and true $(var x))", ["AndSubstitution('true' LaunchConfig('x'))"]),
+    ("$(path-join a b)", ["PathJoin(''a' + 'b'')"]),
+]
+
+
+@pytest.mark.parametrize(("text", "pieces"), SUBSTITUTIONS, ids=[row[0] for row in SUBSTITUTIONS])
+def test_substitutions_in_texts(text: str, pieces: list[str]) -> None:
+    XmlParser.load_launch_extensions()
+    assert [each.describe() for each in parse_substitution(text)] == pieces
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("$(var  x)", "column 7"),
+        ("$(var x", "ends where"),
+        ("$()", "name of a substitution"),
+        ("$(nosuch a)", "Unknown substitution: nosuch"),
+        ("$(eval $(var i) == 1)", "eval substitution expects 1 or 2 arguments"),
+        ("$(var)", "var substitution expects 1 or 2 arguments"),
+    ],
+)
+def test_malformed_substitutions(text: str, said: str) -> None:
+    with pytest.raises(ValueError, match=re.escape(said)):
+        parse_substitution(text)
+
+
+def test_what_a_substitution_gives_is_one_word() -> None:
+    words = parse_command_line("-a=$(var x)b c'd e'  $(var y)", XmlParser())
+    assert [[each.describe() for each in word] for word in words] == [
+        ["'-a='", "LaunchConfig('x')", "'b'"],
+        ["'cd e'"],
+        ["LaunchConfig('y')"],
+    ]
+
+
+FILES: list[tuple[str, str, list[str]]] = [
+    (
+        "x.launch.xml",
+        "<launch><nodes/></launch>",
+        [r"format \[xml\]:", r" - RuntimeError: Unrecognized entity of the type: nodes", r" - SyntaxError: .*"],
+    ),
+    (
+        "x.launch.xml",
+        "<launch>",
+        [
+            r"format \[xml\]:",
+            r" - InvalidFrontendLaunchFileError: .* format \[xml\]:",
+            r" - ParseError: no element found.*",
+            r" - RuntimeError: Expected only one root",
+            r" - SyntaxError: .*",
+        ],
+    ),
+    ("x.launch.yaml", "other: []", [r"format \[yaml\]:", r" - RuntimeError: Expected 'launch' as root tag", r".*"]),
+    (
+        "x.launch.py",
+        "x = 1",
+        [
+            r"format \[py\]:",
+            r" - InvalidPythonLaunchFileError: launch file at '.*' does not contain the required function "
+            r"'generate_launch_description\(\)'",
+            r" - InvalidFrontendLaunchFileError: The launch file may have a syntax error, or its format is unknown",
+        ],
+    ),
+    ("x.launch.py", "import no_such_module", [r"format \[py\]:", r" - ModuleNotFoundError: .*", r".*"]),
+    ("x.launch.py", "def f(:", [r"format \[py\]:", r" - SyntaxError: .*", r".*"]),
+]
+
+
+@pytest.mark.parametrize(("name", "text", "patterns"), FILES, ids=[f"{row[0]} {row[1]}" for row in FILES])
+def test_files_that_cannot_be_read(run_file: Launch, name: str, text: str, patterns: list[str]) -> None:
+    outcome = run_file(text, name)
+    lines = outcome.caught.splitlines()
+    assert outcome.code == 1
+    assert len(lines) >= len(patterns)
+    for line, pattern in zip(lines, patterns, strict=False):
+        assert re.search(pattern + "$", line), (line, pattern)
+
+
+def test_an_endless_loop_of_includes(run_file: Launch, tmp_path: Any) -> None:
+    outcome = run_file('<launch><include file="$(dirname)/x.launch.xml"/></launch>', "x.launch.xml")
+    assert outcome.code == 1
+    assert "recursion" in outcome.caught
+
+
+def test_an_exit_in_a_launch_file_is_the_programs_exit(run_file: Launch) -> None:
+    with pytest.raises(SystemExit) as stop:
+        run_file("import sys; sys.exit(7)")
+    assert stop.value.code == 7
