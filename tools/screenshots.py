@@ -1,0 +1,125 @@
+"""Takes the pictures of the README and of the documentation from a real run of the console, in about a minute.
+
+python tools/screenshots.py [docs/images]
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import re
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+from bot_console.runtime.importer import install
+
+install()
+
+from bot_console.tui.cli.arguments import Options  # noqa: E402
+from bot_console.tui.cli.session import Session  # noqa: E402
+from bot_console.tui.panes.parameters import ParameterRows  # noqa: E402
+from textual.pilot import Pilot  # noqa: E402
+
+FOLDER = Path(__file__).resolve().parents[1] / "docs" / "images"
+LARGE, SMALL = (120, 40), (80, 24)
+DRIVING = 25.0
+"""Seconds of driving before the first change, and again before the first picture."""
+PATIENCE = 30.0
+FONTS = "'DejaVu Sans Mono', 'Fira Code', Menlo, Consolas, monospace"
+FONT_FACE = re.compile(r"@font-face \{.*?\}", re.DOTALL)
+UNIQUE = re.compile(r"terminal-\d+-")
+"""What Rich puts before each class name, for pages that hold several pictures inline."""
+
+
+class Photographer:
+    """A running console, its keys, and the folder for its pictures."""
+
+    def __init__(self, session: Session, pilot: Pilot[None], folder: Path) -> None:
+        self._session, self._pilot, self._folder = session, pilot, folder
+
+    async def drive(self, seconds: float) -> None:
+        """Let the robot drive for so many s."""
+        await self._pilot.pause(seconds)
+
+    async def until(self, condition: Callable[[], object]) -> None:
+        """Wait until something is so."""
+        for _ in range(int(PATIENCE / 0.05)):
+            if condition():
+                return
+            await self._pilot.pause(0.05)
+        raise TimeoutError("the system does not do what the picture is to show")
+
+    async def press(self, *keys: str) -> None:
+        """Press keys one after the other."""
+        for key in keys:
+            await self._pilot.press(key)
+            await self._pilot.pause(0.05)
+
+    async def select(self, name: str) -> None:
+        """Move the cursor down to a parameter."""
+        rows = self._session.app.query_one(ParameterRows)
+        await self.until(lambda: any(each.name == name for each in rows.rows))
+        for _ in rows.rows:
+            if rows.current and rows.current.name == name:
+                return
+            await self.press("down")
+
+    async def enter(self, text: str) -> None:
+        """Edit the selected parameter."""
+        await self.press("enter", *["backspace"] * 12)
+        await self.press(*(letter.replace(".", "full_stop") for letter in text), "enter")
+        await self._pilot.pause(0.5)
+
+    async def resize(self, size: tuple[int, int]) -> None:
+        """Give the terminal other columns and lines."""
+        await self._pilot.resize_terminal(*size)
+        await self._pilot.pause(0.5)
+
+    def take(self, name: str) -> None:
+        """Save what is on the screen; fonts are those of the reader, none is fetched."""
+        svg = self._session.app.export_screenshot(title="bot-console")
+        svg = FONT_FACE.sub("", svg).replace("font-family: Fira Code, monospace", f"font-family: {FONTS}")
+        svg = UNIQUE.sub("", svg)
+        svg = "\n".join(line.strip() for line in svg.splitlines() if line.strip()) + "\n"
+        (self._folder / f"{name}.svg").write_text(svg, encoding="utf-8")
+        print(f"{name}.svg  {len(svg) // 1024} KiB")
+
+
+async def take_all(at: Photographer) -> None:
+    """Play the scenes."""
+    await at.select("max_speed")
+    await at.drive(DRIVING)
+    await at.enter("1.6")
+    await at.drive(DRIVING)
+    await at.enter("10.0")
+    at.take("overview")
+    await at.press("3")
+    await at.drive(1.0)
+    at.take("graph")
+    await at.resize(SMALL)
+    await at.press("1")
+    at.take("parameters")
+    await at.press("5")
+    await at.drive(0.5)
+    at.take("world")
+    await at.press("6", "enter", "W", "a", "a", "a", "a")
+    await at.drive(1.0)
+    at.take("steering")
+
+
+async def main(folder: Path) -> None:
+    """Start the robot's own system, photograph it, end it."""
+    folder.mkdir(parents=True, exist_ok=True)
+    session = Session(Options(seed=1))
+    try:
+        async with session.app.run_test(size=LARGE) as pilot:
+            await take_all(Photographer(session, pilot, folder))
+            session.console.all_stop(True)
+    finally:
+        await asyncio.to_thread(session.close)
+
+
+if __name__ == "__main__":
+    with contextlib.suppress(KeyboardInterrupt):
+        asyncio.run(main(Path(sys.argv[1]) if len(sys.argv) > 1 else FOLDER))

@@ -1,0 +1,189 @@
+"""Writes the tables of the documentation that are made from the code: keys, parameters, launch arguments, profiles.
+
+    python tools/tables.py          # rewrites docs/*.md between <!-- table: NAME --> and <!-- end -->
+    python tools/tables.py measure  # runs the four profiles as well and prints the rows of the environment guide
+
+A test compares the documents with the code, so a change of a key or a parameter asks for this script.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import sys
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from bot_console.runtime.importer import install
+
+install()
+
+import rclpy  # noqa: E402
+import yaml  # noqa: E402
+from ament_index_python.packages import get_package_share_directory  # noqa: E402
+from bot_console.tui.keymap import TABLE, key_text  # noqa: E402
+from intelligent_robot.controller_node import MotionController  # noqa: E402
+from intelligent_robot.robot_node import RobotNavigator  # noqa: E402
+from intelligent_robot.safety_node import SafetyMonitor  # noqa: E402
+from intelligent_robot.sensor_node import SensorHandler  # noqa: E402
+from intelligent_robot.simulator_node import Simulator  # noqa: E402
+from intelligent_robot.telemetry_node import TelemetryPublisher  # noqa: E402
+from launch.launch_description_sources import get_launch_description_from_any_launch_file  # noqa: E402
+from launch.utilities import perform_substitutions  # noqa: E402
+from rcl_interfaces.msg import ParameterDescriptor  # noqa: E402
+from rclpy.node import Node  # noqa: E402
+from rclpy.parameter import Parameter  # noqa: E402
+
+from launch import LaunchContext  # noqa: E402
+
+ROOT = Path(__file__).resolve().parents[1]
+DOCS = ROOT / "docs"
+BLOCK = re.compile(r"(<!-- table: ([\w.:-]+) -->\n).*?(<!-- end -->)", re.DOTALL)
+UNIT = re.compile(r" \(([^()\d][^()]*)\)$")
+BUILT_IN = ("use_sim_time", "start_type_description_service")
+WORDS = {"BOOL": "boolean", "INTEGER": "integer", "DOUBLE": "double", "STRING": "string"}
+NODES: tuple[type[Node], ...] = (
+    *(RobotNavigator, SensorHandler, SafetyMonitor),
+    *(MotionController, TelemetryPublisher, Simulator),
+)
+PROFILES = ("indoor", "warehouse", "outdoor", "competition")
+SEEDS = (1, 2, 3)
+DURATION = 120
+"""Simulated seconds of a measured run."""
+
+
+def keys(scope: str) -> str:
+    """The keys of one scope of the key table."""
+    rows = ((" ".join(f"`{each}`" for each in key_text(key).split()), key.text) for key in TABLE[scope])
+    return _table(("key", "what it does"), rows)
+
+
+def parameters(make_node: Callable[[], Node]) -> str:
+    """The parameters that a node declares."""
+    rclpy.init()
+    try:
+        node = make_node()
+        names = [each for each in node._parameters if each not in BUILT_IN]
+        rows = [_parameter(node.get_parameter(each), node.describe_parameter(each)) for each in names]
+        node.destroy_node()
+    finally:
+        rclpy.shutdown()
+    return _table(("parameter", "type", "default", "range", "unit", "description"), rows)
+
+
+def _parameter(parameter: Parameter, descriptor: ParameterDescriptor) -> tuple[str, ...]:
+    text = descriptor.description
+    unit = UNIT.search(text)
+    spans = [*descriptor.floating_point_range, *descriptor.integer_range]
+    span = f"{spans[0].from_value:.10g} to {spans[0].to_value:.10g}" if spans else ""
+    return (
+        f"`{parameter.name}`",
+        WORDS[parameter.type_.name],
+        f"`{_value(parameter.value)}`",
+        span,
+        unit[1] if unit else "",
+        text[: unit.start()] if unit else text,
+    )
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    return repr(round(value, 10)) if isinstance(value, float) else str(value)
+
+
+def arguments(file: str) -> str:
+    """The arguments that a launch file declares; `<name>` in a default stands for another argument's value."""
+    description = get_launch_description_from_any_launch_file(str(ROOT / "launch" / file))
+    declared = description.get_launch_arguments()
+    context = LaunchContext()
+    context.launch_configurations.update({each.name: f"<{each.name}>" for each in declared})
+    return _table(("argument", "default", "choices", "description"), (_argument(each, context) for each in declared))
+
+
+def _argument(argument: Any, context: LaunchContext) -> tuple[str, ...]:
+    default = "required"
+    if argument.default_value is not None:
+        share = get_package_share_directory("intelligent_robot")
+        text = perform_substitutions(context, argument.default_value).replace(f"{share}/", "")
+        default = f"`{text}`" if text else "(empty)"
+    choices = ", ".join(f"`{each}`" for each in argument.choices or ())
+    return f"`{argument.name}`", default, choices, argument.description.partition(" Valid choices are")[0].rstrip(".")
+
+
+def profiles() -> str:
+    """The values of the four profiles side by side, by node."""
+    read = {name: _flat(yaml.safe_load((ROOT / "profiles" / f"{name}.yaml").read_text("utf-8"))) for name in PROFILES}
+    names = dict.fromkeys(name for values in read.values() for name in values)
+    rows = ((f"`{name}`", *(f"`{_value(read[each][name])}`" for each in PROFILES)) for name in names)
+    return _table(("parameter", *PROFILES), rows)
+
+
+def _flat(data: dict[str, Any]) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for node, content in data.items():
+        for name, value in content["ros__parameters"].items():
+            below = value if isinstance(value, dict) else None
+            found |= {f"{node} {name}.{last}": each for last, each in below.items()} if below else {}
+            found |= {} if below else {f"{node} {name}": value}
+    return found
+
+
+def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    lines = [head, ["---"] * len(head), *rows]
+    return "".join("| " + " | ".join(each.replace("|", "\\|") for each in line) + " |\n" for line in lines)
+
+
+LAUNCH_FILES = sorted(path.name for path in (ROOT / "launch").glob("*.launch.py"))
+TABLES: dict[str, Callable[[], str]] = {
+    **{f"keys:{scope}": partial(keys, scope) for scope in TABLE},
+    **{f"parameters:{each.__name__}": partial(parameters, each) for each in NODES},
+    **{f"arguments:{each}": partial(arguments, each) for each in LAUNCH_FILES},
+    "profiles": profiles,
+}
+
+
+def filled(text: str) -> str:
+    """A document with its tables made anew; raises `KeyError` for a table that there is not."""
+    return BLOCK.sub(lambda found: f"{found[1]}{TABLES[found[2]]()}{found[3]}", text)
+
+
+def named(text: str) -> list[str]:
+    """The tables that a document has."""
+    return [found[2] for found in BLOCK.finditer(text)]
+
+
+def measure() -> str:
+    """What the four profiles do, over three seeds; takes a minute."""
+    rows: list[tuple[str, ...]] = []
+    for profile in PROFILES:
+        for seed in SEEDS:
+            words = ["--headless", "--fast", "--profile", profile, "--duration", str(DURATION), "--seed", str(seed)]
+            done = subprocess.run(
+                [sys.executable, "-m", "bot_console.tui", *words], check=True, capture_output=True, text=True
+            )
+            report = json.loads(done.stdout)
+            figures = f"{report['mean_speed']:.2f}", f"{report['min_clearance']:.2f}"
+            rows.append((profile, str(seed), *figures, str(report["stops"]), str(report["collisions"])))
+    head = ("profile", "seed", "mean speed (m/s)", "minimum clearance (m)", "stops", "collisions")
+    return _table(head, rows)
+
+
+def main() -> None:
+    """Rewrite what has changed."""
+    if sys.argv[1:] == ["measure"]:
+        print(measure())
+        return
+    for path in sorted(DOCS.glob("*.md")):
+        old = path.read_text("utf-8")
+        new = filled(old)
+        if new != old:
+            path.write_text(new, "utf-8")
+            print(f"{path.relative_to(ROOT)} rewritten")
+
+
+if __name__ == "__main__":
+    main()
