@@ -16,6 +16,7 @@ from bot_console.runtime.importer import install
 from bot_console.runtime.process import NodeProcess, on_notice
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.cli.arguments import Options
+from bot_console.tui.cli.hangup import hangup_as_signal
 from bot_console.tui.cli.workspaces import choose, launch_files
 from bot_console.tui.console.connection import RosConsole
 from bot_console.tui.console.launcher import RosLauncher
@@ -61,7 +62,7 @@ class Session:
 
     def run(self) -> int:
         """Show the console until it is quit; the robot stands still when this returns, however it ended."""
-        with self._ended_by_signals(), _eager_switching():
+        with self._ended_by_signals(), hangup_as_signal(), _eager_switching():
             try:
                 self.app.run()
             finally:

@@ -40,6 +40,7 @@ class Terminal:
         deadline = time.monotonic() + PATIENCE
         while not condition():
             assert time.monotonic() < deadline, f"no {what}; the screen ended with {self.output[-800:]!r}"
+            assert self.process.poll() is None or "end" in what, f"ended before {what}: {self.output[-1500:]!r}"
             self._read(0.05)
 
     def _read(self, seconds: float) -> None:
@@ -64,10 +65,16 @@ class Terminal:
         modes = termios.tcgetattr(self._slave)[3]
         return left and shown and modes == self.settings[3]
 
+    def hang_up(self) -> None:
+        """Let the terminal vanish, without a signal."""
+        os.close(self.master)
+        os.close(self._slave)
+        self.master = -1
+
     def close(self) -> None:
         """End the program, whatever state it is in."""
         if self.process.poll() is None:
             self.process.kill()
             self.process.wait()
-        os.close(self.master)
-        os.close(self._slave)
+        if self.master >= 0:
+            self.hang_up()

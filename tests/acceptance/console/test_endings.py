@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
-from terminal import Terminal
+from terminal import PATIENCE, Terminal
 
 WHEELS = """
 import rclpy
@@ -96,3 +96,9 @@ def test_a_second_signal_does_not_break_the_end(console):
     assert console.wait() in (143, 129)
     assert (console.folder / "received").read_text().splitlines()[-1] == "0.0"
     assert console.is_usable()
+
+
+def test_a_terminal_that_vanishes_ends_the_console(console):
+    console.hang_up()
+    assert console.process.wait(PATIENCE) == 129
+    assert (console.folder / "received").read_text().splitlines()[-1] == "0.0"
