@@ -136,3 +136,23 @@ def test_an_empty_system_says_so() -> None:
         assert "No nodes yet" in session.text()
 
     run(empty(), play)
+
+
+def test_a_large_graph_is_laid_out_beside_the_event_loop() -> None:
+    nodes = tuple(
+        NodeInfo(f"/n{at}", (Endpoint(f"/t{at}", ("a/msg/B",)),), (Endpoint(f"/t{at - 1}", ("a/msg/B",)),))
+        for at in range(100)
+    )
+
+    async def play(session: Session) -> None:
+        session.console.change(graph=GraphInfo(nodes))
+        await session.press("3")
+        await session.app.workers.wait_for_complete()
+        await session.settle()
+        assert len(items(session)) == 201
+        await session.press("o")
+        await session.app.workers.wait_for_complete()
+        await session.settle()
+        assert "╭" in session.text()
+
+    run(live(), play)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from typing import ClassVar
 
 from bot_console.tui import keymap
@@ -17,6 +18,9 @@ from textual.message import Message
 from textual.reactive import reactive
 from textual.scroll_view import ScrollView
 from textual.strip import Strip
+
+LARGE = 120
+"""Items from which on a graph is laid out beside the event loop."""
 
 MARGIN = 2
 """Cells kept free around the selected item when the picture is scrolled to it."""
@@ -58,15 +62,12 @@ class DiagramView(ScrollView, can_focus=True):
     def __init__(self) -> None:
         super().__init__()
         self.drawing = Drawing()
+        self.places: dict[str, Place] = {}
+        self._links: frozenset[tuple[str, str]] = frozenset()
         self._graph = Digraph()
         self._warned: frozenset[str] = frozenset()
         self._drawings: dict[Flow, Drawing] = {}
         self._flow: Flow | None = None
-
-    @property
-    def places(self) -> dict[str, Place]:
-        """Where the items stand."""
-        return dict(self.drawing.places or {})
 
     def show(self, graph: Digraph, warned: frozenset[str] = frozenset()) -> None:
         """Draw a graph; items in `warned` stand out. Selection and scroll position stay where they can."""
@@ -74,22 +75,38 @@ class DiagramView(ScrollView, can_focus=True):
         if graph != self._graph:
             self._graph = graph
             self._drawings.clear()
-        self._choose()
-        if self.selected not in self.places:
-            self.selected = self._first()
+        if len(graph.items) > LARGE and not self._drawings:
+            self.run_worker(self._draw_beside(graph), exclusive=True, group="draw")
+        else:
+            self._choose()
         self.refresh()
+
+    async def _draw_beside(self, graph: Digraph) -> None:
+        """Lay a large graph out in a thread, in one direction only, while what was drawn before stays."""
+        flow = self._flow or RIGHT
+        drawing = await asyncio.to_thread(draw, graph, flow)
+        if graph is self._graph:
+            self._drawings[flow] = drawing
+            self._choose()
 
     def _choose(self) -> None:
         """Draw in the direction that was asked for, else in the one of which more is seen at once."""
-        flows = (self._flow,) if self._flow else (RIGHT, DOWN)
+        if len(self._graph.items) > LARGE:
+            flows = tuple(self._drawings)
+        else:
+            flows = (self._flow,) if self._flow else (RIGHT, DOWN)
         for each in flows:
             if each not in self._drawings:
                 self._drawings[each] = draw(self._graph, each)
-        drawing = self._drawings[min(flows, key=self._excess)]
+        drawing = self._drawings[min(flows, key=self._excess)] if flows else self.drawing
         if drawing is not self.drawing:
             self.drawing = drawing
+            self.places = dict(drawing.places or {})
+            self._links = frozenset(drawing.edges)
             self.virtual_size = Size(drawing.width + 1, len(drawing.rows))
             self.refresh()
+        if self.selected not in self.places:
+            self.selected = self._first()
 
     def _excess(self, flow: Flow) -> float:
         width, height = max(1, self.size.width), max(1, self.size.height)
@@ -100,11 +117,14 @@ class DiagramView(ScrollView, can_focus=True):
         """Arrows to the right, down, or as it fits."""
         order: tuple[Flow | None, ...] = (None, RIGHT, DOWN)
         self._flow = order[(order.index(self._flow) + 1) % 3]
+        if len(self._graph.items) > LARGE:
+            self._drawings.clear()
+            self.run_worker(self._draw_beside(self._graph), exclusive=True, group="draw")
+            return
         self._choose()
         self.show_selected()
 
     def _first(self) -> str:
-
         def order(item: str) -> tuple[bool, int, int]:
             place = self.places[item]
             return not place.boxed, place.x, place.y
@@ -152,10 +172,6 @@ class DiagramView(ScrollView, can_focus=True):
         if run.item in self._warned:
             return "warn"
         return "box" if boxed else "chip"
-
-    @property
-    def _links(self) -> set[tuple[str, str]]:
-        return set(self.drawing.edges)
 
     # Selecting ----------------------------------------------------------------------------------------------------
 

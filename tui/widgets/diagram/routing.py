@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from bot_console.tui.widgets.diagram.ordering import Key
 
@@ -26,16 +27,17 @@ class Trunk:
     leaves: tuple[tuple[int, Key], ...]
     down: int | None = None
 
-    @property
-    def rows(self) -> list[int]:
-        """Every row on which it has an end or a branch."""
-        own = [row for row, _ in self.leaves]
-        return own + [row for row in (self.enters, self.down) if row is not None]
+    @cached_property
+    def span(self) -> tuple[int, int]:
+        """The first and the last row on which it has an end or a branch."""
+        rows = [row for row, _ in self.leaves]
+        rows += [row for row in (self.enters, self.down) if row is not None]
+        return min(rows), max(rows)
 
     @property
     def straight(self) -> bool:
         """Whether it needs no vertical line."""
-        return len(set(self.rows)) == 1
+        return self.span[0] == self.span[1]
 
 
 @dataclass(frozen=True)
@@ -50,47 +52,59 @@ class Channel:
 def channel(trunks: Sequence[Trunk]) -> Channel:
     """Put the trunks that need a vertical line on tracks."""
     bent = [each for each in trunks if not each.straight]
+    left_of = _left_of(bent)
     blocked: list[Key] = []
-    order = _order(bent, blocked)
+    order = _order(bent, left_of, blocked)
     track: dict[str, int] = {}
     for at, trunk in enumerate(order):
-        low, high = min(trunk.rows), max(trunk.rows)
-        lower = [
-            track[other.owner]
-            for other in order[:at]
-            if (min(other.rows) <= high + 1 and low <= max(other.rows) + 1) or _must_be_left(other, trunk)
-        ]
+        low, high = trunk.span
+        lower = [track[each] for each in left_of[trunk.owner] if each in track]
+        for other in order[:at]:
+            first, last = other.span
+            if first <= high + 1 and low <= last + 1:
+                lower.append(track[other.owner])
         track[trunk.owner] = max(lower, default=-1) + 1
     return Channel(track, max(track.values(), default=-1) + 1, tuple(blocked))
 
 
-def _must_be_left(left: Trunk, right: Trunk) -> bool:
-    """Whether two trunks would lie on each other unless the first stands left: one enters where the other leaves."""
-    return left.enters is not None and any(row == left.enters for row, _ in right.leaves)
+def _left_of(trunks: Sequence[Trunk]) -> dict[str, set[str]]:
+    """For each trunk those that must stand left of it: they enter on a row on which it leaves, and would lie on it."""
+    entering = {each.enters: each.owner for each in trunks if each.enters is not None}
+    return {each.owner: {entering[row] for row, _ in each.leaves if row in entering} - {each.owner} for each in trunks}
 
 
-def _order(trunks: Sequence[Trunk], blocked: list[Key]) -> list[Trunk]:
-    left = sorted(trunks, key=lambda each: (-(each.enters if each.enters is not None else 1 << 30), each.owner))
+def _order(trunks: Sequence[Trunk], left_of: Mapping[str, set[str]], blocked: list[Key]) -> list[Trunk]:
+    """From the left; `blocked` receives the keys that stand in the way where trunks wait for each other."""
+    left = {
+        each.owner: each
+        for each in sorted(
+            trunks, key=lambda each: (-(each.enters if each.enters is not None else 1 << 30), each.owner)
+        )
+    }
+    cost = _costs(list(left.values())) if len(left) <= MANY else {}
     chosen: list[Trunk] = []
     while left:
-        free = [each for each in left if not any(_must_be_left(other, each) for other in left if other is not each)]
+        free = [each for each in left if not any(other in left for other in left_of[each])]
         if not free:
-            blocked += [key for row, key in left[0].leaves if any(row == other.enters for other in left)]
-            free = left
-        best = free[0] if len(left) > MANY else min(free, key=lambda each: _crossings_if_first(each, left))
-        chosen.append(best)
-        left.remove(best)
+            first = next(iter(left.values()))
+            waiting = {each.enters for each in left.values()}
+            blocked += [key for row, key in first.leaves if row in waiting]
+            free = list(left)
+        scores = {each: sum(cost[each, other] for other in left if other != each) for each in free} if cost else {}
+        best = min(free, key=lambda each: scores[each]) if scores else free[0]
+        chosen.append(left.pop(best))
     return chosen
 
 
-def _crossings_if_first(first: Trunk, others: Sequence[Trunk]) -> int:
-    return sum(_crossings(first, each) - _crossings(each, first) for each in others if each is not first)
+def _costs(trunks: Sequence[Trunk]) -> dict[tuple[str, str], int]:
+    """How many crossings it saves or costs to put the first of a pair on the left."""
+    return {(a.owner, b.owner): _crossings(a, b) - _crossings(b, a) for a in trunks for b in trunks if a is not b}
 
 
 def _crossings(left: Trunk, right: Trunk) -> int:
     """How often the lines of two trunks cross when the one stands left of the other."""
-    low, high = min(right.rows), max(right.rows)
+    low, high = right.span
     total = sum(1 for row, _ in left.leaves if low < row < high)
-    if right.enters is not None and min(left.rows) < right.enters < max(left.rows):
+    if right.enters is not None and left.span[0] < right.enters < left.span[1]:
         total += 1
     return total
