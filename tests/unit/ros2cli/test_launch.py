@@ -1,0 +1,263 @@
+"""`ros2 launch`: texts and exit codes. Contract, section 3."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+from ros2cli.command_line import main
+
+LISTED = """
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, GroupAction, TimerAction
+from launch.conditions import IfCondition
+from launch.substitutions import EnvironmentVariable
+
+
+def generate_launch_description():
+    return LaunchDescription(
+        [
+            DeclareLaunchArgument("speed", default_value="1.0", description="Robot maximum speed in m/s"),
+            DeclareLaunchArgument("nodef"),
+            GroupAction([DeclareLaunchArgument("cond", default_value="z")], condition=IfCondition("true")),
+            DeclareLaunchArgument("path", default_value=[EnvironmentVariable("HOME"), "/x"]),
+            DeclareLaunchArgument("speed", default_value="2.0"),
+            TimerAction(period=1.0, actions=[DeclareLaunchArgument("later", default_value="1")]),
+        ]
+    )
+"""
+SHOWN = """Arguments (pass arguments as '<name>:=<value>'):
+
+    'speed':
+        Robot maximum speed in m/s
+        (default: '1.0')
+
+    'nodef':
+        no description given
+
+    'cond':*
+        no description given
+        (default: 'z')
+
+    'path':
+        no description given
+        (default: EnvVar('HOME') + '/x')
+
+    'later':*
+        no description given
+        (default: '1')
+
+* argument(s) which are only used if specific conditions occur
+"""
+SAYS = """
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, LogInfo
+from launch.substitutions import LaunchConfiguration
+
+
+def generate_launch_description():
+    return LaunchDescription([DeclareLaunchArgument("x", default_value="-"), LogInfo(msg=LaunchConfiguration("x"))])
+"""
+EMPTY = "from launch import LaunchDescription\ndef generate_launch_description():\n    return LaunchDescription()\n"
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """An installed package `pkg`, two launch files of one name in it, and files beside it."""
+    import launch.logging
+
+    share = tmp_path / "share" / "pkg"
+    index = tmp_path / "share" / "ament_index" / "resource_index" / "packages"
+    for place in (index, share / "launch" / "sub", share / "a", share / "b"):
+        place.mkdir(parents=True)
+    (index / "pkg").write_text("")
+    (share / "launch" / "sub" / "deep.launch.py").write_text(SAYS)
+    for place in ("a", "b"):
+        (share / place / "same.launch.py").write_text(SAYS)
+    for name, text in (("listed", LISTED), ("says", SAYS), ("empty", EMPTY)):
+        (tmp_path / f"{name}.launch.py").write_text(text)
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
+    monkeypatch.chdir(tmp_path)
+    launch.logging.reset()
+    return tmp_path
+
+
+def launched(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]:
+    code = main(["launch", *words])
+    found = capsys.readouterr()
+    return code, found.out, found.err
+
+
+def user_lines(text: str) -> list[str]:
+    prefix = "[INFO] [launch.user]: "
+    return [each.removeprefix(prefix) for each in text.splitlines() if each.startswith(prefix)]
+
+
+@pytest.mark.parametrize("option", ["-s", "--show-args", "--show-arguments"])
+def test_show_args(capsys: pytest.CaptureFixture[str], option: str) -> None:
+    assert launched(capsys, "listed.launch.py", option) == (0, SHOWN, "")
+
+
+def test_no_arguments(capsys: pytest.CaptureFixture[str]) -> None:
+    shown = "Arguments (pass arguments as '<name>:=<value>'):\n\n  No arguments.\n"
+    assert launched(capsys, "empty.launch.py", "-s") == (0, shown, "")
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["x:=1"], ["1"]),
+        (["x:=1", "x:=2"], ["2"]),
+        (["x:=a:=b"], ["a:=b"]),
+        (["x:=a b"], ["a b"]),
+        ([], ["-"]),
+        (["unknown:=1"], ["-"]),
+    ],
+)
+def test_arguments(capsys: pytest.CaptureFixture[str], words: list[str], said: list[str]) -> None:
+    code, out, err = launched(capsys, "says.launch.py", *words)
+    assert (code, user_lines(out), err) == (0, said, "")
+
+
+@pytest.mark.parametrize("word", ["x", "x:=", ":=y"])
+def test_malformed_arguments(capsys: pytest.CaptureFixture[str], word: str) -> None:
+    said = f"malformed launch argument '{word}', expected format '<name>:=<value>'\n"
+    assert launched(capsys, "says.launch.py", word) == (1, "", said)
+
+
+def test_of_a_package(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = launched(capsys, "pkg", "deep.launch.py", "x:=1")
+    assert (code, user_lines(out)) == (0, ["1"])
+
+
+def test_not_found(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
+    share = folder / "share" / "pkg"
+    where = "in the share directory of package 'pkg'"
+    rows: list[tuple[list[str], str]] = [
+        (["nopkg", "x"], f"Package 'nopkg' not found: \"package 'nopkg' not found, searching: ['{folder}']\""),
+        (["pkg", "zz.launch.py"], f"file 'zz.launch.py' was not found {where} which is at '{share}'"),
+        (["pkg"], f"file 'None' was not found {where} which is at '{share}'"),
+        (["pkg", "-s"], f"file 'None' was not found {where} which is at '{share}'"),
+    ]
+    for words, said in rows:
+        assert launched(capsys, *words) == (1, "", said + "\n")
+    code, _, err = launched(capsys, "pkg", "same.launch.py")
+    assert code == 1
+    assert err.startswith(f"file 'same.launch.py' was found more than once {where}: [")
+
+
+@pytest.mark.parametrize("path", ["./x.launch.py", "x.launch.py", "share/"])
+def test_a_mistyped_path(capsys: pytest.CaptureFixture[str], path: str) -> None:
+    code, _, err = launched(capsys, path)
+    assert code == 1
+    assert err.splitlines()[-1] == f"ValueError: '{path}' is not a valid package name"
+
+
+def test_usage(capsys: pytest.CaptureFixture[str]) -> None:
+    for words, said in (
+        (["says.launch.py", "-s", "x:=1"], "unrecognized arguments: x:=1"),
+        (["says.launch.py", "-s", "-p"], "not allowed with argument"),
+        ([], "the following arguments are required"),
+    ):
+        code, _, err = launched(capsys, *words)
+        assert code == 2
+        assert said in err
+
+
+def test_a_filter_needs_a_prefix(capsys: pytest.CaptureFixture[str]) -> None:
+    said = "--launch-prefix must be specified if --launch-prefix-filter is provided\n"
+    assert launched(capsys, "says.launch.py", "--launch-prefix-filter", "x") == (1, "", said)
+
+
+def test_print(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
+    (folder / "p.launch.py").write_text(
+        "from launch import LaunchDescription\n"
+        "from launch.actions import *\n"
+        "from launch.event_handlers import OnProcessExit\n"
+        "def generate_launch_description():\n"
+        "    return LaunchDescription([LogInfo(msg='a'), ExecuteProcess(cmd=['b'], cwd='/tmp', shell=True),\n"
+        "        RegisterEventHandler(OnProcessExit(on_exit=[LogInfo(msg='c'), Shutdown()]))])\n"
+    )
+    code, out, _ = launched(capsys, "p.launch.py", "--print")
+    lines = out.splitlines()
+    assert code == 0
+    assert lines[0].startswith("<launch.launch_description.LaunchDescription object at 0x")
+    assert lines[1:3] == ["├── LogInfo('a')", "├── ExecuteProcess(cmd=['b'], cwd=''/tmp'', env=None, shell=True)"]
+    assert lines[3].startswith(
+        "└── RegisterEventHandler('<launch.event_handlers.on_process_exit.OnProcessExit object at"
+    )
+    assert lines[4:] == [
+        "    ├── OnProcessExit(matcher='event == ProcessExited', handler='<actions>', handle_once=False)",
+        "        ├── LogInfo('c')",
+        "        └── EmitEvent(event='launch.events.Shutdown')",
+    ]
+
+
+def test_an_empty_file_prints_one_line(capsys: pytest.CaptureFixture[str]) -> None:
+    code, out, _ = launched(capsys, "empty.launch.py", "-p")
+    assert (code, len(out.splitlines())) == (0, 1)
+
+
+BAD: list[tuple[str, int, str]] = [
+    ("x = 1", 1, "does not contain the required function 'generate_launch_description()'"),
+    ("def generate_launch_description(): pass", 1, "'NoneType' object has no attribute"),
+    ("import sys; sys.exit(7)", 7, ""),
+    ("def f(:", 1, "SyntaxError"),
+    ("import no_such_module", 1, "No module named 'no_such_module'"),
+    ("raise ValueError('at import')", 1, "at import"),
+]
+
+
+@pytest.mark.parametrize(("text", "code", "said"), BAD, ids=[row[0] for row in BAD])
+@pytest.mark.parametrize("option", [[], ["-s"], ["-p"]], ids=["run", "-s", "-p"])
+def test_bad_files(
+    capsys: pytest.CaptureFixture[str], folder: Path, text: str, code: int, said: str, option: list[str]
+) -> None:
+    (folder / "bad.launch.py").write_text(text)
+    found, out, err = launched(capsys, "bad.launch.py", *option)
+    assert found == code
+    assert said in out + err
+    assert "Traceback" not in out + err
+
+
+def test_all_output(capsys: pytest.CaptureFixture[str], folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("OVERRIDE_LAUNCH_PROCESS_OUTPUT", "")
+    (folder / "q.launch.py").write_text(
+        "from launch import LaunchDescription\nfrom launch.actions import ExecuteProcess\n"
+        "def generate_launch_description():\n    return LaunchDescription([ExecuteProcess(cmd=['echo', 'quiet'])])\n"
+    )
+    assert "] quiet" not in launched(capsys, "q.launch.py")[1]
+    assert "] quiet" in launched(capsys, "q.launch.py", "-a")[1]
+    assert os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] == "both"
+
+
+def test_screen_format(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    import launch.logging
+
+    monkeypatch.setenv("OVERRIDE_LAUNCH_SCREEN_FORMAT", "{levelname}|{name}|{msg}")
+    launch.logging.reset()
+    assert "INFO|launch.user|-" in launched(capsys, "says.launch.py")[1].splitlines()
+
+
+def test_debug_logs_more(capsys: pytest.CaptureFixture[str]) -> None:
+    _, out, _ = launched(capsys, "says.launch.py", "-d")
+    assert "[DEBUG]" in out
+
+
+def test_exit_codes(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
+    template = (
+        "from launch import LaunchDescription\nfrom launch.actions import *\nfrom launch.conditions import *\n"
+        "def generate_launch_description():\n    return LaunchDescription([{}])\n"
+    )
+    rows: list[tuple[str, int]] = [
+        ("ExecuteProcess(cmd=['false'])", 0),
+        ("ExecuteProcess(cmd=['false'], on_exit=Shutdown())", 0),
+        ("ExecuteProcess(cmd=['/no/such'])", 0),
+        ("LogInfo(msg='a', condition=IfCondition('yes'))", 1),
+        ("OpaqueFunction(function=lambda context: 1 / 0)", 1),
+    ]
+    for text, code in rows:
+        (folder / "e.launch.py").write_text(template.format(text))
+        assert launched(capsys, "e.launch.py")[0] == code, text
