@@ -59,7 +59,7 @@ def rows(info: LaunchInfo, folded: Collection[tuple[str, ...]] = ()) -> list[Row
 
 
 def _together(processes: Sequence[ProcessInfo]) -> list[ProcessInfo]:
-    """Processes sorted so that each group stands together, in the order in which groups first appear."""
+    """Processes sorted so that each group stands together, below the processes beside it; else as they came."""
     first: dict[tuple[str, ...], int] = {}
     for at, process in enumerate(processes):
         for depth in range(len(process.group) + 1):

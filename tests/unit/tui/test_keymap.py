@@ -1,0 +1,43 @@
+"""The key table is true: every action exists, no key has two meanings, and all of it survives a terminal."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.keymap import TABLE, Key
+from bot_console.tui.pane_table import PANES
+from bot_console.tui.widgets.diagram_view import DiagramView
+from bot_console.tui.widgets.row_list import RowList
+
+OWNERS = {"app": BotConsoleApp, "list": RowList, "diagram": DiagramView, **{each.id: each.load() for each in PANES}}
+KEYS = [(scope, key) for scope, keys in TABLE.items() for key in keys]
+STOLEN = {"ctrl+x", "ctrl+b", "ctrl+a", "ctrl+s", "ctrl+z", "ctrl+h", "ctrl+i", "ctrl+m", "ctrl+j"}
+
+
+@pytest.mark.parametrize(("scope", "key"), KEYS, ids=[key.id for _, key in KEYS])
+def test_the_action_exists_and_the_key_is_usable(scope: str, key: Key) -> None:
+    name = re.match(r"\w+", key.action)
+    assert name and hasattr(OWNERS[scope], f"action_{name[0]}")
+    keys = key.keys.split(",")
+    assert not STOLEN & set(keys)
+    assert not [each for each in keys if re.fullmatch(r"f\d+", each) and each != "f1"]
+    assert key.id.startswith(f"{scope}.") and key.text
+
+
+@pytest.mark.parametrize("scope", TABLE)
+def test_no_key_has_two_meanings_in_one_scope(scope: str) -> None:
+    keys = [each for key in TABLE[scope] for each in key.keys.split(",")]
+    assert len(keys) == len(set(keys))
+
+
+def test_every_pane_has_its_digit_keys_and_help() -> None:
+    digits = {key.keys: key.action for key in TABLE["app"] if key.keys.isdigit()}
+    for each in PANES:
+        assert digits[each.digit] == f"pane('{each.id}')"
+        assert each.load().HELP and each.id in TABLE
+
+
+def test_every_scope_of_the_table_is_used() -> None:
+    assert set(TABLE) == set(OWNERS)
