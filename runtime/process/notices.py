@@ -19,7 +19,12 @@ def on_notice(hook: NoticeHook) -> Callable[[], None]:
     Without a hook a notice goes to the standard error stream of its process.
     """
     _hooks.append(hook)
-    return lambda: _hooks.remove(hook)
+
+    def forget() -> None:
+        if hook in _hooks:
+            _hooks.remove(hook)
+
+    return forget
 
 
 def notify(process: NodeProcess, text: str) -> None:

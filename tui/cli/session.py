@@ -46,6 +46,7 @@ class Session:
     def __init__(self, options: Options) -> None:
         self._options = options
         self._closed = False
+        self._forget_notices: Callable[[], None] = lambda: None
         self.console = RosConsole(
             launch_info=self._launch_info,
             profile_folders=[ROOT / "profiles"],
@@ -120,6 +121,7 @@ class Session:
         self.console.all_stop(True)
         threading.Event().wait(LAST_WORD)
         self.launcher.close()
+        self._forget_notices()
         self.console.close()  # whose own zero is the last word to a robot that outlives this program
 
 
