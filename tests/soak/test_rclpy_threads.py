@@ -1,0 +1,307 @@
+"""rclpy under threads: nothing reliable is lost, nothing hangs, nothing leaks. Run with `-m soak`."""
+
+from __future__ import annotations
+
+import gc
+import itertools
+import random
+import threading
+import time
+from collections import Counter
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from typing import Any
+
+import pytest
+from example_interfaces.srv import AddTwoInts
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
+from rclpy.context import Context
+from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import HistoryPolicy, QoSProfile
+from std_msgs.msg import Int64
+
+pytestmark = pytest.mark.soak
+
+PATIENCE = 60.0
+"""How long (s) a thread may take to end before it counts as hung."""
+KEEP_ALL = QoSProfile(history=HistoryPolicy.KEEP_ALL)
+_domains = itertools.count(900_000)
+
+
+@contextmanager
+def context() -> Iterator[Context]:
+    """A context of its own domain."""
+    made = Context()
+    made.init([], domain_id=next(_domains))
+    yield made
+    made.try_shutdown()
+
+
+class Threads:
+    """Threads that must end, and whose exceptions are the test's."""
+
+    def __init__(self) -> None:
+        self._threads: list[threading.Thread] = []
+        self._errors: list[BaseException] = []
+
+    def start(self, target: Callable[..., object], *args: Any) -> None:
+        """Run something in a thread; the shutdown of its context is no error."""
+
+        def run() -> None:
+            try:
+                target(*args)
+            except ExternalShutdownException:
+                pass
+            except BaseException as error:  # the border to a thread: the test raises it
+                self._errors.append(error)
+
+        thread = threading.Thread(target=run, daemon=True)
+        self._threads.append(thread)
+        thread.start()
+
+    def join(self) -> None:
+        """Wait for all; fail for one that hangs, and raise what one has raised."""
+        for thread in self._threads:
+            thread.join(PATIENCE)
+            assert not thread.is_alive(), "a thread hangs"
+        if self._errors:
+            raise self._errors[0]
+
+
+def eventually(what: Callable[[], bool]) -> None:
+    """Wait until something is so."""
+    end = time.monotonic() + PATIENCE
+    while not what():
+        assert time.monotonic() < end, "it did not come about"
+        time.sleep(0.001)
+
+
+def test_ping_pong_between_two_executors() -> None:
+    count, done, threads = 50_000, threading.Event(), Threads()
+    with context() as ctx:
+        left, right = Node("left", context=ctx), Node("right", context=ctx)
+        ping, pong = left.create_publisher(Int64, "ping", 10), right.create_publisher(Int64, "pong", 10)
+        right.create_subscription(Int64, "ping", pong.publish, 10)
+
+        def again(message: Int64) -> None:
+            if message.data < count:
+                ping.publish(Int64(data=message.data + 1))
+            else:
+                done.set()
+
+        left.create_subscription(Int64, "pong", again, 10)
+        for node in (left, right):
+            executor = SingleThreadedExecutor(context=ctx)
+            executor.add_node(node)
+            threads.start(executor.spin)
+        ping.publish(Int64())
+        assert done.wait(PATIENCE)
+        ctx.shutdown()
+        threads.join()
+
+
+@pytest.mark.parametrize("group", [ReentrantCallbackGroup, MutuallyExclusiveCallbackGroup])
+def test_foreign_threads_lose_nothing(group: Any) -> None:
+    per_thread, senders, got, threads = 5_000, 6, Counter(), Threads()
+    lock = threading.Lock()
+
+    def take(message: Int64) -> None:
+        with lock:
+            got[message.data] += 1
+
+    with context() as ctx:
+        node = Node("n", context=ctx)
+        node.create_subscription(Int64, "t", take, KEEP_ALL, callback_group=group())
+        executor = MultiThreadedExecutor(4, context=ctx)
+        executor.add_node(node)
+        threads.start(executor.spin)
+        publishers = [
+            Node(f"p{number}", context=ctx).create_publisher(Int64, "t", KEEP_ALL) for number in range(senders)
+        ]
+
+        def send(first: int) -> None:
+            for number in range(per_thread):
+                publishers[first].publish(Int64(data=first * per_thread + number))
+
+        for sender in range(senders):
+            threads.start(send, sender)
+        eventually(lambda: len(got) == senders * per_thread)
+        executor.shutdown()
+        threads.join()
+    assert set(got.values()) == {1}
+
+
+def test_an_exclusive_group_is_exclusive_under_pressure() -> None:
+    inside, worst, calls, threads = [0], [0], [0], Threads()
+    group = MutuallyExclusiveCallbackGroup()
+
+    def work(*_: Any) -> None:
+        inside[0] += 1
+        worst[0] = max(worst[0], inside[0])
+        calls[0] += 1
+        time.sleep(0)
+        inside[0] -= 1
+
+    with context() as ctx:
+        node = Node("n", context=ctx)
+        publisher = node.create_publisher(Int64, "t", KEEP_ALL)
+        node.create_subscription(Int64, "t", work, KEEP_ALL, callback_group=group)
+        guards = [node.create_guard_condition(work, group) for _ in range(4)]
+        node.create_timer(0.0, work, group)
+        executor = MultiThreadedExecutor(8, context=ctx)
+        executor.add_node(node)
+        threads.start(executor.spin)
+
+        def press() -> None:
+            for number in range(3_000):
+                publisher.publish(Int64(data=number))
+                guards[number % 4].trigger()
+
+        for _ in range(3):
+            threads.start(press)
+        eventually(lambda: calls[0] > 12_000)
+        executor.shutdown()
+        threads.join()
+    assert worst == [1]
+
+
+def test_calls_from_many_threads() -> None:
+    per_thread, callers, threads, wrong = 1_000, 5, Threads(), []
+    with context() as ctx:
+        node, asker = Node("server", context=ctx), Node("asker", context=ctx)
+
+        def add(request: Any, response: Any) -> Any:
+            response.sum = request.a + request.b
+            return response
+
+        node.create_service(AddTwoInts, "add", add, callback_group=ReentrantCallbackGroup())
+        client = asker.create_client(AddTwoInts, "add", callback_group=ReentrantCallbackGroup())
+        executor = MultiThreadedExecutor(3, context=ctx)
+        executor.add_node(node)
+        executor.add_node(asker)
+        threads.start(executor.spin)
+
+        def ask(first: int) -> None:
+            for number in range(per_thread):
+                answer = client.call(AddTwoInts.Request(a=first, b=number), timeout_sec=PATIENCE)
+                if answer is None or answer.sum != first + number:
+                    wrong.append((first, number, answer))
+
+        askers = Threads()
+        for caller in range(callers):
+            askers.start(ask, caller * 1_000_000)
+        askers.join()
+        executor.shutdown()
+        threads.join()
+    assert (wrong, client._pending_requests) == ([], {})
+
+
+@pytest.mark.parametrize("kind", [SingleThreadedExecutor, MultiThreadedExecutor])
+def test_shutdown_during_callbacks(kind: Any) -> None:
+    for _ in range(150):
+        threads = Threads()
+        with context() as ctx:
+            node = Node("n", context=ctx)
+            publisher = node.create_publisher(Int64, "t", 10)
+            node.create_subscription(Int64, "t", lambda message: None, 10)
+            node.create_timer(0.0, lambda publisher=publisher: _publish(publisher))
+            executor = kind(context=ctx)
+            executor.add_node(node)
+            threads.start(executor.spin)
+            threads.start(lambda publisher=publisher: [_publish(publisher) for _ in range(50)])
+            time.sleep(random.random() * 0.003)
+            ctx.shutdown()
+            threads.join()
+            executor.shutdown()
+            node.destroy_node()
+
+
+def _publish(publisher: Any) -> None:
+    with suppress(RuntimeError):  # the context may be shut down by now
+        publisher.publish(Int64())
+
+
+def census() -> Counter[str]:
+    """How many objects of each kind there are."""
+    gc.collect()
+    return Counter(type(each).__name__ for each in gc.get_objects())
+
+
+def test_a_thousand_nodes_leave_nothing() -> None:
+    def live(number: int, ctx: Context) -> None:
+        node = Node(f"n{number}", context=ctx)
+        node.declare_parameter("p", number)
+        node.create_publisher(Int64, "t", 10).publish(Int64())
+        node.create_subscription(Int64, "t", lambda message: None, 10)
+        node.create_timer(0.0, lambda: None)
+        executor = SingleThreadedExecutor(context=ctx)
+        executor.add_node(node)
+        executor.spin_once(timeout_sec=0)
+        executor.shutdown()
+        node.destroy_node()
+
+    with context() as ctx:
+        for number in range(20):
+            live(number, ctx)
+        before, threads = census(), threading.active_count()
+        for number in range(1_000):
+            live(number, ctx)
+        more = census() - before
+        assert threading.active_count() == threads
+        assert {name: count for name, count in more.items() if count > 20} == {}
+        assert ctx.bus.nodes() == []
+
+
+def test_a_minute_of_everything() -> None:
+    end, threads, lock = time.monotonic() + 60.0, Threads(), threading.Lock()
+    sent: Counter[int] = Counter()
+    got: Counter[int] = Counter()
+    served = [0]
+
+    def take(message: Int64) -> None:
+        with lock:
+            got[message.data] += 1
+
+    with context() as ctx:
+        sinks = [Node(f"sink{number}", context=ctx) for number in range(3)]
+        executors = [SingleThreadedExecutor(context=ctx), MultiThreadedExecutor(4, context=ctx)]
+        for number, sink in enumerate(sinks):
+            sink.create_subscription(Int64, f"t{number}", take, KEEP_ALL, callback_group=ReentrantCallbackGroup())
+            sink.create_service(
+                AddTwoInts, f"add{number}", lambda request, response: response, callback_group=ReentrantCallbackGroup()
+            )
+            executors[number % 2].add_node(sink)
+        for executor in executors:
+            threads.start(executor.spin)
+
+        def live(seed: int) -> None:
+            dice = random.Random(seed)
+            while time.monotonic() < end:
+                node = Node(f"n{seed}", context=ctx)
+                executor = dice.choice(executors)
+                node.create_timer(0.001, lambda: None)
+                executor.add_node(node)
+                target = dice.randrange(3)
+                publisher = node.create_publisher(Int64, f"t{target}", KEEP_ALL)
+                for _ in range(dice.randrange(200)):
+                    number = dice.getrandbits(60)
+                    with lock:
+                        sent[number] += 1
+                    publisher.publish(Int64(data=number))
+                client = node.create_client(AddTwoInts, f"add{target}", callback_group=ReentrantCallbackGroup())
+                assert client.call(AddTwoInts.Request(), timeout_sec=PATIENCE) is not None
+                with lock:
+                    served[0] += 1
+                executor.remove_node(node)
+                node.destroy_node()
+
+        lives = Threads()
+        for seed in range(4):
+            lives.start(live, seed)
+        lives.join()
+        eventually(lambda: got == sent)
+        for executor in executors:
+            executor.shutdown()
+        threads.join()
+    assert served[0] > 100
