@@ -1,4 +1,4 @@
-"""Writes the tables of the documentation that are made from the code: keys, parameters, launch arguments, profiles.
+"""Writes the tables of the documentation that are made from the code: keys, parameters, arguments, options.
 
     python tools/tables.py          # rewrites docs/*.md between <!-- table: NAME --> and <!-- end -->
     python tools/tables.py measure  # runs the four profiles as well and prints the rows of the environment guide
@@ -8,6 +8,7 @@ A test compares the documents with the code, so a change of a key or a parameter
 
 from __future__ import annotations
 
+import argparse
 import json
 import re
 import subprocess
@@ -24,6 +25,8 @@ install()
 import rclpy  # noqa: E402
 import yaml  # noqa: E402
 from ament_index_python.packages import get_package_share_directory  # noqa: E402
+from bot_console.tui.cli import arguments as console_arguments  # noqa: E402
+from bot_console.tui.cli import run as console_run  # noqa: E402
 from bot_console.tui.keymap import TABLE, key_text  # noqa: E402
 from intelligent_robot.controller_node import MotionController  # noqa: E402
 from intelligent_robot.robot_node import RobotNavigator  # noqa: E402
@@ -36,6 +39,7 @@ from launch.utilities import perform_substitutions  # noqa: E402
 from rcl_interfaces.msg import ParameterDescriptor  # noqa: E402
 from rclpy.node import Node  # noqa: E402
 from rclpy.parameter import Parameter  # noqa: E402
+from ros2cli.command_line import COMMANDS, load  # noqa: E402
 
 from launch import LaunchContext  # noqa: E402
 
@@ -132,6 +136,38 @@ def _flat(data: dict[str, Any]) -> dict[str, Any]:
     return found
 
 
+def options(parser: argparse.ArgumentParser) -> str:
+    """The options of a command, without those that every command has."""
+    rows = (
+        (_written(each), str(each.help or "").replace("<", "&lt;"))
+        for each in parser._actions
+        if each.dest not in ("help", "version")
+    )
+    return _table(("option", "what it does"), rows)
+
+
+def _written(action: argparse.Action) -> str:
+    metavar = f" {action.metavar}" if isinstance(action.metavar, str) and action.nargs != 0 else ""
+    names = [f"`{each}{metavar}`" for each in action.option_strings]
+    return ", ".join(names) or f"`{action.metavar or action.dest}`"
+
+
+def launch_parser() -> argparse.ArgumentParser:
+    """The parser of `ros2 launch`."""
+    parser = argparse.ArgumentParser("ros2 launch")
+    command = load("launch")
+    assert command is not None
+    command.arguments(parser)
+    return parser
+
+
+def verbs() -> str:
+    """The verbs of each `ros2` command."""
+    loaded = ((name, load(name)) for name in COMMANDS)
+    found = {name: [f"`{each.name}`" for each in command.verbs] for name, command in loaded if command}
+    return _table(("command", "verbs"), ((f"`{name}`", ", ".join(each)) for name, each in found.items() if each))
+
+
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     lines = [head, ["---"] * len(head), *rows]
     return "".join("| " + " | ".join(each.replace("|", "\\|") for each in line) + " |\n" for line in lines)
@@ -142,6 +178,10 @@ TABLES: dict[str, Callable[[], str]] = {
     **{f"keys:{scope}": partial(keys, scope) for scope in TABLE},
     **{f"parameters:{each.__name__}": partial(parameters, each) for each in NODES},
     **{f"arguments:{each}": partial(arguments, each) for each in LAUNCH_FILES},
+    "options:bot-console": lambda: options(console_arguments._parser()),
+    "options:run": lambda: options(console_run._parser()),
+    "options:launch": lambda: options(launch_parser()),
+    "verbs": verbs,
     "profiles": profiles,
 }
 
