@@ -42,6 +42,7 @@ class LaunchService:
         self.__task: asyncio.Task[int] | None = None
         self.__guard = threading.Lock()
         self.__stop_wanted: str | None = None
+        self.__failure: Exception | None = None
 
     @property
     def context(self) -> LaunchContext:
@@ -57,6 +58,11 @@ class LaunchService:
     def task(self) -> asyncio.Task[int] | None:
         """The task that it runs as, None while it does not run."""
         return self.__task
+
+    @property
+    def failure(self) -> Exception | None:
+        """What was caught and has ended the launch, with its traceback; None where nothing has (not upstream)."""
+        return self.__failure
 
     def include_launch_description(self, launch_description: Any) -> None:
         """Let a description run; before the service runs, or while it does."""
@@ -129,6 +135,7 @@ class LaunchService:
             self.__caught(error)
 
     def __caught(self, error: Exception) -> None:
+        self.__failure = self.__failure or error
         self.__logger.debug(traceback.format_exc())
         message = f"Caught exception in launch (see debug for traceback): {error}"
         self.__logger.error(message)

@@ -13,22 +13,22 @@ class Respawn:
 
     def __init__(self, wanted: Any, delay: float | None, max_retries: Any) -> None:
         self._wanted = wanted
-        self._delay = delay
+        self.delay = delay
         self._max_retries = max_retries
         self._retries = 0
-        self._is_wanted = False
+        self.is_wanted = False
 
     def evaluate(self, context: Any) -> None:
         """Find out whether it is wanted at all."""
-        self._is_wanted = bool(perform_typed_substitution(context, self._wanted, bool))
+        self.is_wanted = bool(perform_typed_substitution(context, self._wanted, bool))
 
     async def wanted(self, context: Any, shutdown: asyncio.Future[None] | None) -> bool:
         """Wait for the delay (s), or for the end of the launch; whether to start again."""
-        if not self._is_wanted or context.is_shutdown or shutdown is None or shutdown.done():
+        if not self.is_wanted or context.is_shutdown or shutdown is None or shutdown.done():
             return False
         if 0 <= self._max_retries <= self._retries:
             return False
         self._retries += 1
-        if self._delay is not None and self._delay > 0.0:
-            await asyncio.wait([shutdown], timeout=self._delay)
+        if self.delay is not None and self.delay > 0.0:
+            await asyncio.wait([shutdown], timeout=self.delay)
         return not shutdown.done()

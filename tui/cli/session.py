@@ -17,6 +17,7 @@ from bot_console.runtime.process import NodeProcess, on_notice
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.hangup import hangup_as_signal
+from bot_console.tui.cli.vitals import find_vitals
 from bot_console.tui.cli.workspaces import choose, launch_files
 from bot_console.tui.console.connection import RosConsole
 from bot_console.tui.console.launcher import RosLauncher
@@ -53,7 +54,7 @@ class Session:
             active_profile="" if options.launch else options.profile,
             run_line=run_line,
         )
-        self.launcher = RosLauncher(self.console.record, self.console.printed, launch_files, self._spawn)
+        self.launcher = RosLauncher(self.console.record, self.console.printed, launch_files, self._spawn, find_vitals)
         self.app = BotConsoleApp(
             self.console, self.launcher, start_pane=options.pane, on_first_frame=self._on_first_frame
         )

@@ -4,27 +4,22 @@ from __future__ import annotations
 
 import threading
 import time
-from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
-from dataclasses import replace
 from pathlib import Path
 from typing import Any, Protocol
 
-from bot_console.tui.console.model import (
-    LaunchArgument,
-    LaunchEvent,
-    LaunchInfo,
-    ProcessInfo,
-    ProcessState,
-    Severity,
-)
-from bot_console.tui.console.process_output import Add, OutputReader, Printed
+from bot_console.tui.console.launch_again import Recipe, recipe
+from bot_console.tui.console.launch_arguments import read_arguments
+from bot_console.tui.console.launch_process import ENDED, KILLED, LaunchedProcess, Order
+from bot_console.tui.console.launch_run import LaunchRun, Listener
+from bot_console.tui.console.launch_timeline import LaunchTimeline
+from bot_console.tui.console.model import LaunchArgument, LaunchInfo, ProcessState, Severity
+from bot_console.tui.console.process_output import Add, ProcessOutput
+from bot_console.tui.console.process_vitals import FindVitals, ProcessorShare, Vitals
 from bot_console.tui.console.protocol import Answer
 
-TIMELINE = 500
-INTERRUPTED = (0, -2, -15, 130)
-"""Exit codes of a process that ended as it was asked to."""
+CLOSED = "the console is closing"
 
 
 class Joinable(Protocol):
@@ -35,15 +30,17 @@ class Joinable(Protocol):
         ...
 
 
-class _Process:
-    """A launched process: the action that runs it, what is shown of it, and what reads its output."""
+class _Held:
+    """A process with the action that runs it, the run it belongs to, and all that looks at it."""
 
-    def __init__(self, action: Any, info: ProcessInfo, readers: dict[bool, tuple[OutputReader, Printed]]) -> None:
+    def __init__(self, process: LaunchedProcess, run: LaunchRun, action: Any, made_from: Recipe) -> None:
+        self.process = process
+        self.run = run
         self.action = action
-        self.info = info
-        self.readers = readers
-        self.stopping = False
-        self.again = False
+        self.recipe = made_from
+        self.output: ProcessOutput | None = None
+        self.vitals: Vitals | None = None
+        self.share: ProcessorShare | None = None
 
 
 class RosLauncher:
@@ -55,209 +52,266 @@ class RosLauncher:
         printed: Callable[[int, str, str], None],
         files: Callable[[], Sequence[str]] = tuple,
         spawn: Callable[[Callable[[], None]], Joinable] | None = None,
+        vitals: FindVitals = lambda pid: None,
     ) -> None:
         """`spawn` starts the thread of a launch, in a way that keeps what launch itself prints off the screen."""
         self._record = record
-        self._spawn = spawn or _thread
         self._printed = printed
         self._files_of_workspace = files
+        self._spawn = spawn or _thread
+        self._find_vitals = vitals
+        self._listener = Listener(self._started, self._output, self._exited, self._over, self._ending, self._fault)
         self._lock = threading.RLock()
-        self._processes: dict[str, _Process] = {}
-        self._keys: dict[int, str] = {}
-        self._services: list[Any] = []
-        self._threads: list[Joinable] = []
+        self._held: dict[str, _Held] = {}
+        self._by_action: dict[Any, _Held] = {}
+        self._runs: dict[LaunchRun, Joinable | None] = {}
+        self._unanswered: dict[LaunchRun, Future[Answer]] = {}
         self._files: list[str] = []
-        self._timeline: deque[LaunchEvent] = deque(maxlen=TIMELINE)
-        self._events = 0
+        self._timeline = LaunchTimeline()
         self._problem = ""
         self._info = LaunchInfo()
-        self._dirty = False
+        self._dirty = self._closed = False
+
+    # What is shown -------------------------------------------------------------------------------------------------
 
     def info(self) -> LaunchInfo:
         """What is known now; the same object until something changes."""
-        if self._dirty:
-            with self._lock:
+        with self._lock:
+            self._look()
+            if self._dirty:
                 self._dirty = False
-                processes = tuple(each.info for each in self._processes.values())
-                self._info = LaunchInfo(tuple(self._files), processes, tuple(self._timeline), self._problem)
-        return self._info
+                processes = tuple(each.process.info for each in self._held.values())
+                self._info = LaunchInfo(tuple(self._files), processes, self._timeline.events, self._problem)
+            return self._info
 
-    def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
-        """Run one more launch file; the answer comes when its first process runs or it has failed."""
-        outcome: Future[Answer] = Future()
-        given = dict(arguments)
-        self._threads.append(self._spawn(lambda: self._serve(path, given, outcome)))
-        return outcome
-
-    def _serve(self, path: str, arguments: dict[str, str], outcome: Future[Answer]) -> None:
-        from launch.actions import IncludeLaunchDescription
-        from launch.launch_description_sources import AnyLaunchDescriptionSource
-
-        from launch import LaunchDescription, LaunchService
-
-        with self._lock:
-            self._files.append(path)
-            self._problem = ""
-            self._tell(f"launch {path}")
-        service = LaunchService(noninteractive=True)
-        with self._lock:
-            self._services.append(service)
-        include = IncludeLaunchDescription(AnyLaunchDescriptionSource(path), launch_arguments=arguments.items())
-        service.include_launch_description(LaunchDescription([*self._handlers(path, outcome), include]))
-        try:
-            code = service.run(shutdown_when_idle=True)
-            problem = "" if code == 0 or outcome.done() else f"{path} ended with exit code {code}; the log says why"
-        except Exception as error:  # the border of the launch thread: shown in the pane
-            problem = f"{path}: {error}"
-        with self._lock:
-            self._services.remove(service)
-            if problem:
-                self._problem = problem
-                self._tell(problem, Severity.ERROR)
-            else:
-                self._tell(f"{path} has ended")
-        if not outcome.done():
-            outcome.set_result(Answer(not problem, problem or f"{path} has ended"))
-
-    def _handlers(self, path: str, outcome: Future[Answer]) -> list[Any]:
-        from launch.actions import RegisterEventHandler
-        from launch.event_handlers import OnProcessExit, OnProcessIO, OnProcessStart
-
-        def started(event: Any, context: Any) -> None:
-            self._started(path, event)
-            if not outcome.done():
-                outcome.set_result(Answer(True, f"{path} runs"))
-
-        return [
-            RegisterEventHandler(OnProcessStart(on_start=started)),
-            RegisterEventHandler(OnProcessIO(on_stdout=self._printed_text, on_stderr=self._printed_text)),
-            RegisterEventHandler(OnProcessExit(on_exit=lambda event, context: self._exited(event))),
-        ]
-
-    def _started(self, path: str, event: Any) -> None:
-        with self._lock:
-            key = self._keys.get(id(event.action))
-            if key is None:
-                key = self._keys[id(event.action)] = f"{event.process_name}@{len(self._keys)}"
-            old = self._processes.get(key)
-            info = ProcessInfo(
-                key=key,
-                label=event.process_name,
-                state=ProcessState.RUNNING,
-                pid=event.pid,
-                nodes=_node_names(event.action),
-                group=(Path(path).name,),
-                restarts=old.info.restarts + 1 if old else 0,
-            )
-            self._processes[key] = _Process(event.action, info, self._readers(event.process_name))
-            self._tell(f"{event.process_name} started, pid {event.pid}")
-
-    def _readers(self, label: str) -> dict[bool, tuple[OutputReader, Printed]]:
-        readers: dict[bool, tuple[OutputReader, Printed]] = {}
-        for stderr in (False, True):
-            printed = Printed(label, self._printed, stderr=stderr)
-            readers[stderr] = (OutputReader(self._record, printed.line), printed)
-        return readers
-
-    def _printed_text(self, event: Any) -> None:
-        process = self._processes.get(self._keys.get(id(event.action), ""))
-        if process:
-            text = event.text.decode("utf-8", "replace") if isinstance(event.text, bytes) else event.text
-            process.readers[event.from_stderr][0].feed(text)
-
-    def _exited(self, event: Any) -> None:
-        with self._lock:
-            process = self._processes.get(self._keys.get(id(event.action), ""))
-            if process is None:
-                return
-            for reader, printed in process.readers.values():
-                reader.close()
-                printed.close()
-            code = event.returncode
-            fine = code in INTERRUPTED if process.stopping else code == 0
-            state = ProcessState.EXITED if fine else ProcessState.CRASHED
-            why = "" if fine else f"ended with exit code {code}; its last lines are in the log"
-            process.info = replace(process.info, state=state, exit_code=code, pid=None, problem=why)
-            self._tell(f"{process.info.label} ended, exit code {code}", Severity.INFO if fine else Severity.ERROR)
+    def _look(self) -> None:
+        """Measure what no event tells."""
+        now = time.monotonic()
+        for held in self._held.values():
+            info = held.process.info
+            if held.share is not None and held.process.alive:
+                self._dirty |= held.process.uses(held.share.share(now))
+            elif held.vitals is not None and info.exit_code == KILLED and info.state is not ProcessState.ABANDONED:
+                where = held.vitals.hangs_in() if info.state in ENDED else ""
+                if where:
+                    held.process.abandoned(where)
+                    self._tell(f"{info.label} is abandoned: {where}", Severity.WARN)
 
     def _tell(self, text: str, severity: Severity = Severity.INFO) -> None:
-        self._timeline.append(LaunchEvent(self._events, time.time_ns(), text, severity))
-        self._events += 1
+        self._timeline.tell(text, severity)
         self._dirty = True
 
     def arguments(self, path: str) -> Sequence[LaunchArgument]:
         """The arguments a launch file declares; raises `ValueError` when it cannot be read."""
-        from launch.launch_description_sources import AnyLaunchDescriptionSource
-
-        from launch import LaunchContext
-
-        try:
-            context = LaunchContext()
-            description = AnyLaunchDescriptionSource(path).get_launch_description(context)
-            declared = description.get_launch_arguments()
-        except Exception as error:  # a launch file is a program: whatever it raises is its reader's to see
-            raise ValueError(f"{path}: {error}") from error
-        return [_argument(each, context) for each in declared]
+        return read_arguments(path)
 
     def files(self) -> Sequence[str]:
         """Launch files of the workspace."""
         return self._files_of_workspace()
 
-    def start(self, key: str) -> Future[Answer]:
-        """Start an ended process again."""
-        return self._answer(key, "start")
+    # What is wanted ------------------------------------------------------------------------------------------------
 
-    def stop(self, key: str) -> Future[Answer]:
-        """Stop a process as Ctrl-C does."""
-        return self._answer(key, "stop")
-
-    def kill(self, key: str) -> Future[Answer]:
-        """End a process at once."""
-        return self._answer(key, "kill")
-
-    def restart(self, key: str) -> Future[Answer]:
-        """Stop, then start."""
-        return self._answer(key, "restart")
-
-    def _answer(self, key: str, verb: str) -> Future[Answer]:
+    def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
+        """Run one more launch file; the answer comes when its first process runs or it has failed or ended."""
         outcome: Future[Answer] = Future()
-        outcome.set_result(self._act(key, verb))
+        given = dict(arguments)
+        with self._lock:
+            if self._closed:
+                outcome.set_result(Answer(False, CLOSED))
+                return outcome
+            self._files.append(path)
+            self._problem = ""
+            words = "".join(f" {name}:={value}" for name, value in given.items())
+            self._tell(f"launch {path}{words}")
+            name = Path(path).name
+            again = sum(Path(each).name == name for each in self._files)
+            run = LaunchRun(name if again == 1 else f"{name} ({again})", self._listener)
+            self._unanswered[run] = outcome
+            self._begin(run, lambda: run.run_file(path, given))
         return outcome
 
-    def _act(self, key: str, verb: str) -> Answer:
+    def _begin(self, run: LaunchRun, work: Callable[[], str]) -> None:
+        self._runs[run] = None
+        self._runs[run] = self._spawn(lambda: self._serve(run, work))
+
+    def _serve(self, run: LaunchRun, work: Callable[[], str]) -> None:
+        try:
+            problem = work()
+        except (Exception, SystemExit) as error:  # the border of the launch thread
+            problem = f"{run.title}: {error}"
+        with self._lock:
+            del self._runs[run]
+            of_file = self._unanswered.pop(run, None)
+            if problem:
+                self._problem = problem
+                self._tell(problem, Severity.ERROR)
+                if not run.logged:
+                    self._printed(Severity.ERROR, "launch", problem)
+            else:
+                self._tell(f"{run.title} has ended")
+            for held in [each for each in self._held.values() if each.run is run]:
+                self._left_over(held)
+        if of_file is not None:
+            of_file.set_result(Answer(not problem, problem or f"{run.title} has ended"))
+
+    def _left_over(self, held: _Held) -> None:
+        """Its run is over: what was to be started in it is started in one of its own."""
+        if held.process.info.state is ProcessState.STARTING and not self._closed:
+            self._order(held, Order.START)
+        else:
+            self._ended(held)
+
+    def start(self, key: str) -> Future[Answer]:
+        """Start an ended process again; the answer comes when it runs."""
+        return self._want("start", key)
+
+    def stop(self, key: str) -> Future[Answer]:
+        """Stop a process as Ctrl-C does; the answer comes when it has ended."""
+        return self._want("stop", key)
+
+    def kill(self, key: str) -> Future[Answer]:
+        """End a process at once, as SIGKILL does; launch starts it again where its launch file says so."""
+        return self._want("kill", key)
+
+    def restart(self, key: str) -> Future[Answer]:
+        """Stop, then start; the answer comes when it runs again."""
+        return self._want("restart", key)
+
+    def _want(self, verb: str, key: str) -> Future[Answer]:
+        with self._lock:
+            held = self._held.get(key)
+            if held is None or self._closed:
+                refused: Future[Answer] = Future()
+                refused.set_result(Answer(False, CLOSED if self._closed else f"there is no process {key}"))
+                return refused
+            before = held.process.info
+            order, outcome = held.process.want(verb)
+            if held.process.info is not before or order is not Order.NOTHING:
+                self._tell(f"{verb} {before.label}")
+            self._order(held, order)
+        return outcome
+
+    def _order(self, held: _Held, order: Order) -> None:
         from launch.events import matches_action
         from launch.events.process import ShutdownProcess, SignalProcess
 
+        if order is Order.START:
+            self._start(held)
+        elif held.action is None:
+            return  # not executed yet; it is told to end as soon as it was started
+        elif order is Order.KILL:
+            held.run.emit(SignalProcess(signal_number="SIGKILL", process_matcher=matches_action(held.action)))
+        elif order is Order.SHUT_DOWN:
+            held.run.emit(ShutdownProcess(process_matcher=matches_action(held.action)))
+
+    def _start(self, held: _Held) -> None:
+        self._by_action.pop(held.action, None)
+        held.action = None
+
+        def make() -> Any:
+            action = held.recipe.action()
+            with self._lock:
+                held.action = action
+                self._by_action[action] = held
+            return action
+
+        def failed(why: str) -> None:
+            self._ended(held, why)
+
+        if not held.run.ending:
+            held.run.start(make, failed)
+            return
+        run = held.run = LaunchRun(held.run.title, self._listener)
+        self._begin(run, lambda: run.run_action(make, failed))
+
+    # What is heard -------------------------------------------------------------------------------------------------
+
+    def _started(self, run: LaunchRun, event: Any, context: Any) -> None:
+        nodes = _node_names(event.action)
+        vitals = self._find_vitals(event.pid)
         with self._lock:
-            process = self._processes.get(key)
-            if process is None:
-                return Answer(False, f"there is no process {key}")
-            if process.info.state is not ProcessState.RUNNING:
-                return Answer(False, f"{process.info.label} does not run")
-            process.stopping = True
-            process.info = replace(process.info, state=ProcessState.STOPPING)
-            self._tell(f"{verb} {process.info.label}")
-            matcher = matches_action(process.action)
-            event = (
-                SignalProcess(signal_number="SIGKILL", process_matcher=matcher)
-                if verb == "kill"
-                else ShutdownProcess(process_matcher=matcher)
-            )
-            for service in self._services:
-                service.emit_event(event)
-        return Answer(True, f"{verb}: {process.info.label}")
+            held = self._by_action.get(event.action) or self._found(run, event, context)
+            held.vitals, held.share = vitals, ProcessorShare(vitals, time.monotonic()) if vitals else None
+            held.output = ProcessOutput(event.process_name, self._record, self._printed)
+            order = held.process.started(event.process_name, event.pid, nodes)
+            times = held.process.info.restarts
+            self._tell(f"{held.process.info.label} started{f' again ({times})' if times else ''}, pid {event.pid}")
+            self._order(held, order)
+            outcome = self._unanswered.pop(run, None)
+        if outcome is not None:
+            outcome.set_result(Answer(True, f"{run.title} runs"))
+
+    def _found(self, run: LaunchRun, event: Any, context: Any) -> _Held:
+        """A process that was not seen before."""
+        key = f"{event.process_name}@{len(self._held)}"
+        place = run.tree.place(event.action, context)
+        process = LaunchedProcess(key, event.process_name, place)
+        held = _Held(process, run, event.action, recipe(event, context))
+        self._held[key] = self._by_action[event.action] = held
+        if self._closed or run.ending:
+            process.told_to_end()
+        return held
+
+    def _output(self, event: Any) -> None:
+        held = self._by_action.get(event.action)
+        if held is not None and held.output is not None:
+            text = event.text.decode("utf-8", "replace") if isinstance(event.text, bytes) else event.text
+            held.output.feed(text, stderr=event.from_stderr)
+
+    def _exited(self, event: Any) -> None:
+        with self._lock:
+            held = self._by_action.get(event.action)
+            if held is None:
+                return
+            if held.output is not None:
+                held.output.close()
+            future = event.action.get_asyncio_future()
+            order = held.process.exited(event.returncode, respawns=future is not None and not future.done())
+            held.share = None
+            bad = held.process.info.state is ProcessState.CRASHED or held.process.info.problem
+            text = f"{held.process.info.label} ended, exit code {event.returncode}"
+            self._tell(text, Severity.ERROR if bad else Severity.INFO)
+            self._order(held, order)
+
+    def _over(self, action: Any) -> None:
+        with self._lock:
+            held = self._by_action.get(action)
+            if held is not None:
+                self._ended(held)
+
+    def _ended(self, held: _Held, why: str = "") -> None:
+        """Nothing runs of it, and launch will not start it (again)."""
+        with self._lock:
+            before = held.process.info
+            order = held.process.over(why)
+            if held.process.info is not before:
+                self._tell(f"{before.label}: {held.process.info.problem or 'has ended'}")
+            self._order(held, order)
+
+    def _ending(self, run: LaunchRun, reason: str) -> None:
+        with self._lock:
+            if reason != "idle":
+                self._tell(f"{run.title} ends: {reason}")
+            for held in self._held.values():
+                if held.run is run and held.process.alive:
+                    held.process.told_to_end()
+
+    def _fault(self, error: Exception) -> None:
+        self._printed(Severity.ERROR, "bot-console", f"the launch pane misses something: {error!r}")
 
     def close(self, patience: float = 10.0) -> None:
-        """Shut every launch down and wait for it, at most so many seconds in all."""
+        """Shut every launch down and wait for it, at most so many seconds in all; a second call does nothing."""
         with self._lock:
-            services = list(self._services)
-            for process in self._processes.values():
-                process.stopping = True
+            if self._closed:
+                return
+            self._closed = True
+            runs = list(self._runs.items())
         deadline = time.monotonic() + patience
-        for service in services:
-            service.shutdown()
-        for thread in self._threads:
-            thread.join(max(0.0, deadline - time.monotonic()))
+        for run, _ in runs:
+            run.shut_down()
+        for _, thread in runs:
+            if thread is not None:
+                thread.join(max(0.0, deadline - time.monotonic()))
 
 
 def _thread(target: Callable[[], None]) -> threading.Thread:
@@ -268,13 +322,8 @@ def _thread(target: Callable[[], None]) -> threading.Thread:
 
 def _node_names(action: Any) -> tuple[str, ...]:
     """The ROS names of the nodes in a process, where the action tells them."""
-    name = getattr(action, "node_name", "")
-    return (name,) if isinstance(name, str) and name and "<" not in name else ()
-
-
-def _argument(action: Any, context: Any) -> LaunchArgument:
-    from launch.utilities import perform_substitutions
-
-    default = action.default_value
-    text = None if default is None else perform_substitutions(context, default)
-    return LaunchArgument(action.name, action.description or "", text, tuple(action.choices or ()))
+    name = getattr(action, "expanded_node_name", "")
+    namespace = getattr(action, "expanded_node_namespace", "")
+    if not name or "<" in name:
+        return ()
+    return (f"{'' if '<' in namespace else namespace.rstrip('/')}/{name}",)

@@ -46,6 +46,24 @@ class Once:
         self._add(stamp, severity, name, text, site)
 
 
+class ProcessOutput:
+    """What one process prints, on either stream."""
+
+    def __init__(self, label: str, record: Add, printed: Callable[[int, str, str], None]) -> None:
+        self._streams = {stderr: Printed(label, printed, stderr=stderr) for stderr in (False, True)}
+        self._readers = {stderr: OutputReader(record, each.line) for stderr, each in self._streams.items()}
+
+    def feed(self, text: str, *, stderr: bool) -> None:
+        """Take the next piece."""
+        self._readers[stderr].feed(text)
+
+    def close(self) -> None:
+        """The process has ended."""
+        for stderr, reader in self._readers.items():
+            reader.close()
+            self._streams[stderr].close()
+
+
 class OutputReader:
     """Turns the output of one process, in whatever pieces it comes, into records and printed lines."""
 

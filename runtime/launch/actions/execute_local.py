@@ -128,6 +128,16 @@ class ExecuteLocal(Action):
         """What happens when it has ended."""
         return self.__on_exit
 
+    @property
+    def respawn(self) -> bool:
+        """Whether it is started again when it has ended, since it was executed (not upstream)."""
+        return self.__respawn.is_wanted
+
+    @property
+    def respawn_delay(self) -> float | None:
+        """Seconds before it is started again (not upstream)."""
+        return self.__respawn.delay
+
     def get_stdout(self) -> str:
         """What it has printed; raises `RuntimeError` unless `cached_output` was asked for."""
         return self.__cached(1)

@@ -1,0 +1,167 @@
+"""The life of one launched process: what was wanted of it, what became of it. Knows no launch, takes no lock."""
+
+from __future__ import annotations
+
+from concurrent.futures import Future
+from dataclasses import replace
+from enum import Enum
+
+from bot_console.tui.console.model import ProcessInfo, ProcessState
+from bot_console.tui.console.protocol import Answer
+
+INTERRUPTED = (0, -2, -15, 130)
+"""Exit codes of a process that ended as it was asked to."""
+KILLED = -9
+
+STARTS = ("start", "restart")
+ENDED = (ProcessState.EXITED, ProcessState.CRASHED, ProcessState.ABANDONED)
+
+
+class Order(Enum):
+    """What is to be done with the process now."""
+
+    NOTHING = 0
+    START = 1
+    SHUT_DOWN = 2
+    """SIGINT, with launch's escalation."""
+    KILL = 3
+
+
+class LaunchedProcess:
+    """What is shown of a process, and who waits for what becomes of it."""
+
+    def __init__(self, key: str, label: str, group: tuple[str, ...] = ()) -> None:
+        self.info = ProcessInfo(key, label, ProcessState.STARTING, group=group)
+        self._starts = 0
+        self._alive = False
+        self._ran = False
+        self._told = False
+        self._again = False
+        self._waiting: list[tuple[str, Future[Answer]]] = []
+
+    @property
+    def alive(self) -> bool:
+        """Whether it was started and has not ended."""
+        return self._alive
+
+    def want(self, verb: str) -> tuple[Order, Future[Answer]]:
+        """Somebody wants a `start`, `stop`, `kill` or `restart`; the answer comes when that is done."""
+        outcome: Future[Answer] = Future()
+        refusal = self._refusal(verb)
+        if refusal:
+            outcome.set_result(Answer(False, refusal))
+            return Order.NOTHING, outcome
+        self._waiting.append((verb, outcome))
+        return (self._want_running(verb) if verb in STARTS else self._want_ended(verb)), outcome
+
+    def _refusal(self, verb: str) -> str:
+        state, label = self.info.state, self.info.label
+        if verb == "start" and state is ProcessState.RUNNING:
+            return f"{label} runs already"
+        if verb in STARTS and state is ProcessState.STARTING:
+            return f"{label} is starting already"
+        if verb not in STARTS and state in ENDED:
+            return f"{label} does not run"
+        return ""
+
+    def _want_running(self, verb: str) -> Order:
+        if self.info.state in ENDED:
+            return self._start()
+        self._again = True
+        return self._tell_to_end() if self.info.state is ProcessState.RUNNING else Order.NOTHING
+
+    def _want_ended(self, verb: str) -> Order:
+        if self._again and verb == "stop":
+            self._again = False
+            self._settle(STARTS, Answer(False, f"{self.info.label} was stopped instead"))
+        if verb == "kill" and self._alive:
+            self._tell_to_end()
+            return Order.KILL
+        return Order.NOTHING if self.info.state is ProcessState.STOPPING else self._tell_to_end()
+
+    def _start(self) -> Order:
+        self._again = self._told = self._ran = False
+        self.info = replace(self.info, state=ProcessState.STARTING, problem="")
+        return Order.START
+
+    def _tell_to_end(self) -> Order:
+        self.told_to_end()
+        return Order.SHUT_DOWN
+
+    def told_to_end(self) -> None:
+        """It was told to end, by a person or because its launch ends."""
+        if self.info.state not in ENDED:
+            self._told = True
+            self.info = replace(self.info, state=ProcessState.STOPPING)
+
+    def started(self, label: str, pid: int, nodes: tuple[str, ...] = ()) -> Order:
+        """It runs, by itself or because somebody wanted it; launch may give it another label each time."""
+        restarts, self._starts, self._alive = self._starts, self._starts + 1, True
+        self._ran = True
+        state = ProcessState.STOPPING if self._told else ProcessState.RUNNING
+        nodes = nodes or self.info.nodes
+        self.info = replace(self.info, label=label, state=state, pid=pid, nodes=nodes, restarts=restarts, problem="")
+        if self._told:
+            return Order.SHUT_DOWN
+        self._settle(STARTS, Answer(True, f"{self.info.label} runs, pid {pid}"))
+        return Order.NOTHING
+
+    def exited(self, code: int, respawns: bool) -> Order:
+        """It has ended; `respawns` says that launch will start it again by itself."""
+        self._alive = False
+        self.info = replace(self.info, exit_code=code, pid=None, cpu=None)
+        if not respawns:
+            return self._end()
+        self._told = False
+        why = f"{_reason(code)}; launch starts it again" if code else ""
+        self.info = replace(self.info, state=ProcessState.STARTING, problem=why)
+        self._settle(("stop", "kill"), Answer(True, f"{self.info.label} has ended, and launch starts it again"))
+        return Order.NOTHING
+
+    def over(self, why: str = "") -> Order:
+        """Launch will not start it any more; where it never ran, `why` says what went wrong."""
+        if self._alive or self.info.state in ENDED:
+            return Order.NOTHING
+        if not self._ran and not self._told:
+            problem = why or "it did not start; the log says why"
+            self.info = replace(self.info, state=ProcessState.CRASHED, problem=problem)
+            self._again = False
+            self._settle(STARTS, Answer(False, f"{self.info.label}: {problem}"))
+        return self._end()
+
+    def _end(self) -> Order:
+        code = self.info.exit_code if self._ran else None
+        if self.info.state not in ENDED:
+            fine = code is None or (code in INTERRUPTED if self._told else code == 0)
+            state = ProcessState.EXITED if fine else ProcessState.CRASHED
+            self.info = replace(self.info, state=state, problem="" if fine else _reason(code or 0))
+        ended = "" if code is None else f", exit code {code}"
+        self._settle(("stop", "kill"), Answer(True, f"{self.info.label} has ended{ended}"))
+        if self._again:
+            return self._start()
+        self._settle(STARTS, Answer(False, f"{self.info.label} has ended{ended}"))
+        return Order.NOTHING
+
+    def abandoned(self, where: str) -> None:
+        """Code of it goes on although it was killed."""
+        problem = f"was killed, but code of it does not end: {where}"
+        self.info = replace(self.info, state=ProcessState.ABANDONED, problem=problem)
+
+    def uses(self, cpu: float | None) -> bool:
+        """Note its share of a processor (1.0 is one whole); whether that is news."""
+        if cpu == self.info.cpu or not self._alive:
+            return False
+        self.info = replace(self.info, cpu=cpu)
+        return True
+
+    def _settle(self, verbs: tuple[str, ...], answer: Answer) -> None:
+        due = [outcome for verb, outcome in self._waiting if verb in verbs]
+        self._waiting = [each for each in self._waiting if each[0] not in verbs]
+        for outcome in due:
+            outcome.set_result(answer)
+
+
+def _reason(code: int) -> str:
+    if code == KILLED:
+        return f"was killed (exit code {code})"
+    return f"ended with exit code {code}; its last lines are in the log"

@@ -1,0 +1,28 @@
+"""The timeline of launch events, in a bounded ring."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+
+from bot_console.tui.console.model import LaunchEvent, Severity
+
+KEPT = 500
+
+
+class LaunchTimeline:
+    """Launch events, numbered from 0; the oldest fall out."""
+
+    def __init__(self) -> None:
+        self._events: deque[LaunchEvent] = deque(maxlen=KEPT)
+        self._count = 0
+
+    def tell(self, text: str, severity: Severity = Severity.INFO) -> None:
+        """Add an event that has happened now."""
+        self._events.append(LaunchEvent(self._count, time.time_ns(), text, severity))
+        self._count += 1
+
+    @property
+    def events(self) -> tuple[LaunchEvent, ...]:
+        """The kept events, oldest first."""
+        return tuple(self._events)

@@ -1,0 +1,80 @@
+"""Where in the launch files a process stands: the files included on the way to it, and groups with a namespace."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+
+class LaunchTree:
+    """The entities of one launch, as far as they were visited. `title` names its launch file."""
+
+    def __init__(self, title: str) -> None:
+        self._title = title
+        self._parents: dict[int, tuple[Any, Any]] = {}
+
+    def included(self, include: Any) -> None:
+        """An include was executed, so that its description is known without reading anything."""
+        description = include.launch_description_source.try_get_launch_description_without_context()
+        if description is not None:
+            self._add(description.entities, include)
+
+    def _add(self, entities: Iterable[Any], parent: Any) -> None:
+        from launch.actions import IncludeLaunchDescription
+
+        for entity in entities:
+            if id(entity) in self._parents:
+                continue
+            self._parents[id(entity)] = (entity, parent)
+            if not isinstance(entity, IncludeLaunchDescription):
+                self._add(_below(entity), entity)
+
+    def _chain(self, entity: Any) -> Iterator[Any]:
+        """What an entity stands in, innermost first."""
+        _, parent = self._parents.get(id(entity), (None, None))
+        while parent is not None:
+            yield parent
+            _, parent = self._parents.get(id(parent), (None, None))
+
+    def file_of(self, entity: Any) -> str:
+        """The launch file that an entity stands in; empty when that is not known."""
+        from launch.actions import IncludeLaunchDescription
+
+        includes = (each for each in self._chain(entity) if isinstance(each, IncludeLaunchDescription))
+        return next((each.launch_description_source.location for each in includes), "")
+
+    def place(self, action: Any, context: Any) -> tuple[str, ...]:
+        """Names of launch files and namespaces of groups, outermost first."""
+        from launch.actions import GroupAction, IncludeLaunchDescription
+
+        names: list[str] = []
+        for each in self._chain(action):
+            if isinstance(each, IncludeLaunchDescription):
+                names.append(Path(each.launch_description_source.location).name)
+            elif isinstance(each, GroupAction):
+                names += _namespaces(each, context)
+        names = names[:-1] if names else []  # the outermost file goes by the title
+        return (self._title, *reversed(names))
+
+
+def _below(entity: Any) -> Iterator[Any]:
+    yield from getattr(entity, "entities", None) or ()
+    yield from entity.get_sub_entities() if hasattr(entity, "get_sub_entities") else ()
+    yield from entity.describe_sub_entities()
+    for _, entities in entity.describe_conditional_sub_entities():
+        yield from entities
+
+
+def _namespaces(group: Any, context: Any) -> list[str]:
+    from launch.substitutions import SubstitutionFailure
+    from launch.utilities import perform_substitutions
+    from launch_ros.actions import PushRosNamespace
+
+    for each in group.get_sub_entities():
+        if isinstance(each, PushRosNamespace):
+            try:
+                return [perform_substitutions(context, each.namespace)]
+            except SubstitutionFailure:  # it needs a configuration that only its own scope has
+                return []
+    return []
