@@ -24,10 +24,13 @@ from bot_console.tui.panes.graph_view import (
 )
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.screens.facts import FactsScreen, Section
-from bot_console.tui.widgets.diagram_view import DiagramView
+from bot_console.tui.widgets.diagram_view import LARGE, DiagramView
 from bot_console.tui.widgets.prompt import Prompt
 from textual.app import ComposeResult
 from textual.widgets import Static
+
+TOO_LARGE = 2.5
+"""From this many times the size of the pane on, topics with one end only are left out until they are asked for."""
 
 
 class GraphPane(Pane):
@@ -46,6 +49,7 @@ class GraphPane(Pane):
         self._info: GraphInfo | None = None
         self._problem = ""
         self._view = GraphView()
+        self._mode: Mode | None = None
         self._words = ""
         self._shown = Shown(graph=DiagramView.EMPTY)
 
@@ -71,10 +75,19 @@ class GraphPane(Pane):
             self._draw()
 
     def _draw(self) -> None:
-        if self._info is not None:
+        if self._info is None:
+            return
+        for mode in (self._mode,) if self._mode else (Mode.ALL, Mode.ACTIVE):
+            self._view = replace(self._view, mode=mode)
             self._shown = shown(self._info, self._view)
             self._picture.show(self._shown.graph, self._shown.dead_ends)
-            self._tell()
+            if self._picture.excess <= TOO_LARGE or len(self._shown.graph.items) > LARGE:
+                break
+        self._tell()
+
+    def on_resize(self) -> None:
+        """Choose anew what fits."""
+        self.call_after_refresh(self._draw)
 
     def _tell(self) -> None:
         """Say what is selected, and what is left out."""
@@ -101,11 +114,12 @@ class GraphPane(Pane):
     def action_mode(self) -> None:
         """The next mode."""
         modes = list(Mode)
-        self._view = replace(self._view, mode=modes[(modes.index(self._view.mode) + 1) % len(modes)])
+        self._mode = modes[(modes.index(self._view.mode) + 1) % len(modes)]
         self._draw()
 
     def action_hide(self, what: str) -> None:
         """Hide or show a kind of topic."""
+        self._mode = self._mode or Mode.ALL
         self._view = replace(self._view, **{what: not getattr(self._view, what)})
         self._draw()
 

@@ -68,6 +68,7 @@ class DiagramView(ScrollView, can_focus=True):
         self._warned: frozenset[str] = frozenset()
         self._drawings: dict[Flow, Drawing] = {}
         self._flow: Flow | None = None
+        self._selecting = False
 
     def show(self, graph: Digraph, warned: frozenset[str] = frozenset()) -> None:
         """Draw a graph; items in `warned` stand out. Selection and scroll position stay where they can."""
@@ -75,9 +76,9 @@ class DiagramView(ScrollView, can_focus=True):
         if graph != self._graph:
             self._graph = graph
             self._drawings.clear()
-        if len(graph.items) > LARGE and not self._drawings:
-            self.run_worker(self._draw_beside(graph), exclusive=True, group="draw")
-        else:
+            if len(graph.items) > LARGE:
+                self.run_worker(self._draw_beside(graph), exclusive=True, group="draw")
+        if len(graph.items) <= LARGE or self._drawings:
             self._choose()
         self.refresh()
 
@@ -105,8 +106,13 @@ class DiagramView(ScrollView, can_focus=True):
             self._links = frozenset(drawing.edges)
             self.virtual_size = Size(drawing.width + 1, len(drawing.rows))
             self.refresh()
-        if self.selected not in self.places:
+        if not self._selecting or self.selected not in self.places:
             self.selected = self._first()
+
+    @property
+    def excess(self) -> float:
+        """How many times larger the picture is than what is seen of it; 1 where all is seen."""
+        return min((self._excess(each) for each in self._drawings), default=1.0)
 
     def _excess(self, flow: Flow) -> float:
         width, height = max(1, self.size.width), max(1, self.size.height)
@@ -190,6 +196,7 @@ class DiagramView(ScrollView, can_focus=True):
 
     def action_select(self, across: int, down: int) -> None:
         """Select the nearest item in a direction; one that is linked counts as nearer."""
+        self._selecting = True
         here = self.places.get(self.selected)
         if here is None:
             self.selected = self._first()
@@ -217,6 +224,7 @@ class DiagramView(ScrollView, can_focus=True):
         x, y = event.x + self.scroll_offset.x - self._indent, event.y + self.scroll_offset.y
         for each, place in self.places.items():
             if place.x <= x < place.x + place.width and place.y <= y < place.y + place.height:
+                self._selecting = True
                 self.selected = each
 
     def on_resize(self) -> None:
