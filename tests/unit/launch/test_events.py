@@ -61,7 +61,7 @@ OUTPUTS: list[tuple[Any, set[str], str]] = [
     ("own_log", set(), ""),
     ("full", {"out", "err"}, "out err"),
     ({"stdout": "screen"}, {"out"}, ""),
-    ({"both": {"screen", "log"}}, {"out", "err"}, "out err"),
+    ({"both": ["screen", "log"]}, {"out", "err"}, "out err"),
     ({"stdout": "log", "stderr": "screen"}, {"err"}, "out"),
 ]
 
