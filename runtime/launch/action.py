@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from launch.calling_line import calling_line
 from launch.condition import Condition
 from launch.launch_description_entity import LaunchDescriptionEntity
 
@@ -13,6 +14,12 @@ class Action(LaunchDescriptionEntity):
 
     def __init__(self, *, condition: Condition | None = None) -> None:
         self.__condition = condition
+        self.__made_at = calling_line()
+
+    @property
+    def made_at(self) -> tuple[str, int] | None:
+        """File and line of the launch file that made it; None where launch itself did, as for XML (not upstream)."""
+        return self.__made_at
 
     @property
     def condition(self) -> Condition | None:

@@ -79,7 +79,7 @@ def _on_exit(action: Any) -> Any:
     from launch.actions import ExecuteLocal
 
     wanted: Any = getattr(action, "on_exit", None)
-    several: Any = wanted if isinstance(wanted, (list, tuple)) else (wanted,)
+    several: Any = wanted if type(wanted) in (list, tuple) else (wanted,)
     return None if any(isinstance(each, ExecuteLocal) for each in several) else wanted
 
 

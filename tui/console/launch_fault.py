@@ -4,38 +4,52 @@ from __future__ import annotations
 
 import sysconfig
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from types import FrameType, TracebackType
-from typing import Any
+from typing import Any, TypeAlias
 
 ENDLESS = "launch files include each other without end"
 
 
+Place: TypeAlias = "tuple[str, int | None]"
+"""A file, and the line in it where that is known."""
+
+
 def fault_text(error: BaseException, path: str, file_of: Callable[[Any], str] = lambda entity: "") -> str:
     """What went wrong and where; `path` is the launch file that was asked for, `file_of` knows where entities stand."""
-    error = _cause(error)
+    causes = list(_causes(error))
+    error = causes[-1]
     if isinstance(error, SyntaxError) and error.filename:
-        return _at(error.filename, error.lineno, f"syntax error: {error.msg}")
-    place = _user_line(error) or _file_line(error) or _entity_line(error, file_of) or (path, None)
+        return _at((error.filename, error.lineno), f"syntax error: {error.msg}")
+    own = _user_line(error)
+    entity = _entity_line(causes, file_of)
     if isinstance(error, RecursionError):
-        return _at(*place, ENDLESS)
-    own = type(error).__module__.partition(".")[0] in ("launch", "launch_ros", "launch_xml", "launch_yaml")
-    text = str(error) or type(error).__name__
-    return _at(*place, text if own else f"{type(error).__name__}: {text}")
+        return _at(own or entity or (path, None), ENDLESS)
+    place = own or _file_line(causes) or entity or (path, None)
+    return _at(place, f"{type(error).__name__}: {error}" if own else _text(error))
 
 
-def _at(file: str, line: int | None, text: str) -> str:
+def _text(error: BaseException) -> str:
+    """The words of an error that launch or a parser has found."""
+    if isinstance(error, OSError) and error.strerror:
+        return error.strerror
+    problem = getattr(error, "problem", None)  # of a YAML parser
+    text = str(problem or (error.args[0] if isinstance(error, KeyError) and error.args else error))
+    return " ".join(text.split()) or type(error).__name__
+
+
+def _at(place: Place, text: str) -> str:
+    file, line = place
     return f"{file}, line {line}: {text}" if line else f"{file}: {text}"
 
 
-def _cause(error: BaseException) -> BaseException:
-    """What the reader for files of that ending has said; the others have only tried."""
-    causes = getattr(error, "_likely_errors", None)
-    while causes:
-        error = causes[0]
-        causes = getattr(error, "_likely_errors", None)
-    return error
+def _causes(error: BaseException) -> Iterator[BaseException]:
+    """An error, then what the reader for files of that ending has said; the other readers have only tried."""
+    yield error
+    readers = getattr(error, "_likely_errors", None)
+    if readers:
+        yield from _causes(readers[0])
 
 
 def _user_line(error: BaseException) -> tuple[str, int] | None:
@@ -66,26 +80,34 @@ def _frames(trace: TracebackType | None) -> Iterator[FrameType]:
         trace = trace.tb_next
 
 
-def _file_line(error: BaseException) -> tuple[str, int | None] | None:
+def _file_line(causes: Sequence[BaseException]) -> Place | None:
     """The file that a reader of XML or YAML was at, and the line where its parser says one."""
-    files = [frame.f_locals.get("launch_file_path") for frame in _frames(error.__traceback__)]
-    known = [each for each in files if isinstance(each, str)]
-    if not known:
-        return None
+    frames = [frame for error in causes for frame in _frames(error.__traceback__)]
+    files = [each for each in (frame.f_locals.get("launch_file_path") for frame in frames) if isinstance(each, str)]
+    return (files[-1], _parsers_line(causes[-1])) if files else None
+
+
+def _parsers_line(error: BaseException) -> int | None:
     mark: Any = getattr(error, "problem_mark", None)
     position: Any = getattr(error, "position", None)
-    return known[-1], mark.line + 1 if mark is not None else (position[0] if isinstance(position, tuple) else None)
+    if mark is not None:
+        return mark.line + 1
+    return None if position is None else position[0]
 
 
-def _entity_line(error: BaseException, file_of: Callable[[Any], str]) -> tuple[str, int | None] | None:
-    """Where the action that failed was made, if it says so, else the file that it stands in."""
+def _entity_line(causes: Sequence[BaseException], file_of: Callable[[Any], str]) -> Place | None:
+    """Where the innermost action that was being executed was made, if it says so, else the file that it stands in."""
     from launch import Action
 
-    found: tuple[str, int | None] | None = None
-    for frame in _frames(error.__traceback__):
+    libraries = _library_folders()
+    found: Place | None = None
+    for frame in (frame for error in causes for frame in _frames(error.__traceback__)):
         entity = frame.f_locals.get("self")
         if isinstance(entity, Action):
-            made_at: Any = getattr(entity, "made_at", None)
+            made_at: Place | None = getattr(entity, "made_at", None)
             file = file_of(entity)
-            found = made_at or ((file, None) if file else found)
+            if made_at is not None and not made_at[0].startswith(libraries):
+                found = made_at
+            elif file:
+                found = (file, None)
     return found
