@@ -153,7 +153,7 @@ TABLE: Mapping[str, tuple[Key, ...]] = {
         Key("plot.down", "down,j", "choose(1)", "Next curve"),
         Key("plot.clear", "K", "clear", "Forget what has been drawn so far", shown="K"),
         Key("plot.csv", "e", "export", "Export the samples as CSV"),
-        Key("plot.picture", "S", "picture", "Save the picture as text or SVG", shown="S"),
+        Key("plot.picture", "S", "picture", "Save the picture as text or HTML", shown="S"),
     ),
     "steering": (
         Key("steering.arm", "enter", "arm", "Arm, or disarm", footer=True, short="Arm"),

@@ -1,0 +1,113 @@
+"""The documents are true: tables equal the code, links lead somewhere, command lines can be typed."""
+
+import importlib.util
+import re
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))
+from documented_commands import commands, fault
+
+ROOT = Path(__file__).resolve().parents[2]
+DOCUMENTS = [ROOT / "README.md", ROOT / "CHANGELOG.md", *sorted((ROOT / "docs").glob("*.md"))]
+LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
+HEADING = re.compile(r"^#+ (.+)$", re.MULTILINE)
+FENCED = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
+
+
+def load_tables():
+    spec = importlib.util.spec_from_file_location("documentation_tables", ROOT / "tools" / "tables.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+tables = load_tables()
+named = pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: path.name)
+
+
+def text_of(path):
+    return path.read_text(encoding="utf-8")
+
+
+def anchors(path):
+    """The anchors that a Markdown viewer gives to headings."""
+    words = (re.sub(r"[`*]", "", each).strip().lower() for each in HEADING.findall(FENCED.sub("", text_of(path))))
+    return {re.sub(r"[^\w -]", "", each).replace(" ", "-") for each in words}
+
+
+@named
+def test_tables_are_those_of_the_code(path):
+    assert tables.filled(text_of(path)) == text_of(path), "run: python tools/tables.py"
+
+
+def test_every_table_stands_in_a_document():
+    assert {name for path in DOCUMENTS for name in tables.named(text_of(path))} == set(tables.TABLES)
+
+
+def test_a_changed_value_would_be_noticed():
+    path = ROOT / "docs" / "parameters.md"
+    wrong = text_of(path).replace("0.1 to 5 |", "0.1 to 6 |")
+    assert wrong != text_of(path)
+    assert tables.filled(wrong) == text_of(path)
+
+
+@named
+def test_links_lead_somewhere(path):
+    broken = []
+    for target in LINK.findall(FENCED.sub("", text_of(path))):
+        file, _, anchor = target.partition("#")
+        if file.startswith("http"):
+            continue
+        there = (path.parent / file).resolve() if file else path
+        if not there.exists() or (anchor and anchor not in anchors(there)):
+            broken.append(target)
+    assert not broken
+
+
+@named
+def test_command_lines_can_be_typed(path):
+    faults = {line: wrong for line in commands(text_of(path)) if (wrong := fault(line))}
+    assert not faults
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "bot-console --no-such-option",
+        "bot-console nowhere",
+        "bot-console launch intelligent_robot no_such.launch.py",
+        "bot-console launch intelligent_robot robot_system.launch.py no_such_argument:=1",
+        "bot-console no_such_argument:=1",
+        "bot-console run --no-such-option",
+        "ros2 param no_such_verb",
+        "ros2 topic hz",
+        "no-such-program",
+        ".venv/bin/python tools/no_such.py",
+        "bot-console export",
+    ],
+)
+def test_a_wrong_command_line_would_be_noticed(line):
+    assert fault(line)
+
+
+def test_message_packages_are_all_named():
+    row = next(line for line in text_of(ROOT / "docs" / "nodes-and-runtime.md").splitlines() if "std_msgs`" in line)
+    generated = ROOT / "runtime" / "rosidl" / "generated"
+    packages = {each.parent.name for each in generated.glob("*/__init__.py")}
+    if not packages:
+        pytest.skip("message classes were not made in this tree")
+    assert set(re.findall(r"`(\w+)`", row)) == packages
+
+
+def test_every_document_is_reached_from_the_readme():
+    linked = {each.partition("#")[0] for each in LINK.findall(text_of(ROOT / "README.md"))}
+    assert {f"docs/{path.name}" for path in (ROOT / "docs").glob("*.md")} <= linked
+
+
+def test_pictures_are_small():
+    pictures = list((ROOT / "docs" / "images").iterdir())
+    assert pictures
+    assert all(each.stat().st_size < 150_000 for each in pictures)
