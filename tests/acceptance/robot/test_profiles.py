@@ -1,5 +1,6 @@
 """The four environments behave as their names say, over several seeds."""
 
+import re
 import sys
 from pathlib import Path
 from statistics import mean
@@ -11,6 +12,7 @@ from headless import headless
 
 PROFILES = ("indoor", "outdoor", "warehouse", "competition")
 SEEDS = ("1", "2", "3")
+GUIDE = Path(__file__).resolve().parents[3] / "docs" / "environments.md"
 
 
 @pytest.fixture(scope="module")
@@ -57,3 +59,16 @@ def test_careful_profiles_touch_nothing(runs, name):
 def test_runs_are_deterministic(runs, name):
     assert all(figures(runs, name, "deterministic"))
     assert len(set(figures(runs, name, "digest"))) == len(SEEDS)
+
+
+def test_the_environment_guide_has_these_figures(runs):
+    """Within what another processor's floating point may change in a chaotic run."""
+    row = r"^\| (\w+) \| (\d) \| ([\d.]+) \| ([\d.]+) \| (\d+) \| (\d+) \|$"
+    rows = re.findall(row, GUIDE.read_text(encoding="utf-8"), re.MULTILINE)
+    assert {(name, seed) for name, seed, *_ in rows} == {(name, seed) for name in PROFILES for seed in SEEDS}
+    for name, seed, speed, clearance, stops, collisions in rows:
+        run = runs[name][SEEDS.index(seed)]
+        assert run["mean_speed"] == pytest.approx(float(speed), rel=0.1)
+        assert run["min_clearance"] == pytest.approx(float(clearance), abs=0.1)
+        assert run["stops"] == pytest.approx(int(stops), abs=6)
+        assert run["collisions"] == pytest.approx(int(collisions), abs=1)
