@@ -73,16 +73,22 @@ def normal(text: str, folder: Path) -> str:
 
 
 def without_library_frames(text: str) -> str:
-    """Tracebacks with the frames of the course's files alone, and without the marks that newer interpreters add."""
+    """Tracebacks with the frames of the course's files alone, and without what newer interpreters add to them.
+
+    These mark the place, and show all lines of a statement.
+    """
     kept: list[str] = []
-    inside = users = False
+    inside = False
+    lines_left = 0
     for line in text.splitlines(keepends=True):
         if inside and line.startswith("  "):
-            users = USERS_FRAME.match(line) is not None if line.startswith("  File ") else users
-            if users and not MARKS.fullmatch(line):
+            if line.startswith("  File "):
+                lines_left = 2 if USERS_FRAME.match(line) else 0
+            if lines_left and not MARKS.fullmatch(line):
                 kept.append(line)
+                lines_left -= 1
             continue
-        inside, users = line == "Traceback (most recent call last):\n", False
+        inside, lines_left = line == "Traceback (most recent call last):\n", 0
         kept.append(line)
     return "".join(kept)
 
