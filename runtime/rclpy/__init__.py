@@ -62,13 +62,13 @@ def init(
 ) -> InitContextManager:
     """Begin; `args` None means `sys.argv`. Raises `RuntimeError` the second time, `RCLError` for bad arguments."""
     default = get_default_context()
-    context = default if context is None else context
+    chosen: Context = default if context is None else context
     if signal_handler_options is None:
-        signal_handler_options = SignalHandlerOptions.ALL if context is default else SignalHandlerOptions.NO
+        signal_handler_options = SignalHandlerOptions.ALL if chosen is default else SignalHandlerOptions.NO
     if signal_handler_options:
         install_signal_handlers(signal_handler_options)
-    context.init(args, domain_id=domain_id)
-    return InitContextManager(context)
+    chosen.init(args, domain_id=domain_id)
+    return InitContextManager(chosen)
 
 
 def get_global_executor() -> Executor:

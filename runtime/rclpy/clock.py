@@ -105,7 +105,8 @@ class Clock:
         """Choose the class by the type."""
         if not isinstance(clock_type, ClockType):
             raise TypeError("Clock type must be a ClockType enum")
-        return super().__new__(ROSClock if clock_type is ClockType.ROS_TIME else cls)
+        kind: Any = ROSClock if clock_type is ClockType.ROS_TIME else cls
+        return super().__new__(kind)
 
     def __init__(self, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> None:
         self._clock_type = clock_type

@@ -2,35 +2,40 @@
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
-from enum import IntEnum
 from typing import Any
 
 from rclpy._rclpy_pybind11 import UnsupportedEventTypeError
-from rclpy.impl.entity import WAITABLE, Entity
+from rclpy.impl.event_handlers import (
+    EventHandler,
+    IncompatibleHandler,
+    LivelinessHandler,
+    MatchedHandler,
+    MissedHandler,
+)
+from rclpy.impl.qos_policies import QoSPolicyKind
+from rclpy.qos import LivelinessPolicy, QoSProfile
 
 __all__ = [
     "EventHandler",
     "PublisherEventCallbacks",
+    "QoSLivelinessChangedInfo",
+    "QoSLivelinessLostInfo",
+    "QoSMessageLostInfo",
+    "QoSOfferedDeadlineMissedInfo",
+    "QoSOfferedIncompatibleQoSInfo",
     "QoSPublisherMatchedInfo",
+    "QoSRequestedDeadlineMissedInfo",
+    "QoSRequestedIncompatibleQoSInfo",
     "QoSSubscriptionMatchedInfo",
     "SubscriptionEventCallbacks",
     "UnsupportedEventTypeError",
 ]
 
-
-class QoSPolicyKind(IntEnum):
-    """The numbers by which rmw names policies."""
-
-    INVALID = 1
-    DURABILITY = 2
-    DEADLINE = 4
-    LIVELINESS = 8
-    RELIABILITY = 16
-    HISTORY = 32
-    LIFESPAN = 64
+Callback = Callable[[Any], Any]
+INFINITE_NS = 2**63 - 2
+"""Durations from here on stand for no limit."""
 
 
 @dataclass
@@ -44,12 +49,30 @@ class QoSIncompatibleInfo:
 
 @dataclass
 class QoSMatchedInfo:
-    """Matched endpoints: ever, newly, now, and the change of the last."""
+    """Matched endpoints: ever, newly, now, and the change since the last call."""
 
     total_count: int = 0
     total_count_change: int = 0
     current_count: int = 0
     current_count_change: int = 0
+
+
+@dataclass
+class QoSCountInfo:
+    """How often something happened, and how often since the last call."""
+
+    total_count: int = 0
+    total_count_change: int = 0
+
+
+@dataclass
+class QoSLivelinessChangedInfo:
+    """Publishers that are heard and that are not, and the changes since the last call."""
+
+    alive_count: int = 0
+    not_alive_count: int = 0
+    alive_count_change: int = 0
+    not_alive_count_change: int = 0
 
 
 class QoSPublisherMatchedInfo(QoSMatchedInfo):
@@ -68,122 +91,109 @@ class QoSRequestedIncompatibleQoSInfo(QoSIncompatibleInfo):
     """What a subscription's incompatible event says."""
 
 
-class EventHandler(Entity):
-    """Calls back in the executor when an event of one kind has come."""
-
-    KIND = WAITABLE
-
-    def __init__(self, kind: str, info_type: Any, callback: Callable[[Any], Any], callback_group: Any) -> None:
-        super().__init__(callback_group)
-        self.kind = kind
-        self._info_type = info_type
-        self._callback = callback
-        self._totals = [0, 0]
-        self._queue: deque[Any] = deque(maxlen=1)
-
-    def happened(self, what: Any) -> None:
-        """An event has come; from any thread."""
-        last = self._queue.pop() if self._queue else None
-        if self.kind == "matched":
-            self._totals[0] += max(0, what)
-            self._totals[1] += what
-            new = self._info_type(self._totals[0], max(0, what), self._totals[1], what)
-            if last is not None:
-                new.total_count_change += last.total_count_change
-                new.current_count_change += last.current_count_change
-        else:
-            self._totals[0] += 1
-            new = self._info_type(self._totals[0], 1 + (last.total_count_change if last else 0), QoSPolicyKind[what])
-        self._queue.append(new)
-        self.notify()
-
-    def pending(self) -> bool:
-        """Whether an event is there."""
-        return bool(self._queue) and not self.destroyed
-
-    def run(self) -> Any:
-        """Call back."""
-        if self._queue:
-            self._callback(self._queue.pop())
-
-    def destroy(self) -> None:
-        """Call back no more."""
-        self.destroyed = True
-        self.detach()
+class QoSOfferedDeadlineMissedInfo(QoSCountInfo):
+    """What a publisher's deadline event says."""
 
 
-@dataclass
+class QoSRequestedDeadlineMissedInfo(QoSCountInfo):
+    """What a subscription's deadline event says."""
+
+
+class QoSLivelinessLostInfo(QoSCountInfo):
+    """What a publisher's liveliness event says."""
+
+
+class QoSMessageLostInfo(QoSCountInfo):
+    """What a subscription's message lost event says; within one process no message is lost on its way."""
+
+
 class _EventCallbacks:
-    incompatible_qos: Callable[[Any], None] | None = None
-    liveliness: Callable[[Any], None] | None = None
-    deadline: Callable[[Any], None] | None = None
-    incompatible_type: Callable[[Any], None] | None = None
-    matched: Callable[[Any], None] | None = None
-    use_default_callbacks: bool = True
+    _WORDS: str
+    _INCOMPATIBLE: Any
+    _MATCHED: Any
+    _DEADLINE: Any
 
-    def _handlers(self, group: Any, logger: Any, topic: str, infos: tuple[Any, Any], words: str) -> list[EventHandler]:
-        incompatible = self.incompatible_qos
-        if incompatible is None and self.use_default_callbacks:
+    def __init__(
+        self,
+        *,
+        incompatible_qos: Callback | None = None,
+        liveliness: Callback | None = None,
+        deadline: Callback | None = None,
+        incompatible_type: Callback | None = None,
+        matched: Callback | None = None,
+        use_default_callbacks: bool = True,
+    ) -> None:
+        self.incompatible_qos = incompatible_qos
+        self.liveliness = liveliness
+        self.deadline = deadline
+        self.incompatible_type = incompatible_type
+        self.matched = matched
+        self.use_default_callbacks = use_default_callbacks
 
-            def incompatible(info: Any) -> None:
-                policy = QoSPolicyKind(info.last_policy_kind).name
-                logger().warn(words.format(topic, policy))
-
+    def create_event_handlers(
+        self, callback_group: Any, logger: Callable[[], Any], topic: str, qos: QoSProfile
+    ) -> list[EventHandler]:
+        """The handlers of a publisher or subscription of a topic."""
         handlers: list[EventHandler] = []
+        incompatible = self.incompatible_qos or (self._warner(logger, topic) if self.use_default_callbacks else None)
         if incompatible is not None:
-            handlers.append(EventHandler("incompatible", infos[0], incompatible, group))
+            handlers.append(IncompatibleHandler(self._INCOMPATIBLE, incompatible, callback_group))
         if self.matched is not None:
-            handlers.append(EventHandler("matched", infos[1], self.matched, group))
+            handlers.append(MatchedHandler(self._MATCHED, self.matched, callback_group))
+        deadline = limit(qos.deadline)
+        if self.deadline is not None and deadline is not None:
+            handlers.append(MissedHandler(self._DEADLINE, self.deadline, callback_group, deadline, again=True))
+        if self.liveliness is not None:
+            handlers += self._liveliness(self.liveliness, callback_group, qos)
         return handlers
+
+    def _warner(self, logger: Callable[[], Any], topic: str) -> Callback:
+        def warn(info: Any) -> None:
+            logger().warning(self._WORDS.format(topic, QoSPolicyKind(info.last_policy_kind).name))
+
+        return warn
+
+    def _liveliness(self, callback: Callback, group: Any, qos: QoSProfile) -> list[EventHandler]:
+        raise NotImplementedError
 
 
 class SubscriptionEventCallbacks(_EventCallbacks):
     """Callbacks for events of a subscription."""
 
-    def __init__(
-        self,
-        *,
-        incompatible_qos: Callable[[Any], None] | None = None,
-        liveliness: Callable[[Any], None] | None = None,
-        deadline: Callable[[Any], None] | None = None,
-        message_lost: Callable[[Any], None] | None = None,
-        incompatible_type: Callable[[Any], None] | None = None,
-        matched: Callable[[Any], None] | None = None,
-        use_default_callbacks: bool = True,
-    ) -> None:
-        super().__init__(incompatible_qos, liveliness, deadline, incompatible_type, matched, use_default_callbacks)
+    _WORDS = (
+        "New publisher discovered on topic '{}', offering incompatible QoS. No messages will be received from it. "
+        "Last incompatible policy: {}"
+    )
+    _INCOMPATIBLE = QoSRequestedIncompatibleQoSInfo
+    _MATCHED = QoSSubscriptionMatchedInfo
+    _DEADLINE = QoSRequestedDeadlineMissedInfo
+
+    def __init__(self, *, message_lost: Callback | None = None, **callbacks: Any) -> None:
+        super().__init__(**callbacks)
         self.message_lost = message_lost
 
-    def create_event_handlers(self, callback_group: Any, logger: Any, topic: str) -> list[EventHandler]:
-        """The handlers of a subscription to a topic."""
-        words = (
-            "New publisher discovered on topic '{}', offering incompatible QoS. No messages will be received from it. "
-            "Last incompatible policy: {}"
-        )
-        infos = (QoSRequestedIncompatibleQoSInfo, QoSSubscriptionMatchedInfo)
-        return self._handlers(callback_group, logger, topic, infos, words)
+    def _liveliness(self, callback: Callback, group: Any, qos: QoSProfile) -> list[EventHandler]:
+        return [LivelinessHandler(QoSLivelinessChangedInfo, callback, group)]
 
 
 class PublisherEventCallbacks(_EventCallbacks):
     """Callbacks for events of a publisher."""
 
-    def __init__(
-        self,
-        *,
-        incompatible_qos: Callable[[Any], None] | None = None,
-        liveliness: Callable[[Any], None] | None = None,
-        deadline: Callable[[Any], None] | None = None,
-        incompatible_type: Callable[[Any], None] | None = None,
-        matched: Callable[[Any], None] | None = None,
-        use_default_callbacks: bool = True,
-    ) -> None:
-        super().__init__(incompatible_qos, liveliness, deadline, incompatible_type, matched, use_default_callbacks)
+    _WORDS = (
+        "New subscription discovered on topic '{}', requesting incompatible QoS. No messages will be sent to it. "
+        "Last incompatible policy: {}"
+    )
+    _INCOMPATIBLE = QoSOfferedIncompatibleQoSInfo
+    _MATCHED = QoSPublisherMatchedInfo
+    _DEADLINE = QoSOfferedDeadlineMissedInfo
 
-    def create_event_handlers(self, callback_group: Any, logger: Any, topic: str) -> list[EventHandler]:
-        """The handlers of a publisher of a topic."""
-        words = (
-            "New subscription discovered on topic '{}', requesting incompatible QoS. No messages will be sent to it. "
-            "Last incompatible policy: {}"
-        )
-        infos = (QoSOfferedIncompatibleQoSInfo, QoSPublisherMatchedInfo)
-        return self._handlers(callback_group, logger, topic, infos, words)
+    def _liveliness(self, callback: Callback, group: Any, qos: QoSProfile) -> list[EventHandler]:
+        lease = limit(qos.liveliness_lease_duration)
+        if lease is None or qos.liveliness is not LivelinessPolicy.MANUAL_BY_TOPIC:
+            return []  # a publisher whose process lives is alive
+        return [MissedHandler(QoSLivelinessLostInfo, callback, group, lease, again=False)]
+
+
+def limit(duration: Any) -> int | None:
+    """A duration of a profile in ns; None where it stands for no limit."""
+    return duration.nanoseconds if 0 < duration.nanoseconds < INFINITE_NS else None

@@ -100,6 +100,7 @@ class Publisher:
     def assert_liveliness(self) -> None:
         """Say that this publisher is alive, for MANUAL_BY_TOPIC liveliness."""
         self._use()
+        self._endpoint.assert_liveliness()
 
     def wait_for_all_acked(self, timeout: Duration | None = None) -> bool:
         """Whether all reliable subscriptions have what was published; within a process they have at once."""

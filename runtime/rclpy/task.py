@@ -26,7 +26,7 @@ class Future(Generic[T]):
         self._exception: BaseException | None = None
         self._exception_fetched = False
         self._callbacks: list[Callable[[Future[T]], Any]] = []
-        self._waiters: list[Callable[[], None]] = []
+        self._waiters: list[Callable[[], object]] = []
         self._lock = threading.Lock()
         self._executor: Any = None
         self._set_executor(executor)
@@ -108,7 +108,7 @@ class Future(Generic[T]):
     def _set_executor(self, executor: Any) -> None:
         self._executor = None if executor is None else weakref.ref(executor)
 
-    def _when_settled(self, wake: Callable[[], None]) -> None:
+    def _when_settled(self, wake: Callable[[], object]) -> None:
         """Call `wake` once, from whichever thread, when the future is settled; at once where it is."""
         with self._lock:
             if not self._done:

@@ -42,6 +42,10 @@ class PublisherEndpoint(Protocol):
         """Give each matched subscription a copy of its own; raises `FieldTypeError` for what cannot be sent."""
         ...
 
+    def assert_liveliness(self) -> None:
+        """Give a sign of life."""
+        ...
+
     def publish_own(self, message: Any) -> None:
         """Publish a message that is well formed and that nobody else holds; it need not be copied."""
         ...

@@ -17,7 +17,7 @@ from bot_console.runtime.rmw.bus import (
     ServiceEndpoint,
     SubscriptionEndpoint,
 )
-from bot_console.runtime.rmw.qos_matching import LATCHING, incompatible_policy, wants_history
+from bot_console.runtime.rmw.qos_matching import INFINITE, LATCHING, incompatible_policy, wants_history
 
 _gids = itertools.count(1)
 
@@ -30,11 +30,20 @@ def new_gid() -> bytes:
 class LocalPublisher:
     """A publisher; `targets` are the subscriptions that receive, renewed when the graph changes."""
 
-    __slots__ = ("_lifespan", "_now", "_number", "endpoint", "history", "on_event", "open", "targets")
+    __slots__ = (
+        *("_lifespan", "_now", "_number", "endpoint", "history", "lease", "on_event", "on_publish"),
+        *("open", "targets"),
+    )
 
     def __init__(self, endpoint: Endpoint, on_event: Callable[[str, Any], None]) -> None:
         self.endpoint = endpoint
         self.on_event = on_event
+        self.on_publish: Notify | None = None
+        """Called with each message, where somebody watches that."""
+        manual = endpoint.qos.liveliness.name == "MANUAL_BY_TOPIC"
+        lease = endpoint.qos.liveliness_lease_duration.nanoseconds
+        self.lease: int | None = lease if manual and lease not in INFINITE else None
+        """How long (ns) it counts as alive without a sign of life; None for as long as it is there."""
         self.targets: tuple[SubscriptionEndpoint, ...] = ()
         self.open = True
         self._number = 0
@@ -48,8 +57,11 @@ class LocalPublisher:
         if not self.open:
             return
         targets = self.targets
+        if self.lease is not None or self.on_publish is not None:
+            self.assert_liveliness()
         if not targets and self.history is None:
             message._copy_()  # what cannot be sent is refused although nobody listens
+            self._number += 1
             return
         stamp = self._now()
         self._number = number = self._number + 1
@@ -65,13 +77,22 @@ class LocalPublisher:
         """Publish a message that is well formed and that nobody else holds: it is not copied where that is needless."""
         if self.targets:
             self.publish(message)
-        elif self.open and self.history is not None:
+        elif self.open:
             self._number += 1
-            self.history.append((message, self._now(), self._number))
+            if self.history is not None:
+                self.history.append((message, self._now(), self._number))
 
     def publish_raw(self, data: bytes) -> None:
         """Give serialized data as it is, or as a message to subscriptions that want one."""
         self.publish(_deserialize(data, self.endpoint.message_class))
+
+    def assert_liveliness(self) -> None:
+        """Give a sign of life."""
+        if self.on_publish is not None:
+            self.on_publish()
+        if self.lease is not None:
+            for target in self.targets:
+                target.on_event("asserted", self)
 
     def matched_count(self) -> int:
         """How many subscriptions receive."""
@@ -191,6 +212,7 @@ class LocalBus:
         subscription.matched += 1
         publisher.on_event("matched", 1)
         subscription.on_event("matched", 1)
+        subscription.on_event("alive", publisher)
         return True
 
     def create_service(self, service: ServiceEndpoint) -> None:
@@ -232,6 +254,7 @@ class LocalBus:
             for target in thing.targets:
                 target.matched -= 1
                 target.on_event("matched", -1)
+                target.on_event("gone", thing)
             thing.targets = ()
             node = thing.endpoint.node
         elif isinstance(thing, SubscriptionEndpoint):

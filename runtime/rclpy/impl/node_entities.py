@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from bot_console.runtime.rmw.bus import ClientEndpoint, Endpoint, ServiceEndpoint, SubscriptionEndpoint
@@ -30,7 +31,17 @@ class NodeEntities:
 
     _bus: Any
     _id: Any
+    _sink: Any
+    _order: int
+    _entities: dict[Any, None]
+    _publishers: dict[Any, None]
+    _waitables: dict[Any, None]
+    _rates: dict[Any, Any]
+    _use: Callable[[], None]
     context: Any
+    default_callback_group: Any
+    get_clock: Callable[[], Any]
+    get_logger: Callable[[], Any]
 
     def _attach(self, executor: Any, order: int) -> None:
         self._sink, self._order = executor, order
@@ -85,9 +96,11 @@ class NodeEntities:
         name = checked(self, topic)
         check_is_valid_msg_type(msg_type)
         qos = self._overridden(qos, name, qos_overriding_options, publisher=True)
-        handlers = (event_callbacks or PublisherEventCallbacks()).create_event_handlers(group, self.get_logger, topic)
+        callbacks = event_callbacks or PublisherEventCallbacks()
+        handlers = callbacks.create_event_handlers(group, self.get_logger, topic, qos)
         endpoint = Endpoint(self._id, name, type_name(msg_type), qos, new_gid(), msg_type)
         made = self._bus.create_publisher(endpoint, _teller(handlers))
+        made.on_publish = _listener(handlers)
         publisher = publisher_class(self, made, msg_type, topic, qos, handlers, group)
         self._publishers[publisher] = None
         for handler in handlers:
@@ -113,12 +126,13 @@ class NodeEntities:
         name = checked(self, topic)
         check_is_valid_msg_type(msg_type)
         qos = self._overridden(qos, name, qos_overriding_options, publisher=False)
-        handlers = (event_callbacks or SubscriptionEventCallbacks()).create_event_handlers(
-            group, self.get_logger, topic
-        )
+        callbacks = event_callbacks or SubscriptionEventCallbacks()
+        handlers = callbacks.create_event_handlers(group, self.get_logger, topic, qos)
         subscription = Subscription(self, msg_type, topic, callback, group, qos, raw, handlers)
         endpoint = Endpoint(self._id, name, type_name(msg_type), qos, new_gid(), msg_type)
-        subscription._join(SubscriptionEndpoint(endpoint, raw, queue_for(qos), subscription.notify, _teller(handlers)))
+        subscription._join(
+            SubscriptionEndpoint(endpoint, raw, queue_for(qos), _notifier(subscription, handlers), _teller(handlers))
+        )
         for handler in handlers:
             self._enter(handler, group)
         self._enter(subscription, group)
@@ -188,7 +202,6 @@ class NodeEntities:
         group = self._group(callback_group)
         self.context.require_running("timer")
         timer = Timer(callback, group, period, clock or self.get_clock(), context=self.context, autostart=autostart)
-        timer._node = self
         self._enter(timer, group)
         return timer
 
@@ -308,7 +321,25 @@ def _teller(handlers: list[Any]) -> Callable[[str, Any], None]:
 
     def tell(kind: str, what: Any) -> None:
         for handler in handlers:
-            if handler.kind == kind:
-                handler.happened(what)
+            if kind in handler.kinds:
+                handler.happened(kind, what)
 
     return tell
+
+
+def _listener(handlers: list[Any]) -> Callable[[], None] | None:
+    """What tells the handlers that watch messages of one; None where there are none, as messages are frequent."""
+    watching = [handler for handler in handlers if "message" in handler.kinds]
+    return partial(_teller(watching), "message", None) if watching else None
+
+
+def _notifier(subscription: Subscription, handlers: list[Any]) -> Callable[[], None]:
+    heard = _listener(handlers)
+    if heard is None:
+        return subscription.notify
+
+    def notify() -> None:
+        heard()
+        subscription.notify()
+
+    return notify

@@ -1,0 +1,200 @@
+"""What publishers and subscriptions tell their callbacks: matches, profiles that do not fit, deadlines, liveliness."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from bot_console.runtime.process import current
+from rclpy.impl.entity import WAITABLE, Entity
+from rclpy.impl.qos_policies import QoSPolicyKind
+
+
+class EventHandler(Entity):
+    """Calls back in the executor with the counts of one kind of event, and how they changed since the last call."""
+
+    KIND = WAITABLE
+    kinds: tuple[str, ...] = ()
+    """The events of the bus that it listens to."""
+
+    def __init__(self, info_type: Any, callback: Callable[[Any], Any], callback_group: Any) -> None:
+        super().__init__(callback_group)
+        self.callback = callback
+        self._info_type = info_type
+        self._told = False
+
+    def happened(self, kind: str, what: Any) -> None:
+        """An event has come; from any thread."""
+        raise NotImplementedError
+
+    def _tell(self) -> None:
+        self._told = True
+        self.notify()
+
+    def _info(self) -> Any:
+        """What the callback gets; the changes begin anew."""
+        raise NotImplementedError
+
+    def pending(self) -> bool:
+        """Whether there is something to tell."""
+        return self._told
+
+    def run(self) -> Any:
+        """Call back."""
+        self._told = False
+        result = self._callback(self._info())
+        return result if self._is_async else None
+
+    def destroy(self) -> None:
+        """Call back no more."""
+        self.destroyed = True
+        self.detach()
+
+
+class MatchedHandler(EventHandler):
+    """Endpoints came or went that fit."""
+
+    kinds = ("matched",)
+    _total = _new = _now = _change = 0
+
+    def happened(self, kind: str, what: int) -> None:
+        """One came (1) or went (-1)."""
+        self._total += max(0, what)
+        self._new += max(0, what)
+        self._now += what
+        self._change += what
+        self._tell()
+
+    def _info(self) -> Any:
+        info = self._info_type(self._total, self._new, self._now, self._change)
+        self._new = self._change = 0
+        return info
+
+
+class IncompatibleHandler(EventHandler):
+    """Endpoints came whose profile does not fit."""
+
+    kinds = ("incompatible",)
+    _total = _new = 0
+    _policy = QoSPolicyKind.INVALID
+
+    def happened(self, kind: str, what: str) -> None:
+        """One came that does not fit in a policy."""
+        self._total += 1
+        self._new += 1
+        self._policy = QoSPolicyKind[what]
+        self._tell()
+
+    def _info(self) -> Any:
+        info = self._info_type(self._total, self._new, self._policy)
+        self._new = 0
+        return info
+
+
+class TimedHandler(EventHandler):
+    """Events that come about because nothing happens in time."""
+
+    def __init__(self, info_type: Any, callback: Callable[[Any], Any], callback_group: Any) -> None:
+        super().__init__(info_type, callback, callback_group)
+        self._clock = current().clock
+
+    def _due(self) -> int | None:
+        """When (steady ns) the next one comes about."""
+        raise NotImplementedError
+
+    def _arm(self) -> None:
+        sink, due = self.sink, self._due()
+        if sink is not None and due is not None:
+            sink.arm(self, due)
+
+    def attach(self, sink: Any, node_order: int) -> None:
+        """Let an executor serve this from now on."""
+        super().attach(sink, node_order)
+        self._arm()
+
+    def pending(self) -> bool:
+        """Whether there is something to tell."""
+        due = self._due()
+        return self._told or (due is not None and self._clock.steady_ns() >= due)
+
+    def run(self) -> Any:
+        """Count what did not happen, and call back."""
+        self._expire(self._clock.steady_ns())
+        self._arm()
+        return super().run()
+
+    def _expire(self, now: int) -> None:
+        raise NotImplementedError
+
+
+class MissedHandler(TimedHandler):
+    """Nothing happened for a while (ns): a deadline, missed again and again, or a lease, which is lost once."""
+
+    kinds = ("message",)
+    _total = _new = 0
+
+    def __init__(
+        self, info_type: Any, callback: Callable[[Any], Any], callback_group: Any, period: int, *, again: bool
+    ) -> None:
+        super().__init__(info_type, callback, callback_group)
+        self._period = period
+        self._again = again
+        self._next = None if again else self._clock.steady_ns() + period
+
+    def _due(self) -> int | None:
+        return self._next
+
+    def happened(self, kind: str, what: Any) -> None:
+        """It happened: the time begins anew."""
+        self._next = self._clock.steady_ns() + self._period
+        self._arm()
+
+    def _expire(self, now: int) -> None:
+        if self._next is not None and now >= self._next:
+            self._total += 1
+            self._new += 1
+            self._next = self._next + self._period if self._again else None
+
+    def _info(self) -> Any:
+        info = self._info_type(self._total, self._new)
+        self._new = 0
+        return info
+
+
+class LivelinessHandler(TimedHandler):
+    """Publishers of a topic came, went, fell silent beyond their lease, or were heard again."""
+
+    kinds = ("alive", "gone", "asserted")
+
+    def __init__(self, info_type: Any, callback: Callable[[Any], Any], callback_group: Any) -> None:
+        super().__init__(info_type, callback, callback_group)
+        self._alive: dict[Any, int | None] = {}
+        self._silent: set[Any] = set()
+        self._before = 0, 0
+
+    def happened(self, kind: str, what: Any) -> None:
+        """A publisher came, went or was heard."""
+        silent = what in self._silent
+        if kind == "gone":
+            self._alive.pop(what, None)
+            self._silent.discard(what)
+        else:
+            self._alive[what] = None if what.lease is None else self._clock.steady_ns() + what.lease
+            self._silent.discard(what)
+            self._arm()
+        if kind != "asserted" or silent:
+            self._tell()
+
+    def _due(self) -> int | None:
+        return min((due for due in tuple(self._alive.values()) if due is not None), default=None)
+
+    def _expire(self, now: int) -> None:
+        for publisher, due in tuple(self._alive.items()):
+            if due is not None and now >= due:
+                del self._alive[publisher]
+                self._silent.add(publisher)
+
+    def _info(self) -> Any:
+        before, self._before = self._before, (len(self._alive), len(self._silent))
+        changes = (now - then for now, then in zip(self._before, before, strict=True))
+        return self._info_type(*self._before, *changes)
