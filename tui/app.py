@@ -193,7 +193,7 @@ class BotConsoleApp(App[None]):
         marks += [
             (each.digit, each.title, each.short or each.title, not overview and each.id == single) for each in PANES
         ]
-        self.query_one("#tabs", Static).update(tabs_text(marks, self._extent.width - 2))
+        self.query_one("#tabs", Static).update(tabs_text(marks, self._extent.width - 2), layout=False)
 
     def _typing(self) -> bool:
         return isinstance(self.focused, Input)

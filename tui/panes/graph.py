@@ -9,7 +9,6 @@ from typing import Any
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo
 from bot_console.tui.console.query import parse
-from bot_console.tui.format import harmless
 from bot_console.tui.panes.graph_export import exported
 from bot_console.tui.panes.graph_view import (
     TOPIC,
@@ -26,8 +25,8 @@ from bot_console.tui.panes.pane import Pane
 from bot_console.tui.screens.facts import FactsScreen, Section
 from bot_console.tui.widgets.diagram_view import LARGE, DiagramView
 from bot_console.tui.widgets.prompt import Prompt
+from bot_console.tui.widgets.words import Words
 from textual.app import ComposeResult
-from textual.widgets import Static
 
 TOO_LARGE = 2.5
 """From this many times the size of the pane on, topics with one end only are left out until they are asked for."""
@@ -56,7 +55,7 @@ class GraphPane(Pane):
     def compose(self) -> ComposeResult:
         """The picture, a line on what is selected, a prompt."""
         yield DiagramView()
-        yield Static("", id="graph-status", classes="status", markup=False)
+        yield Words(id="graph-status")
         yield Prompt(id="graph-prompt")
 
     @property
@@ -95,14 +94,14 @@ class GraphPane(Pane):
         parts = [self._view.mode.value] if self._view.mode is not Mode.ALL else []
         parts += [f"/{self._words}"] if self._words else []
         parts += [f"{self._shown.hidden} hidden"] if self._shown.hidden else []
-        self.border_subtitle = harmless(" · ".join(parts)).replace("[", r"\[")
+        self.caption(" · ".join(parts))
         if self._shown.graph.items:
             text = summary(info, self._picture.selected)
         elif self._problem:
             text = self._problem
         else:
             text = "Nothing matches the filter; escape takes it away." if info.nodes else "No nodes yet ..."
-        self.query_one("#graph-status", Static).update(harmless(text))
+        self.query_one("#graph-status", Words).say(text)
 
     def on_diagram_view_selected(self, event: DiagramView.Selected) -> None:
         """Tell of the item."""

@@ -20,8 +20,8 @@ from bot_console.tui.screens.launch_arguments import ArgumentsScreen
 from bot_console.tui.screens.launch_picker import PickerScreen
 from bot_console.tui.widgets.picture import Line, Picture
 from bot_console.tui.widgets.row_list import RowList
+from bot_console.tui.widgets.words import Words
 from textual.app import ComposeResult
-from textual.widgets import Static
 
 EVENTS = 4
 """Launch events shown below the tree."""
@@ -50,7 +50,7 @@ class LaunchPane(Pane):
     def compose(self) -> ComposeResult:
         """The tree, a line on the process at the cursor, the newest events."""
         yield ProcessRows()
-        yield Static("", id="launch-status", classes="status", markup=False)
+        yield Words(id="launch-status")
         yield Picture(id="launch-events")
 
     @property
@@ -109,8 +109,8 @@ class LaunchPane(Pane):
             text = f"{' / '.join(row.group)}  {counted(row.count, 'process').replace('processs', 'processes')}"
         else:
             text = row.process.problem or f"{row.process.label}  {' '.join(row.process.nodes)}"
-        status = self.query_one("#launch-status", Static)
-        status.update(harmless(text))
+        status = self.query_one("#launch-status", Words)
+        status.say(text)
         status.set_class(bool(info.problem), "wrong")
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:

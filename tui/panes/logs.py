@@ -15,9 +15,9 @@ from bot_console.tui.panes.pane import Pane
 from bot_console.tui.screens.detail import DetailScreen
 from bot_console.tui.widgets.prompt import Prompt
 from bot_console.tui.widgets.row_list import RowList
+from bot_console.tui.widgets.words import Words
 from rich.segment import Segment
 from textual.app import ComposeResult
-from textual.widgets import Static
 
 LEVELS = (Severity.UNSET, Severity.INFO, Severity.WARN, Severity.ERROR)
 STYLES = {Severity.DEBUG: "dim", Severity.WARN: "warn", Severity.ERROR: "error", Severity.FATAL: "error"}
@@ -75,7 +75,7 @@ class LogsPane(Pane):
     def compose(self) -> ComposeResult:
         """The lines, what is filtered, a prompt."""
         yield LogRows(self.console)
-        yield Static("", id="log-status", classes="status", markup=False)
+        yield Words(id="log-status")
         yield Prompt(id="log-prompt")
 
     @property
@@ -135,7 +135,7 @@ class LogsPane(Pane):
 
     def _tell(self) -> None:
         """Say what is shown of how much, by severity."""
-        self.query_one("#log-status", Static).update(harmless(self._problem or self.status_text()))
+        self.query_one("#log-status", Words).say(self._problem or self.status_text())
 
     def status_text(self) -> str:
         """The line below the log."""

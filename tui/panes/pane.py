@@ -6,6 +6,7 @@ from typing import ClassVar
 
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Console, Launcher
+from bot_console.tui.format import harmless
 from textual.app import App
 from textual.containers import Container
 from textual.message import Message
@@ -35,11 +36,18 @@ class Pane(Container):
         self.console = console
         self.launcher = launcher
         self.border_title = self.TITLE
+        self._caption = ""
 
     @property
     def host(self) -> App[object]:
         """The app; what Textual's own property leaves unsaid of its type is said here once."""
         return self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
+
+    def caption(self, text: str) -> None:
+        """Write into the lower edge of the frame; setting the same text again would draw the whole pane."""
+        if text != self._caption:
+            self._caption = text
+            self.border_subtitle = harmless(text).replace("[", r"\[")
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Draw what is new in the snapshot; compare parts by identity and do nothing where they are the same."""

@@ -15,11 +15,11 @@ from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.parameter_rows import Row, View, rows
 from bot_console.tui.widgets.prompt import Prompt
 from bot_console.tui.widgets.row_list import RowList
+from bot_console.tui.widgets.words import Words
 from rich.segment import Segment
 from rich.style import Style
 from rich.text import Text
 from textual.app import ComposeResult
-from textual.widgets import Static
 
 BAR = 12
 NAMES = 24
@@ -110,7 +110,7 @@ class ParametersPane(Pane):
     def compose(self) -> ComposeResult:
         """The tree, what is known of the parameter at the cursor, and a prompt."""
         yield ParameterRows()
-        yield Static("", id="parameter-detail", markup=False)
+        yield Words(id="parameter-detail")
         yield Prompt(id="parameter-prompt")
 
     @property
@@ -157,7 +157,7 @@ class ParametersPane(Pane):
         self._describe()
 
     def _describe(self) -> None:
-        self.query_one("#parameter-detail", Static).update(self._details(self._list.current))
+        self.query_one("#parameter-detail", Words).say(self._details(self._list.current))
 
     def _details(self, row: Row | None) -> Text:
         if row is None:
@@ -288,7 +288,7 @@ class ParametersPane(Pane):
     def _apply_filter(self, text: str) -> None:
         self._filter = text
         self._view = replace(self._view, query=parse(text))
-        self.border_subtitle = f"/{text}" if text else ""
+        self.caption(f"/{text}" if text else "")
         self._arrange()
 
     def action_toggle_changed(self) -> None:

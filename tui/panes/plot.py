@@ -94,7 +94,7 @@ class PlotPane(Pane):
         below = 0 if strips else min(len(curves), 6)
         if legend.styles.height is None or legend.styles.height.value != below:
             legend.styles.height = below
-        self.border_subtitle = self._status()
+        self.caption(self._status())
         if width < 16 or height < 2:
             return
         if not curves:

@@ -21,6 +21,12 @@ DEFAULTS = ("/odom/twist.twist.linear.x", "/robot_navigator:max_speed")
 
 COLOURS = 6
 
+PACE = 0.5
+"""Seconds for which the window stands still, where that is no more than a share of its width."""
+
+STEPS = 20
+"""The window moves in at least so many steps through its own width."""
+
 
 class Timeline:
     """Curves over a window of time that ends at the newest sample, or stands while paused."""
@@ -82,14 +88,15 @@ class Timeline:
         return max(streams) if streams else self._console.plot_time()
 
     def axes(self, across: int) -> Axes:
-        """The window; it moves in whole dots, so that traces do not shimmer."""
+        """The window; it moves in steps of some cells, so that between two steps only the newest cells are drawn."""
         from bot_console.tui.panes.plot_view import Axes
 
-        dot = self.window / max(1, across * 2)
+        cell = self.window / max(1, across)
+        step = cell * max(1, min(across // STEPS, math.ceil(PACE / cell)))
         if self.paused_at is not None:
-            end = math.floor(self.paused_at / dot) * dot
+            end = math.floor(self.paused_at / cell) * cell
         else:
-            end = math.ceil(self.newest() / dot - 1e-6) * dot
+            end = math.ceil(self.newest() / step - 1e-6) * step
         return Axes(end - self.window, end, self.limits)
 
 

@@ -9,13 +9,13 @@ from typing import Any
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, Profile, ProfileDifference, SetOutcome
 from bot_console.tui.console.protocol import Answer
-from bot_console.tui.format import counted, harmless
+from bot_console.tui.format import counted
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.profile_rows import DifferenceRows, ProfileRows, entries, turns_safety_off
 from bot_console.tui.screens.confirm import ConfirmScreen
 from bot_console.tui.widgets.row_list import RowList
+from bot_console.tui.widgets.words import Words
 from textual.app import ComposeResult
-from textual.widgets import Static
 
 MOST = 6
 """Profiles that are seen at once."""
@@ -43,9 +43,9 @@ class ProfilesPane(Pane):
     def compose(self) -> ComposeResult:
         """The profiles, the differences, a line that sums them up."""
         yield ProfileRows()
-        yield Static("", id="profile-head", classes="status", markup=False)
+        yield Words(id="profile-head")
         yield DifferenceRows()
-        yield Static("", id="profile-status", classes="status", markup=False)
+        yield Words(id="profile-status")
 
     @property
     def _list(self) -> ProfileRows:
@@ -72,8 +72,8 @@ class ProfilesPane(Pane):
         if profile is not None and not self._held:
             self._differences = () if profile.problem else self.console.profile_differences(profile.name)
         self.query_one(DifferenceRows).show(entries(self._differences, self._outcomes))
-        self.query_one("#profile-head", Static).update(harmless(self._head(profile)))
-        self.query_one("#profile-status", Static).update(harmless(self._told or self._summary(profile)))
+        self.query_one("#profile-head", Words).say(self._head(profile))
+        self.query_one("#profile-status", Words).say(self._told or self._summary(profile))
 
     def _head(self, profile: Profile | None) -> str:
         if profile is None:

@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, WorldInfo
-from bot_console.tui.format import harmless
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.widgets.picture import Picture
+from bot_console.tui.widgets.words import Words
 from textual.app import ComposeResult
-from textual.widgets import Static
 
 if TYPE_CHECKING:
     from bot_console.tui.panes.world_view import WorldDrawing
 
 ZOOMS = (1.0, 2.0, 4.0, 8.0)
+
+
+HITS_EVERY = 3
+"""Every so many drawings the LIDAR hits are drawn anew."""
 
 
 class WorldMap(Picture):
@@ -25,12 +29,16 @@ class WorldMap(Picture):
         super().__init__()
         self._world = WorldInfo()
         self._drawing: WorldDrawing | None = None
+        self._age = -1
         self.zoom = 1.0
         self.scale = ""
 
     def show(self, world: WorldInfo) -> None:
         """Draw a world."""
-        self._world = world
+        # Ranges are noisy, so hits flicker all over the map: they are what costs bytes.
+        self._age = (self._age + 1) % HITS_EVERY
+        keep = self._age and self._world.hits
+        self._world = replace(world, hits=self._world.hits) if keep else world
         self.draw()
 
     def draw(self) -> None:
@@ -66,7 +74,7 @@ class WorldPane(Pane):
     def compose(self) -> ComposeResult:
         """The map and a line of facts."""
         yield WorldMap()
-        yield Static("", id="world-facts", classes="status", markup=False)
+        yield Words(id="world-facts")
 
     def focus_target(self) -> None:
         """The pane itself takes the keys."""
@@ -98,7 +106,7 @@ class WorldPane(Pane):
             near = "free" if world.nearest is None else f"{world.nearest:.1f} m"
             where = f"x {pose.x:6.1f}  y {pose.y:6.1f}" if pose else "pose unknown"
             text = f"{where}  {world.speed:+.1f} m/s  nearest {near}  {self.query_one(WorldMap).scale}"
-        self.query_one("#world-facts", Static).update(harmless(text))
+        self.query_one("#world-facts", Words).say(text)
 
     def action_zoom_map(self, step: int) -> None:
         """Nearer, or farther."""

@@ -45,7 +45,7 @@ class KeyBar(Static):
         while everywhere and _line([*own, *everywhere], colour).cell_len > width:
             everywhere.pop(1 if len(everywhere) > 1 else 0)
         self._keys = [*own, *everywhere]
-        self.update(_line(self._keys, colour))
+        self.update(_line(self._keys, colour), layout=False)
 
     def on_resize(self) -> None:
         """Fit the keys to the new width."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import ClassVar, TypeAlias
 
+from rich.cells import cell_len
 from rich.segment import Segment
 from textual.geometry import Region
 from textual.message import Message
@@ -15,6 +16,9 @@ Piece: TypeAlias = "tuple[str, str]"
 """Text and the name of its style, one of `Picture.STYLES`; empty for the plain one."""
 
 Line: TypeAlias = "tuple[Piece, ...]"
+
+CLOSE = 10
+"""Cells of which drawing costs about as much as moving the cursor over them."""
 
 
 class Picture(Widget):
@@ -50,13 +54,17 @@ class Picture(Widget):
         self.lines: Sequence[Line] = ()
 
     def set_lines(self, lines: Sequence[Line]) -> None:
-        """Show these lines."""
+        """Show these lines; of a line that has changed only the cells that have are drawn."""
         old, self.lines = self.lines, lines
-        width = self.size.width
         if len(old) != len(lines):
             self.refresh()
             return
-        changed = [Region(0, y, width, 1) for y, (a, b) in enumerate(zip(old, lines, strict=True)) if a != b]
+        changed = [
+            Region(start, y, end - start, 1)
+            for y, (before, after) in enumerate(zip(old, lines, strict=True))
+            if before != after
+            for start, end in changes(before, after, self.size.width)
+        ]
         if changed:
             self.refresh(*changed)
 
@@ -73,3 +81,26 @@ class Picture(Widget):
     def on_resize(self) -> None:
         """Tell, so that lines for this size are made."""
         self.post_message(self.Resized())
+
+
+def changes(before: Line, after: Line, width: int) -> list[tuple[int, int]]:
+    """Where two lines differ, as stretches of cells; stretches that are close together are one."""
+    old, new = _cells(before, width), _cells(after, width)
+    if old is None or new is None:
+        return [(0, width)]
+    found: list[tuple[int, int]] = []
+    for at, (a, b) in enumerate(zip(old, new, strict=True)):
+        if a != b:
+            if found and at - found[-1][1] < CLOSE:
+                found[-1] = (found[-1][0], at + 1)
+            else:
+                found.append((at, at + 1))
+    return found
+
+
+def _cells(line: Line, width: int) -> list[Piece] | None:
+    """Letter and style of each cell; None where a letter takes more cells than one, or none."""
+    if any(cell_len(text) != len(text) for text, _ in line):
+        return None
+    cells = [(letter, style) for text, style in line for letter in text][:width]
+    return cells + [(" ", "")] * (width - len(cells))

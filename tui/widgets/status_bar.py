@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from bot_console.tui.console.model import ConsoleSnapshot, DriveInfo, ProcessState, Severity
 from bot_console.tui.format import harmless
-from rich.text import Text
-from textual.widgets import Static
+from bot_console.tui.widgets.words import Words
 
 
-class StatusBar(Static):
+class StatusBar(Words):
     """The command chain, the all-stop, the profile, processes that have ended, errors."""
 
     DEFAULT_CSS = """
@@ -16,16 +15,9 @@ class StatusBar(Static):
     StatusBar.stopped { background: $error; color: $background; text-style: bold; }
     """
 
-    def __init__(self) -> None:
-        super().__init__("", markup=False)
-        self._text = ""
-
     def show(self, snapshot: ConsoleSnapshot, held_back: int = 0) -> None:
         """Say how things are."""
-        text = status_text(snapshot, held_back)
-        if text != self._text:
-            self._text = text
-            self.update(Text(text, no_wrap=True, overflow="ellipsis"))
+        self.say(status_text(snapshot, held_back))
         self.set_class(snapshot.drive.stopped, "stopped")
 
 
