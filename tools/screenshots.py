@@ -71,6 +71,14 @@ class Photographer:
         await self.press(*(letter.replace(".", "full_stop") for letter in text), "enter")
         await self._pilot.pause(0.5)
 
+    async def steer_until_limited(self) -> None:
+        """Drive on, with a key now and then as the dead-man wants it, until something stands ahead."""
+        for _ in range(int(PATIENCE)):
+            if self._session.console.snapshot().drive.limited_by == "warning_distance":
+                return
+            await self.press("w", "s")
+            await self._pilot.pause(0.9)
+
     async def resize(self, size: tuple[int, int]) -> None:
         """Give the terminal other columns and lines."""
         await self._pilot.resize_terminal(*size)
@@ -103,8 +111,8 @@ async def take_all(at: Photographer) -> None:
     await at.press("5")
     await at.drive(0.5)
     at.take("world")
-    await at.press("6", "enter", "W", "a", "a", "a", "a")
-    await at.drive(1.0)
+    await at.press("6", "enter", "W")
+    await at.steer_until_limited()
     at.take("steering")
 
 
