@@ -89,13 +89,13 @@ def floor_of(message: Any) -> float:
     return (time.process_time() - start) / MESSAGES * MICRO
 
 
-def in_flight(nodes: int, message: Any, *, spin_once: bool = False) -> float:
+def in_flight(nodes: int, message: Any, *, spin_once: bool = False, threads: int = 0) -> float:
     """Microseconds per message, one in flight: each callback publishes the next one."""
     import rclpy
-    from rclpy.executors import SingleThreadedExecutor
+    from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 
     rclpy.init(args=[])
-    executor = SingleThreadedExecutor()
+    executor = MultiThreadedExecutor(threads) if threads else SingleThreadedExecutor()
     made = [rclpy.create_node(f"n{number}") for number in range(nodes)]
     for node in made:
         node.create_publisher(type(message), "idle", 10)
@@ -293,6 +293,7 @@ def one_run() -> dict[str, float]:
         figures[f"{name}_ratio"] = cost / floor
     message = messages()["float64"]
     figures["float64_spin_once_us"] = in_flight(1, message, spin_once=True)
+    figures["multi_threaded_2_us"] = in_flight(2, message, threads=4)
     for nodes in (2, 10, 25, 50):
         figures[f"nodes_{nodes}_us"] = in_flight(nodes, message)
     figures["nodes_50_over_2"] = figures["nodes_50_us"] / figures["nodes_2_us"]

@@ -25,6 +25,8 @@ pytestmark = pytest.mark.soak
 
 PATIENCE = 60.0
 """How long (s) a thread may take to end before it counts as hung."""
+BACKLOG = 2_000
+"""How many messages may wait before the senders of the stress make a pause."""
 KEEP_ALL = QoSProfile(history=HistoryPolicy.KEEP_ALL)
 _domains = itertools.count(900_000)
 
@@ -278,6 +280,7 @@ def test_a_minute_of_everything() -> None:
         def live(seed: int) -> None:
             dice = random.Random(seed)
             while time.monotonic() < end:
+                eventually(lambda: len(sent) - len(got) < BACKLOG)
                 node = Node(f"n{seed}", context=ctx)
                 executor = dice.choice(executors)
                 node.create_timer(0.001, lambda: None)
