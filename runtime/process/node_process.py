@@ -125,6 +125,18 @@ class NodeProcess:
         """SIGTERM: hooks or its own handler; where there is neither it ends with -15."""
         self.send_signal(signal.SIGTERM)
 
+    def deliver_signals(self) -> None:
+        """Let signals that are on their way take effect first, where the caller is its main thread.
+
+        For code that has seen the effect of a hook: a real process would by now run the handler.
+        """
+        state = local.state
+        if state is None or state is not self.main_state:
+            return
+        while self.signals.sending and not self.clock.stepped:
+            real.sleep(0.0005)
+        state.deliver()
+
     def kill(self) -> None:
         """SIGKILL: it ends now with -9; code of it that does not unwind is abandoned, and a notice names the line."""
         self.send_signal(SIGKILL)

@@ -41,6 +41,8 @@ class Signals:
         self._handlers: dict[int, Handler] = {signal.SIGINT: signal.default_int_handler}
         self._pause: Wakeup | None = None
         self.wakeup_fd = -1
+        self.sending = 0
+        """How many signals are between their hooks and their handler."""
 
     def add_hook(self, hook: Hook, signals: Iterable[int]) -> Callable[[], None]:
         """Call `hook(signum)` before the handler, as a handler does that calls the one it replaced."""
@@ -71,11 +73,17 @@ class Signals:
         if signum in _JOB_CONTROL:
             notify(self._process, f"signal {signum} asks the process to pause, which a node in a thread cannot")
             return
-        hooked = self.run_hooks(signum)
-        handler = self.handler(signum)
+        self.sending += 1
+        try:
+            hooked = self.run_hooks(signum)
+            handler = self.handler(signum)
+            if callable(handler):
+                self._run_in_main_thread(signum, handler)
+        finally:
+            self.sending -= 1
         if callable(handler):
-            self._run_in_main_thread(signum, handler)
-        elif handler != signal.SIG_IGN and not hooked and signum not in _IGNORED_BY_DEFAULT:
+            return
+        if handler != signal.SIG_IGN and not hooked and signum not in _IGNORED_BY_DEFAULT:
             self._process.die(-int(signum))
 
     @property

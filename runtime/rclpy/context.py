@@ -24,10 +24,12 @@ class Context:
     def __init__(self) -> None:
         self._lock = threading.RLock()
         self._callbacks: list[Callable[[], Any]] = []
+        self._wakes: list[Callable[[], Any]] = []
         self._nodes: weakref.WeakSet[Any] = weakref.WeakSet()
         self._initialized = False
         self.ended = False
         """Whether it was shut down."""
+        self.ended_by_signal = False
         self.arguments: Any = None
         self._domain = 0
         self.bus: Any = None
@@ -56,6 +58,8 @@ class Context:
 
     def ok(self) -> bool:
         """Whether it was initialised and not shut down."""
+        if self.ended:
+            current().deliver_signals()
         return self._initialized and not self.ended
 
     def _require_init(self) -> None:
@@ -66,6 +70,7 @@ class Context:
         """Raise `TypeError` before `init` and `RCLError` after the shutdown: `what` cannot be made then."""
         self._require_init()
         if self.ended:
+            current().deliver_signals()
             raise RCLError(
                 f"failed to create {what}: the given context is not valid, "
                 "either rcl_init() was not called or rcl_shutdown() was called."
@@ -96,8 +101,10 @@ class Context:
             self._end()
 
     def shut_down_by_signal(self) -> None:
-        """End because the process was asked to; without an error where that has happened."""
-        self.try_shutdown()
+        """End because the process was asked to; as upstream, without the callbacks of `on_shutdown`."""
+        if self._initialized and not self.ended:
+            self.ended_by_signal = True
+            self._end()
 
     def _end(self) -> None:
         with self._lock:
@@ -105,9 +112,10 @@ class Context:
                 return
             self.ended = True
             callbacks, self._callbacks = self._callbacks, []
+            wakes, self._wakes = self._wakes, []
         for endpoint in list(self.lingering):
             self.bus.remove(endpoint)
-        for held in callbacks:
+        for held in wakes if self.ended_by_signal else callbacks + wakes:
             callback = held()
             if callback is not None:
                 callback()
@@ -116,11 +124,17 @@ class Context:
         """Call back once at the shutdown, at once where it has happened; returns what takes the callback away."""
         if not callable(callback):
             raise TypeError(f"callback should be a callable, got {type(callback)}")
-        self._require_init()
+        return self._add(callback, "_callbacks")
+
+    def on_end(self, wake: Callable[[], Any]) -> Callable[[], None]:
+        """Wake who waits when the context ends, by whatever; returns what takes it away."""
+        return self._add(wake, "_wakes")
+
+    def _add(self, callback: Callable[[], Any], name: str) -> Callable[[], None]:
         held = self._held(callback)
         with self._lock:
             if not self.ended:
-                self._callbacks.append(held)
+                getattr(self, name).append(held)
                 return lambda: self._forget(held)
         callback()
         return lambda: None
@@ -137,6 +151,7 @@ class Context:
     def _forget(self, held: Any) -> None:
         with self._lock:
             self._callbacks = [each for each in self._callbacks if each is not held]
+            self._wakes = [each for each in self._wakes if each is not held]
 
     def track_node(self, node: Any) -> None:
         """A node was made in this context."""

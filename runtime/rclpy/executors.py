@@ -202,6 +202,7 @@ class Executor:
             if self._is_shutdown:
                 raise ShutdownException
             if context.ended:
+                current().deliver_signals()
                 raise ExternalShutdownException
             if condition is not None and condition():
                 raise ConditionReachedException
