@@ -7,6 +7,7 @@ from typing import Any
 from launch.calling_line import calling_line
 from launch.condition import Condition
 from launch.launch_description_entity import LaunchDescriptionEntity
+from launch.origin import origin_of_caller
 
 
 class Action(LaunchDescriptionEntity):
@@ -14,6 +15,8 @@ class Action(LaunchDescriptionEntity):
 
     def __init__(self, *, condition: Condition | None = None) -> None:
         self.__condition = condition
+        self.origin = origin_of_caller()
+        """Where it was made, as `file:line`."""
         self.__made_at = calling_line()
 
     @property

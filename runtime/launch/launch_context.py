@@ -27,6 +27,9 @@ class LaunchContext:
         self.__configurations_stack: list[dict[str, Any]] = []
         self.__configurations: dict[str, Any] = {}
         self.__environment_stack: list[dict[str, str]] = []
+        self.declared_arguments: set[str] = set()
+        self.read_configurations: set[str] = set()
+        self.names_without_namespace: dict[str, str] = {}
         self.__is_shutdown = False
         self.__asyncio_loop: asyncio.AbstractEventLoop | None = None
         self.__logger = launch.logging.get_logger(__name__)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 from xml.etree.ElementTree import Element
 
@@ -13,8 +14,11 @@ from launch.utilities.type_utils import get_typed_value, is_typing_list
 class Entity(BaseEntity):
     """An element; it remembers what of it was read."""
 
-    def __init__(self, element: Element, *, parent: Entity | None = None) -> None:
+    def __init__(
+        self, element: Element, *, parent: Entity | None = None, lines: Mapping[Element, int] | None = None
+    ) -> None:
         self.__element = element
+        self.__lines = {} if lines is None else lines
         self.__parent = parent
         self.__read_attributes: set[str] = set()
         self.__read_children: set[str] = set()
@@ -25,6 +29,11 @@ class Entity(BaseEntity):
         return self.__element.tag
 
     @property
+    def line(self) -> int:
+        """The line on which it begins; 0 where that is not known."""
+        return self.__lines.get(self.__element, 0)
+
+    @property
     def parent(self) -> Entity | None:
         """The element that it is in."""
         return self.__parent
@@ -33,7 +42,7 @@ class Entity(BaseEntity):
     def children(self) -> list[BaseEntity]:
         """The elements in it."""
         self.__read_children = {each.tag for each in self.__element}
-        return [Entity(each, parent=self) for each in self.__element]
+        return [Entity(each, parent=self, lines=self.__lines) for each in self.__element]
 
     def assert_entity_completely_parsed(self) -> None:
         """Raise `ValueError` for attributes and elements that nobody has asked for."""
@@ -47,7 +56,7 @@ class Entity(BaseEntity):
     def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
         """An attribute of a type, or the elements of a tag; raises `AttributeError` and `TypeError`."""
         if wants_entities(data_type):
-            found = [Entity(each, parent=self) for each in self.__element if each.tag == name]
+            found = [Entity(each, parent=self, lines=self.__lines) for each in self.__element if each.tag == name]
             self.__read_children.add(name)
             return found or self.__missing(name, "List[Entity]", optional)
         if name not in self.__element.attrib:

@@ -25,6 +25,11 @@ class Entity(BaseEntity):
         return self.__type_name
 
     @property
+    def line(self) -> int:
+        """The line on which it begins; 0 where that is not known."""
+        return getattr(self.__element, "line", 0) or getattr(self.__parent, "line", 0)
+
+    @property
     def parent(self) -> Entity | None:
         """The element that it is in."""
         return self.__parent

@@ -6,6 +6,7 @@ from typing import TextIO
 
 from launch.frontend import Parser as BaseParser
 from launch_yaml.entity import Entity
+from launch_yaml.read_yaml import read_yaml
 
 
 class Parser(BaseParser):
@@ -14,14 +15,12 @@ class Parser(BaseParser):
     @classmethod
     def load(cls, file: str | TextIO) -> tuple[Entity, Parser]:
         """The root element, with this parser; raises `yaml.YAMLError`, and `RuntimeError` unless there is one root."""
-        import yaml
-
         cls.load_launch_extensions()
         if isinstance(file, str):
             with open(file, encoding="utf-8") as stream:
-                tree = yaml.safe_load(stream)
+                tree = read_yaml(stream.read())
         else:
-            tree = yaml.safe_load(file)
+            tree = read_yaml(file.read())
         if len(tree) != 1:
             raise RuntimeError("Expected only one root")
         type_name = next(iter(tree))

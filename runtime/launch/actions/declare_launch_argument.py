@@ -93,6 +93,7 @@ class DeclareLaunchArgument(Action):
 
     def execute(self, context: Any) -> None:
         """Set the default where it is needed; raises `RuntimeError` for a missing or wrong value."""
+        context.declared_arguments.add(self.name)
         if self.name not in context.launch_configurations:
             if self.default_value is None:
                 raise RuntimeError(f'Required launch argument "{self.name}" was not provided.')

@@ -14,6 +14,11 @@ class Entity:
         raise NotImplementedError
 
     @property
+    def line(self) -> int:
+        """The line on which it begins; 0 where that is not known."""
+        return 0
+
+    @property
     def parent(self) -> Entity | None:
         """The element that it is in."""
         raise NotImplementedError

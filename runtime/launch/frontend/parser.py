@@ -29,6 +29,9 @@ class InvalidFrontendLaunchFileError(InvalidLaunchFileError):
 class Parser:
     """Makes actions of the elements of a launch file."""
 
+    path = ""
+    """Where the file is."""
+
     @classmethod
     def load_launch_extensions(cls) -> None:
         """Import the packages whose actions and substitutions launch files may name."""
@@ -67,7 +70,9 @@ class Parser:
             raise InvalidFrontendLaunchFileError("", likely_errors=[error]) from error
         for parser in cls._parsers_for(path):
             try:
-                return parser.load(io.StringIO(text))
+                root, found = parser.load(io.StringIO(text))
+                found.path = path
+                return root, found
             except Exception as error:  # each library has its own errors; all are told
                 errors.append(error)
         known = extension if cls.is_extension_valid(extension) else ""
@@ -90,7 +95,9 @@ class Parser:
             raise RuntimeError(f"Unrecognized entity of the type: {entity.type_name}")
         kind, options = method(entity, self)
         entity.assert_entity_completely_parsed()
-        return kind(**options)
+        action = kind(**options)
+        action.origin = f"{self.path}:{entity.line}" if entity.line else self.path
+        return action
 
     def parse_substitution(self, value: str) -> Any:
         """The substitutions of a text."""

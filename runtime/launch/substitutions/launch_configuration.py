@@ -39,6 +39,7 @@ class LaunchConfiguration(Substitution):
     def perform(self, context: Any) -> str:
         """The value; raises `SubstitutionFailure` where there is neither value nor default."""
         name = _joined(context, self.__variable_name)
+        context.read_configurations.add(name)
         if name in context.launch_configurations:
             return context.launch_configurations[name]
         if self.__default is None:

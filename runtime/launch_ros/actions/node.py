@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from pathlib import Path
 from typing import Any
 
 import launch.logging
@@ -13,6 +14,7 @@ from launch.utilities import ensure_argument_type, normalize_to_list_of_substitu
 from launch_ros.missing_executables import may_start
 from launch_ros.node_program import os_command, program_of
 from launch_ros.parameter_arguments import ParameterArgument, global_parameter_arguments, own_parameter_arguments
+from launch_ros.parameter_warnings import warn_of_files, warn_of_values
 from launch_ros.substitutions import ExecutableInPackage
 from launch_ros.utilities import (
     add_node_name,
@@ -22,6 +24,7 @@ from launch_ros.utilities import (
     normalize_parameters,
     normalize_remap_rules,
     prefix_namespace,
+    warn_of_same_name,
 )
 
 LOCALS = "ros_specific_arguments"
@@ -146,6 +149,8 @@ class Node(ExecuteProcess):
         entities = super().execute(context)
         if self.is_node_name_fully_specified():
             self._count_name(context)
+        elif self.__name is not None:
+            warn_of_same_name(context, self._likely_name(), self.origin)
         return entities
 
     def _count_name(self, context: Any) -> None:
@@ -196,9 +201,19 @@ class Node(ExecuteProcess):
         self.__expanded_parameters = [] if given is None else global_parameter_arguments(given)
         target = self.node_name if self.is_node_name_fully_specified() else None
         evaluated = evaluate_parameters(context, self.__parameters)
+        for entry, found in zip(self.__parameters, evaluated, strict=True):
+            if isinstance(entry, dict):
+                warn_of_values(context, entry, found, self.origin)
         self.__expanded_parameters += own_parameter_arguments(context, evaluated, target, self.__logger)
+        if self.__name is not None:
+            files = [str(each) for each in evaluated if isinstance(each, Path)]
+            warn_of_files(files, self._likely_name(), self.origin)
         for argument, is_file in self.__expanded_parameters:
             self._add_words("--params-file" if is_file else "-p", argument)
+
+    def _likely_name(self) -> str:
+        """The full name, with the root as namespace where none is known: few programs choose another."""
+        return self.node_name.replace(self.UNSPECIFIED_NODE_NAMESPACE, "")
 
     def _expand_remappings(self, context: Any) -> None:
         rules = list(context.launch_configurations.get("ros_remaps") or ())

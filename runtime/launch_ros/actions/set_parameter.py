@@ -7,6 +7,7 @@ from typing import Any
 from launch.action import Action
 from launch.frontend import expose_action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch_ros.parameter_warnings import warn_of_argument
 from launch_ros.utilities import evaluate_parameter_dict, normalize_parameter_dict
 
 KEY = "global_params"
@@ -41,6 +42,8 @@ class SetParameter(Action):
     def execute(self, context: Any) -> None:
         """Set it."""
         evaluated = evaluate_parameter_dict(context, self.__param_dict)
+        for name, value in evaluated.items():
+            warn_of_argument(name, value, self.origin)
         context.launch_configurations.setdefault(KEY, [])
         context.launch_configurations[KEY].extend(evaluated.items())
 

@@ -19,3 +19,15 @@ def add_node_name(context: Any, node_name: str) -> None:
 def get_node_name_count(context: Any, node_name: str) -> int:
     """How often a name was counted."""
     return context.get_locals_as_dict().get(KEY, {}).get(node_name, 0)
+
+
+def warn_of_same_name(context: Any, node_name: str, origin: str) -> None:
+    """Warn where a node, though its namespace is not given, will most likely have the name of another one."""
+    import launch.logging
+
+    names = context.names_without_namespace
+    if node_name in names:
+        launch.logging.get_logger("launch").warning(
+            f"{origin}: this node and the one of {names[node_name]} have the same name {node_name}"
+        )
+    names[node_name] = origin

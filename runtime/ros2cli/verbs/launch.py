@@ -126,6 +126,7 @@ def launch(
     """Run a launch file to its end; 1 when the launch itself failed, whatever became of its processes."""
     from launch.actions import IncludeLaunchDescription
     from launch.launch_description_sources import AnyLaunchDescriptionSource
+    from launch.undeclared_arguments import WarnOfUndeclaredArguments
 
     from launch import LaunchDescription, LaunchService
 
@@ -135,7 +136,7 @@ def launch(
         from launch_ros.missing_executables import allow_missing
 
         allow_missing(service)
-    service.include_launch_description(LaunchDescription([include]))
+    service.include_launch_description(LaunchDescription([include, WarnOfUndeclaredArguments(arguments)]))
     return service.run()
 
 

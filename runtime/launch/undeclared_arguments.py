@@ -1,0 +1,33 @@
+"""Launch arguments that the launch file does not declare: accepted, as upstream does, but not in silence."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Collection
+from typing import Any
+
+import launch.logging
+from launch.action import Action
+
+ALWAYS_KNOWN = frozenset(
+    ("launch-prefix", "launch-prefix-filter", "emulate_tty", "sigterm_timeout", "sigkill_timeout", "ros_namespace")
+)
+
+
+class WarnOfUndeclaredArguments(Action):
+    """Warns of given names that nothing visited before has declared or read."""
+
+    def __init__(self, names: Collection[str]) -> None:
+        super().__init__()
+        self._names = names
+
+    def execute(self, context: Any) -> None:
+        """Warn of each, with a declared name that looks like it."""
+        for name in self._names:
+            if name in ALWAYS_KNOWN or name in context.declared_arguments or name in context.read_configurations:
+                continue
+            near = difflib.get_close_matches(name, sorted(context.declared_arguments), 1)
+            hint = f"; did you mean '{near[0]}'?" if near else ""
+            launch.logging.get_logger("launch").warning(
+                f"the launch argument '{name}' is neither declared nor read by the launch file{hint}"
+            )

@@ -1,0 +1,110 @@
+"""Warnings for parameters that will not be what the launch file seems to say; what happens stays the same."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator, Mapping
+from functools import lru_cache
+from typing import Any
+
+import launch.logging
+from bot_console.runtime.rmw.parameter_scalars import scalar_value
+from bot_console.runtime.rmw.parameter_yaml import key_matches
+from launch.utilities import perform_substitutions
+from launch.utilities.type_utils import is_normalized_substitution
+
+PARAMETERS_KEY = "ros__parameters"
+INT64 = range(-(2**63), 2**63)
+
+
+def warn_of_files(files: Iterable[str], node_name: str, origin: str) -> None:
+    """Warn of each file none of whose keys means the node."""
+    for path in files:
+        keys = _keys_of(path, os.path.getmtime(path)) if os.path.isfile(path) else ()
+        if keys and not any(key_matches(key, node_name) for key, _ in keys):
+            named = ", ".join(f"{key} (line {line})" for key, line in keys[:5])
+            _warn(origin, f"no key of the parameter file {path} means the node {node_name}; it has {named}")
+
+
+@lru_cache(maxsize=64)
+def _keys_of(path: str, _changed: float) -> tuple[tuple[str, int], ...]:
+    """Node keys of a file with their lines; none where it cannot be read, because the node says that better."""
+    import yaml
+
+    try:
+        with open(path, encoding="utf-8") as file:
+            root = yaml.compose(file, yaml.SafeLoader)
+    except (OSError, UnicodeDecodeError, yaml.YAMLError):
+        return ()
+    return tuple(_node_keys(root, ""))
+
+
+def _node_keys(node: Any, prefix: str) -> Iterator[tuple[str, int]]:
+    pairs = node.value if isinstance(node and node.value, list) else ()
+    for pair in pairs:
+        if not isinstance(pair, tuple):
+            return
+        key, value = pair
+        if key.value == PARAMETERS_KEY:
+            yield prefix, node.start_mark.line
+        else:
+            yield from _node_keys(value, f"{prefix}/{key.value}" if prefix else str(key.value))
+
+
+def warn_of_values(context: Any, given: Mapping[Any, Any], evaluated: Mapping[str, Any], origin: str) -> None:
+    """Warn of values of a dict whose type changes on the way to the node."""
+    for (_, value), (name, found) in zip(given.items(), evaluated.items(), strict=False):
+        if is_normalized_substitution(value):
+            text = perform_substitutions(context, value)
+            if changes_in_yaml(text, found):
+                _warn(origin, f"{name}: the text '{text}' is the {_kind(found)} {found!r} by YAML's rules")
+        _warn_of_scalar(name, found, origin)
+
+
+def _warn_of_scalar(name: str, value: Any, origin: str) -> None:
+    if isinstance(value, bytes):
+        _warn(origin, f"{name}: bytes arrive as their base64 text")
+    elif isinstance(value, int) and value not in INT64:
+        _warn(origin, f"{name}: {value} has more than 64 bits and arrives as a double")
+    elif isinstance(value, str) and changes_in_file(value):
+        arrives = scalar_value(value)
+        _warn(
+            origin,
+            f"{name}: the string '{value}' arrives as the {_kind(arrives)} {arrives!r}, because it is "
+            "written without quotes",
+        )
+
+
+def warn_of_argument(name: str, value: Any, origin: str) -> None:
+    """Warn of a value for all nodes, which travels as plain text."""
+    if isinstance(value, (list, tuple)):
+        _warn(origin, f"{name}: a list set for all nodes arrives as the string '{value}'")
+    elif isinstance(value, str) and not isinstance(scalar_value(value), str):
+        arrives = scalar_value(value)
+        _warn(origin, f"{name}: the string '{value}' arrives as the {_kind(arrives)} {arrives!r}")
+
+
+def changes_in_yaml(text: str, found: Any) -> bool:
+    """Whether YAML made something else of a text than a reader would."""
+    plain = text.strip()
+    if isinstance(found, bool):
+        return plain.lower() not in ("true", "false")
+    if isinstance(found, int):
+        return str(found) != plain.removeprefix("+")
+    return isinstance(found, float) and ":" in plain
+
+
+def changes_in_file(text: str) -> bool:
+    """Whether a string that YAML writes without quotes is no string to rcl."""
+    import yaml
+
+    return not isinstance(scalar_value(text), str) and yaml.dump(text).splitlines()[0] == text
+
+
+def _kind(value: Any) -> str:
+    return {bool: "bool", int: "integer", float: "double", str: "string"}.get(type(value), type(value).__name__)
+
+
+def _warn(origin: str, text: str) -> None:
+    where = f"{origin}: " if origin else ""
+    launch.logging.get_logger("launch").warning(f"{where}{text}")
