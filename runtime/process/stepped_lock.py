@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from _thread import LockType, allocate_lock, get_ident
+from _thread import allocate_lock
 from collections import deque
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
@@ -28,7 +28,7 @@ class SteppedLock:
     __slots__ = ("__weakref__", "_lock", "_waiters")
 
     def __init__(self) -> None:
-        self._lock: LockType = allocate_lock()
+        self._lock: Any = allocate_lock()
         self._waiters: deque[Wakeup] = deque()
 
     def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
@@ -64,7 +64,7 @@ class SteppedLock:
     def _give_up(self, turn: Wakeup) -> None:
         """Pass a turn on that came together with what ended the wait."""
         self._withdraw(turn)
-        if turn.is_set() and not self._lock.locked():
+        if turn.is_set() and not self.locked():
             self._call_next()
 
     def release(self) -> None:
@@ -87,55 +87,46 @@ class SteppedLock:
         self.release()
 
 
-class SteppedRLock:
-    """As `threading.RLock`, of a stepped run."""
+class SteppedRLock(SteppedLock):
+    """As `threading.RLock`, of a stepped run.
 
-    __slots__ = ("__weakref__", "_count", "_lock", "_owner")
+    The built-in one inside takes it and notes the owner in one go: a finalizer of the same thread may come any time.
+    """
+
+    __slots__ = ()
 
     def __init__(self) -> None:
-        self._lock = SteppedLock()
-        self._owner = 0
-        self._count = 0
-
-    def acquire(self, blocking: bool = True, timeout: float = -1) -> bool:
-        """Take the lock once more; whether that was done."""
-        me = get_ident()
-        if self._owner == me:
-            self._count += 1
-            return True
-        if not self._lock.acquire(blocking, timeout):
-            return False
-        self._owner, self._count = me, 1
-        return True
+        self._lock: Any = _RealRLock()
+        self._waiters = deque()
 
     def release(self) -> None:
         """Give it back once. Raises `RuntimeError` where the calling thread does not have it."""
-        if self._owner != get_ident():
-            raise RuntimeError("cannot release un-acquired lock")
-        self._count -= 1
-        if not self._count:
-            self._owner = 0
-            self._lock.release()
+        self._lock.release()
+        if self._waiters and not self._is_owned():
+            self._call_next()
 
-    __enter__ = acquire
-
-    def __exit__(self, *_error: object) -> None:
-        self.release()
+    def locked(self) -> bool:
+        """Whether someone has it."""
+        if self._is_owned() or not self._lock.acquire(False):
+            return True
+        self._lock.release()
+        return False
 
     # What `threading.Condition` asks of its lock.
 
     def _is_owned(self) -> bool:
-        return self._owner == get_ident()
+        return self._lock._is_owned()
 
     def _release_save(self) -> tuple[int, int]:
-        state = self._count, self._owner
-        self._count = self._owner = 0
-        self._lock.release()
+        state = self._lock._release_save()
+        if self._waiters:
+            self._call_next()
         return state
 
     def _acquire_restore(self, state: tuple[int, int]) -> None:
-        self._lock.acquire()
-        self._count, self._owner = state
+        self.acquire()
+        for _ in range(state[0] - 1):
+            self._lock.acquire(False)
 
 
 class Lock:
