@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.commands import KeyCommands
@@ -16,19 +16,18 @@ from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.plot import PlotPane
 from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.screens.output import OutputScreen
-from bot_console.tui.terminal import SUPPORTED, AnswerGate, GatedScreen
+from bot_console.tui.terminal.output import SparingApp
 from bot_console.tui.theme import DARK
 from bot_console.tui.widgets.key_bar import KeyBar
 from bot_console.tui.widgets.status_bar import StatusBar
 from rich.style import Style
 from rich.text import Text
 from textual import events
-from textual.app import App, ComposeResult
+from textual.app import ComposeResult
 from textual.binding import BindingType
 from textual.command import Provider
 from textual.containers import Container
 from textual.geometry import Size
-from textual.screen import Screen
 from textual.types import CSSPathType
 from textual.widgets import Input, Static
 
@@ -43,7 +42,7 @@ SMALLEST = (60, 20)
 HERE = Path(__file__).parent
 
 
-class BotConsoleApp(App[None]):
+class BotConsoleApp(SparingApp):
     """rqt for the terminal."""
 
     TITLE = "bot-console"
@@ -73,11 +72,6 @@ class BotConsoleApp(App[None]):
         self._on_first_frame = on_first_frame
         self._snapshot = ConsoleSnapshot()
         self._extent = Size(80, 24)
-        self.gate = AnswerGate()
-
-    def get_default_screen(self) -> Screen[Any]:
-        """A screen that waits for the terminal, where this version of Textual allows it."""
-        return GatedScreen(self.gate) if SUPPORTED else Screen[Any](id="_default")
 
     def compose(self) -> ComposeResult:
         """Tabs, panes, status, footer, and a word for terminals that are too small."""
@@ -91,6 +85,7 @@ class BotConsoleApp(App[None]):
 
     def on_mount(self) -> None:
         """Choose the theme, lay out, and begin to pull."""
+        self.ask()
         self.register_theme(DARK)
         self.theme = DARK.name
         self._extent = self.size
@@ -250,7 +245,7 @@ class BotConsoleApp(App[None]):
 
     def action_redraw(self) -> None:
         """Draw everything anew."""
-        self.refresh(repaint=True, layout=True)
+        self.redraw()
 
     def on_pane_plot_wanted(self, event: Pane.PlotWanted) -> None:
         """Plot a path that another pane names."""
@@ -268,10 +263,6 @@ class BotConsoleApp(App[None]):
     def _show_output(self, line: str, done: Future[str]) -> None:
         error = done.exception()
         self.push_screen(OutputScreen(line, str(error) if error else done.result()))
-
-    def on_cursor_position(self, event: events.CursorPosition) -> None:
-        """The terminal has drawn a frame."""
-        self.gate.answered()
 
 
 def tabs_text(marks: Sequence[tuple[str, str, str, bool]], width: int) -> Text:

@@ -1,0 +1,59 @@
+"""A piece of a line as single cells: what letter each shows, and in which style. Pure."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from functools import lru_cache
+from typing import NamedTuple
+
+from rich.cells import get_character_cell_size
+from rich.color import ColorSystem
+from rich.segment import Segment
+from rich.style import Style
+from textual.strip import Strip
+
+NARROW = re.compile(r"[\x20-\x7e\xa0-\xac\xae-\u02ff\u2190-\u2199\u2500-\u25fc\u2800-\u28ff]*")
+"""Texts whose letters take one cell each in every terminal."""
+
+
+class Cells(NamedTuple):
+    """Letters and SGR codes, one of each for every cell; `uneven` where letters are not all one cell wide."""
+
+    letters: list[str]
+    styles: list[str]
+    uneven: bool = False
+
+
+def cells_of(segments: Iterable[Segment], colours: ColorSystem) -> Cells:
+    """The cells of a piece of a line. A wide letter stands in its first cell, the other one is empty."""
+    letters: list[str] = []
+    styles: list[str] = []
+    uneven = False
+    for text, style, control in segments:
+        if control:
+            continue
+        before = len(letters)
+        if NARROW.fullmatch(text):
+            letters += text
+        else:
+            uneven = True
+            _spread(text, letters)
+        styles += [codes_of(style, colours) if style else ""] * (len(letters) - before)
+    return Cells(letters, styles, uneven)
+
+
+def _spread(text: str, letters: list[str]) -> None:
+    for letter in text:
+        width = get_character_cell_size(letter)
+        if width:
+            letters.append(letter)
+            letters += [""] * (width - 1)
+        elif letters:
+            letters[-1] += letter
+
+
+@lru_cache(maxsize=4096)
+def codes_of(style: Style, colours: ColorSystem) -> str:
+    """The SGR codes of a style."""
+    return Strip.render_ansi(style, colours)

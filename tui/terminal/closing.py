@@ -1,0 +1,77 @@
+"""Leaving a terminal that takes nothing any more."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import termios
+import threading
+from collections.abc import Iterator
+from typing import Any
+
+GRACE = 1.0
+"""Seconds that a terminal has to take what is still to be written."""
+
+LAST_WORDS = (
+    "\x18\x1b[m\x1b[?2026l\x1b[?1000l\x1b[?1002l\x1b[?1003l\x1b[?1006l\x1b[?1015l\x1b[?1004l\x1b[?2004l\x1b[?7h\x1b[<u"
+    "\x1b[?1049l\x1b[?25h"
+)
+"""Ends a sequence that was cut off, then every mode that Textual has set, for when the terminal wakes up."""
+
+
+@contextlib.contextmanager
+def let_go(driver: Any) -> Iterator[None]:
+    """Close a driver in here; if its writer is still blocked after a while, what it writes is thrown away.
+
+    Textual waits for the writer without an end, so that quitting would hang on a stalled terminal.
+    """
+    writer: threading.Thread | None = getattr(driver, "_writer_thread", None)
+    if writer is None or threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    done = threading.Event()
+    watch = threading.Thread(target=_watch, args=(writer, done), name="let-go", daemon=True)
+    with _interrupted_by(signal.SIGURG):
+        watch.start()
+        try:
+            yield
+        finally:
+            done.set()
+            watch.join()
+
+
+def _watch(writer: threading.Thread, done: threading.Event) -> None:
+    if done.wait(GRACE) or not writer.is_alive() or writer.ident is None:
+        return
+    descriptor = writer._file.fileno()  # type: ignore[attr-defined] # of Textual's WriterThread
+    terminal = os.dup(descriptor)
+    sink = os.open(os.devnull, os.O_WRONLY)
+    # A write that is interrupted is tried again on the same descriptor, which leads nowhere now.
+    os.dup2(sink, descriptor)
+    while writer.is_alive() and not done.wait(0.01):
+        with contextlib.suppress(ProcessLookupError):
+            signal.pthread_kill(writer.ident, signal.SIGURG)
+    _last_words(terminal)
+    os.dup2(terminal, descriptor)
+    os.close(sink)
+    os.close(terminal)
+
+
+def _last_words(terminal: int) -> None:
+    with contextlib.suppress(OSError, termios.error):
+        termios.tcflush(terminal, termios.TCOFLUSH)
+        os.set_blocking(terminal, False)
+        try:
+            os.write(terminal, LAST_WORDS.encode())
+        finally:
+            os.set_blocking(terminal, True)
+
+
+@contextlib.contextmanager
+def _interrupted_by(number: int) -> Iterator[None]:
+    before = signal.signal(number, lambda *_: None)
+    try:
+        yield
+    finally:
+        signal.signal(number, before)

@@ -1,0 +1,118 @@
+"""What the terminal shows, cell by cell, and the shortest text that turns it into something else."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+
+from bot_console.tui.terminal.cells import Cells, cells_of
+from bot_console.tui.terminal.pen import RESET, change
+from rich.color import ColorSystem
+from rich.segment import Segment
+from textual.strip import Strip
+
+UNKNOWN = "\0"
+"""Stands for a cell of which nobody knows what it shows."""
+
+JUMP = 4
+"""Bytes of a move of the cursor within a line: up to so many equal cells are written again instead."""
+
+
+class ShownScreen:
+    """The cells of the terminal as they were written last."""
+
+    def __init__(self) -> None:
+        self._letters: list[list[str]] = []
+        self._styles: list[list[str]] = []
+        self._strips: list[dict[int, list[Segment]]] = []
+
+    def forget(self, width: int, height: int) -> None:
+        """Nobody knows what the terminal shows: it was resized, or others have written to it."""
+        self._letters = [[UNKNOWN] * width for _ in range(height)]
+        self._styles = [[""] * width for _ in range(height)]
+        self._strips = [{} for _ in range(height)]
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Columns and lines."""
+        return len(self._letters[0]) if self._letters else 0, len(self._letters)
+
+    def update(self, lines: Iterable[tuple[int, Mapping[int, Strip | None]]], colours: ColorSystem) -> str:
+        """Take in new pieces of lines, by line and column; the text that shows them is empty when they are shown."""
+        writer = Writer()
+        for y, pieces in lines:
+            if 0 <= y < len(self._letters):
+                for x, cells in self._changed(y, pieces, colours):
+                    self._write(writer, y, x, cells)
+        return writer.text()
+
+    def _changed(self, y: int, pieces: Mapping[int, Strip | None], colours: ColorSystem) -> Iterator[tuple[int, Cells]]:
+        """The pieces of a line that are not the same objects, or equal ones, as those of the last time."""
+        known = self._strips[y]
+        if known.keys() != pieces.keys():
+            # Pieces that begin elsewhere overwrite parts of the old ones, so these say nothing any more.
+            known = self._strips[y] = {x: [] for x in pieces}
+        for x, strip in pieces.items():
+            if strip is None:
+                continue
+            segments = list(strip)
+            if segments != known[x]:
+                known[x] = segments
+                yield x, cells_of(segments, colours)
+
+    def _write(self, writer: Writer, y: int, x: int, new: Cells) -> None:
+        letters, styles = self._letters[y], self._styles[y]
+        end = min(len(letters), x + len(new.letters))
+        differing = [
+            at for at in range(x, end) if new.letters[at - x] != letters[at] or (new.styles[at - x] != styles[at])
+        ]
+        if not differing:
+            return
+        uneven = new.uneven or "" in letters[x:end]
+        letters[x:end], styles[x:end] = new.letters[: end - x], new.styles[: end - x]
+        if uneven:
+            # Terminals do not agree on how wide such letters are, so nothing after the first change is relied on.
+            begin = differing[0]
+            while begin > x and not letters[begin]:
+                begin -= 1
+            differing = list(range(begin, end))
+        for at in differing:
+            writer.cell(y, at, letters, styles)
+
+
+class Writer:
+    """Gathers cells into text with few moves of the cursor and few changes of style."""
+
+    def __init__(self) -> None:
+        self._parts: list[str] = []
+        self._style: str | None = None
+        self._y = -1
+        self._x = -1
+
+    def cell(self, y: int, x: int, letters: list[str], styles: list[str]) -> None:
+        """Write one cell of a line; cells come in order."""
+        self._move(y, x, letters, styles)
+        style = styles[x]
+        if style != self._style:
+            self._parts.append(change(self._style, style))
+            self._style = style
+        self._parts.append(letters[x])
+        self._x = x + 1
+
+    def _move(self, y: int, x: int, letters: list[str], styles: list[str]) -> None:
+        if y != self._y:
+            self._parts.append(f"\x1b[{y + 1};{x + 1}H" if x else f"\x1b[{y + 1}H")
+        elif x > self._x:
+            self._parts.append(self._across(letters[self._x : x], styles[self._x : x]))
+        self._y = y
+
+    def _across(self, letters: list[str], styles: list[str]) -> str:
+        """Over cells that stay as they are: by writing them again, or by a move, whichever is shorter."""
+        text = "".join(letters)
+        known = UNKNOWN not in letters and "" not in letters
+        if known and len(text.encode()) <= JUMP and all(each == self._style for each in styles):
+            return text
+        return f"\x1b[{len(letters)}C"
+
+    def text(self) -> str:
+        """All of it; the style is put back."""
+        return "".join([*self._parts, RESET]) if self._parts else ""

@@ -1,0 +1,88 @@
+"""When the next frame may be drawn: as fast as the terminal takes them, and no faster than a person needs. Pure."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Callable
+
+PACE = 0.1
+"""Seconds from one frame to the next, while no key is pressed."""
+
+EAGER = 0.3
+"""Seconds after a key in which frames are not paced, since they show what the key has done."""
+
+IN_FLIGHT = 2
+"""Frames that the terminal has not answered yet."""
+
+SLOW = 0.25
+"""Seconds; where an answer takes longer, one frame in flight keeps the line busy enough."""
+
+PATIENCE = 2.0
+SLOWEST = 2000.0
+"""An answer is waited for so many seconds, and for the time that a line of so many bytes per second takes; after each
+answer that does not come twice as long, up to a minute, so that nothing piles up in front of a stalled terminal."""
+LONGEST = 60.0
+
+RECENT = 5.0
+"""Seconds for which merged frames count as news."""
+NOTICEABLE = 10
+
+
+class AnswerGate:
+    """Counts frames that the terminal has not answered; a terminal that never answers is not waited for."""
+
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self._clock = clock
+        self._asked: deque[tuple[float, float]] = deque()
+        self._answers = False
+        self._allowed = IN_FLIGHT
+        self._disappointed = 0
+        self._drawn = self._pressed = float("-inf")
+        self._merged: deque[float] = deque(maxlen=100)
+
+    def wait(self) -> float:
+        """Seconds until a frame may be drawn, unless an answer comes before; 0 for now."""
+        now = self._clock()
+        while self._asked and now >= self._asked[0][1]:
+            self._asked.popleft()
+            self._disappointed += 1
+        if self._answers and len(self._asked) >= self._allowed:
+            return self._asked[0][1] - now
+        if now - self._pressed < EAGER:
+            return 0.0
+        return max(0.0, self._drawn + PACE - now)
+
+    def asked(self, size: int) -> None:
+        """A question was written, and so many bytes before it."""
+        now = self._clock()
+        patience = (PATIENCE + size / SLOWEST) * 2 ** min(self._disappointed, 10)
+        self._asked.append((now, now + min(patience, LONGEST)))
+
+    def drawn(self) -> None:
+        """A frame was written."""
+        self._drawn = self._clock()
+
+    def answered(self) -> None:
+        """The terminal has answered the oldest question."""
+        self._answers = True
+        self._disappointed = 0
+        if self._asked:
+            began, _ = self._asked.popleft()
+            self._allowed = 1 if self._clock() - began > SLOW else IN_FLIGHT
+
+    def pressed(self) -> None:
+        """A key was pressed: what comes of it is shown at once."""
+        self._pressed = self._clock()
+
+    def merged(self) -> None:
+        """A frame was held back, and merged into a later one."""
+        if self._answers and len(self._asked) >= self._allowed:
+            self._merged.append(self._clock())
+
+    @property
+    def held_back(self) -> int:
+        """Frames merged in the last seconds, at most 100; 0 while there are so few that nobody would notice."""
+        since = self._clock() - RECENT
+        count = sum(each >= since for each in self._merged)
+        return count if count >= NOTICEABLE else 0

@@ -1,0 +1,180 @@
+"""The only file that hangs on private parts of Textual (8.2); with other versions the app draws as Textual does.
+
+Every frame comes through `App._display`. There it is reduced to the cells that differ from what the terminal shows, and
+followed by a question (`CSI 6n`, where is the cursor). While the terminal owes answers nothing more is drawn: what is
+dirty stays dirty and merges into one later frame, so that a slow link shows fewer frames, not late ones, and a stalled
+one never blocks the event loop.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from importlib.metadata import version
+from typing import Any
+
+from bot_console.tui.terminal.closing import let_go
+from bot_console.tui.terminal.difference import ShownScreen
+from bot_console.tui.terminal.gate import AnswerGate
+from rich.color import ColorSystem
+from textual import events
+from textual._compositor import ChopsUpdate, LayoutUpdate
+from textual.app import App
+from textual.geometry import Region
+from textual.screen import Screen
+from textual.strip import Strip
+
+QUESTION = "\x1b[6n"
+SYNC_BEGIN, SYNC_END = "\x1b[?2026h", "\x1b[?2026l"
+BUSY = 0.03
+"""Seconds after which is looked again whether earlier output has left."""
+
+SUPPORTED = version("textual").startswith("8.2.")
+
+
+class SparingApp(App[None]):
+    """An app that sends no more than the terminal needs and takes."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.gate = AnswerGate()
+        self._shown = ShownScreen()
+        self._writer: object = None
+        self._held = False
+
+    def get_default_screen(self) -> Screen[Any]:
+        """A screen that composes nothing while nothing may be drawn."""
+        return HoldingScreen() if SUPPORTED else Screen[Any](id="_default")
+
+    def ask(self) -> None:
+        """Ask the terminal something before the first frame, to learn whether it answers."""
+        if self._sparing():
+            self._driver_or_none().write(QUESTION)
+            self.gate.asked(0)
+
+    def on_cursor_position(self, event: events.CursorPosition) -> None:
+        """The terminal has drawn what came before the question."""
+        self.gate.answered()
+        self._draw_held()
+
+    async def on_event(self, event: events.Event) -> None:
+        """Keys and clicks are answered at once; after a change of size nobody knows what the terminal shows."""
+        if isinstance(
+            event, (events.Key, events.MouseDown, events.MouseUp, events.MouseScrollUp, events.MouseScrollDown)
+        ):
+            self.gate.pressed()
+        elif isinstance(event, events.Resize):
+            self._shown = ShownScreen()
+        await super().on_event(event)
+
+    def redraw(self) -> None:
+        """Send every cell again: others have written to the terminal."""
+        self._shown = ShownScreen()
+        self.refresh(repaint=True, layout=True)
+
+    # Frames -------------------------------------------------------------------------------------------------------
+
+    def may_draw(self) -> bool:
+        """Whether a frame would be sent now; if not, it is as soon as that changes."""
+        if not self._sparing() or (self._waiting() <= 0 and not self._batch_count):
+            return True
+        self.gate.merged()
+        if not self._held:
+            self._held = True
+            self._look_again()
+        return False
+
+    def _driver_or_none(self) -> Any:
+        return self._driver
+
+    def _sparing(self) -> bool:
+        driver = self._driver_or_none()
+        return SUPPORTED and driver is not None and not (self.is_headless or driver.is_inline) and self._running
+
+    def _waiting(self) -> float:
+        """Seconds until a frame may be drawn."""
+        writer = getattr(self._driver, "_writer_thread", None)
+        # A full queue of Textual's writer would block the event loop.
+        busy = writer is not None and writer._queue.qsize() > 0
+        return max(BUSY if busy else 0.0, self.gate.wait())
+
+    def _look_again(self) -> None:
+        self.set_timer(max(0.005, min(self._waiting(), 0.5) if not self._batch_count else BUSY), self._draw_held)
+
+    def _draw_held(self) -> None:
+        """Draw what was held back, if it may be drawn now."""
+        if not self._held or not self.screen_stack:
+            return
+        if self._batch_count or self._waiting() > 0:
+            self._look_again()
+            return
+        self._held = False
+        self.screen._compositor_refresh()
+
+    def _display(self, screen: Screen[Any], renderable: Any) -> None:
+        if not isinstance(renderable, (ChopsUpdate, LayoutUpdate)) or not self._sparing():
+            super()._display(screen, renderable)
+            return
+        compositor: Any = screen._compositor
+        if not self.may_draw():
+            compositor._dirty_regions.update(_regions(renderable))
+            return
+        text = self._difference(compositor.size, _lines(renderable))
+        if text:
+            self._send(text)
+        self.post_display_hook()
+
+    def _difference(self, size: tuple[int, int], lines: Mapping[int, Mapping[int, Strip | None]]) -> str:
+        # A new writer means that the terminal was handed to somebody else meanwhile.
+        writer = getattr(self._driver, "_writer_thread", None)
+        if self._shown.size != tuple(size) or writer is not self._writer:
+            self._writer = writer
+            self._shown.forget(*size)
+        console: Any = self.console
+        return self._shown.update(lines.items(), console._color_system or ColorSystem.TRUECOLOR)
+
+    def _send(self, text: str) -> None:
+        x, y = self.screen.outer_size.clamp_offset(self.cursor_position)
+        text += f"\x1b[{y + 1};{x + 1}H"
+        if self._sync_available:
+            text = SYNC_BEGIN + text + SYNC_END
+        # One write and not five: each is an item in the writer's queue.
+        self._driver_or_none().write(text + QUESTION)
+        self.gate.asked(len(text))
+        self.gate.drawn()
+
+    async def _shutdown(self) -> None:
+        with let_go(self._driver):
+            await super()._shutdown()
+
+
+class HoldingScreen(Screen[None]):
+    """A screen that composes nothing while nothing may be drawn; what is dirty stays so."""
+
+    def _compositor_refresh(self) -> None:
+        app = self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
+        if isinstance(app, SparingApp) and self is app.screen and not app.may_draw():
+            self._dirty_widgets.clear()
+            return
+        super()._compositor_refresh()
+
+
+def _lines(update: ChopsUpdate | LayoutUpdate) -> dict[int, Mapping[int, Strip | None]]:
+    """The pieces of each line that may have changed."""
+    if isinstance(update, ChopsUpdate):
+        return {y: update.chops[y] for y, _, _ in update.spans}
+    lines: dict[int, Mapping[int, Strip | None]] = {}
+    for y, strips in enumerate(update.strips, update.region.y):
+        pieces: dict[int, Strip | None] = {}
+        x = update.region.x
+        for strip in strips:
+            pieces[x] = strip
+            x += strip.cell_length
+        lines[y] = pieces
+    return lines
+
+
+def _regions(update: ChopsUpdate | LayoutUpdate) -> set[Region]:
+    """What an update that is not shown leaves to be drawn."""
+    if isinstance(update, LayoutUpdate):
+        return {update.region}
+    return {Region(x1, y, x2 - x1, 1) for y, x1, x2 in update.spans}

@@ -1,0 +1,67 @@
+"""From one SGR style to the next with the fewest bytes (ECMA-48, 8.3.117). Pure."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import NamedTuple
+
+RESET = "\x1b[m"
+OFF = {"1": "22", "2": "22", "3": "23", "4": "24", "5": "25", "6": "25", "7": "27", "8": "28", "9": "29", "21": "24"}
+"""The code that ends each attribute."""
+
+
+class Pen(NamedTuple):
+    """A style taken apart: attributes, foreground and background, each as SGR codes; empty for the default."""
+
+    attributes: frozenset[str]
+    ground: str
+    background: str
+
+
+@lru_cache(maxsize=4096)
+def parsed(codes: str) -> Pen:
+    """Take SGR codes such as `1;38;2;1;2;3` apart."""
+    attributes: set[str] = set()
+    grounds = ["", ""]
+    numbers = codes.split(";") if codes else []
+    at = 0
+    while at < len(numbers):
+        number = numbers[at]
+        length = 1
+        if number in ("38", "48"):
+            length = 5 if numbers[at + 1 : at + 2] == ["2"] else 3
+        colour = ";".join(numbers[at : at + length])
+        value = int(number or "0")
+        if value in (38, *range(30, 38), *range(90, 98)):
+            grounds[0] = colour
+        elif value in (48, *range(40, 48), *range(100, 108)):
+            grounds[1] = colour
+        elif number in OFF or value > 9:
+            attributes.add(number)
+        at += length
+    attributes -= {"39", "49"}
+    return Pen(frozenset(attributes), grounds[0], grounds[1])
+
+
+@lru_cache(maxsize=4096)
+def change(before: str | None, after: str) -> str:
+    """The sequence that turns one style into another; `None` is a style that is not known."""
+    whole = f"\x1b[0;{after}m" if after else RESET
+    if before is None:
+        return whole
+    old, new = parsed(before), parsed(after)
+    ended = old.attributes - new.attributes
+    if not ended <= OFF.keys():
+        return whole
+    stops = sorted({OFF[each] for each in ended})
+    # Bold and faint have one end in common, so that ending one of them ends both.
+    kept = {each for each in old.attributes & new.attributes if OFF.get(each) not in stops}
+    codes = [*stops, *sorted(new.attributes - kept)]
+    if new.ground != old.ground:
+        codes.append(new.ground or "39")
+    if new.background != old.background:
+        codes.append(new.background or "49")
+    if not codes:
+        return ""
+    short = f"\x1b[{';'.join(codes)}m"
+    return short if len(short) < len(whole) else whole
