@@ -47,7 +47,8 @@ def _info_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _info(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
-        found = [each for each in node_names(node, include_hidden=True) if each.full_name == arguments.node_name]
+        names = node_names(node, include_hidden=arguments.include_hidden)
+        found = [each for each in names if each.full_name == arguments.node_name]
         if not found:
             return f"Unable to find node '{arguments.node_name}'"
         if len(found) > 1:

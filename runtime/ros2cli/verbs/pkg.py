@@ -41,8 +41,8 @@ def _prefix(arguments: argparse.Namespace) -> Result:
 
 
 def _executables_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--full-path", action="store_true", help="Show the full path of each executable")
-    parser.add_argument("package_name", nargs="?", help="Only list executables of this package")
+    parser.add_argument("package_name", nargs="?", help="The package name")
+    parser.add_argument("--full-path", action="store_true", help="Show full path of each executable")
 
 
 def _executables(arguments: argparse.Namespace) -> Result:
@@ -70,16 +70,15 @@ def _xml(arguments: argparse.Namespace) -> Result:
     except (PackageNotFoundError, ValueError):
         return "Package not found"
     if not path.exists():
-        return f"Could not find package.xml of '{arguments.package_name}'"
-    text = path.read_text(encoding="utf-8")
-    if not arguments.tag:
-        print(text)
+        return "Package xml manifest not found"
+    tree = ElementTree.parse(path)
+    if arguments.tag is None:
+        ElementTree.dump(tree)
         return None
-    found = [each.text or "" for each in ElementTree.fromstring(text).iter(arguments.tag)]
-    if not found:
-        return f"No tag '{arguments.tag}' found"
-    print("\n".join(found))
-    return None
+    found = tree.getroot().findall(arguments.tag)
+    for each in found:
+        print(each.text)
+    return None if found else "XML tag not found"
 
 
 COMMAND = Command(

@@ -52,9 +52,14 @@ def _name_arguments(parser: argparse.ArgumentParser) -> None:
     _hidden_argument(parser)
 
 
+def _info_arguments(parser: argparse.ArgumentParser) -> None:
+    add_strategy_arguments(parser)
+    parser.add_argument("service_name", help="Name of the ROS service to get info (e.g. '/add_two_ints')")
+
+
 def _type(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
-        types = dict(_rows(node, include_hidden=True)).get(arguments.service_name)
+        types = dict(_rows(node, arguments.include_hidden_services)).get(arguments.service_name)
     if types is None:
         return 1
     for each in types:
@@ -65,7 +70,7 @@ def _type(arguments: argparse.Namespace) -> Result:
 def _info(arguments: argparse.Namespace) -> Result:
     name = arguments.service_name
     with DirectNode(arguments) as node:
-        types = dict(_rows(node, include_hidden=True)).get(name)
+        types = dict(_rows(node, arguments.include_hidden_services)).get(name)
         if types is None:
             return f"Unknown service '{name}'"
         clients = servers = 0
@@ -159,7 +164,7 @@ COMMAND = Command(
     (
         Verb("call", "Call a service", _call, _call_arguments),
         Verb("find", "Output a list of available services of a given type", _find, _find_arguments),
-        Verb("info", "Print information about a service", _info, _name_arguments),
+        Verb("info", "Print information about a service", _info, _info_arguments),
         Verb("list", "Output a list of available services", _list, _list_arguments),
         Verb("type", "Output a service's type", _type, _name_arguments),
     ),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 
+from rclpy.node import Node
 from ros2cli.command import Command, Result, Verb
 from ros2cli.direct_node import DirectNode, add_strategy_arguments
 from ros2cli.endpoints import hidden
@@ -24,7 +25,7 @@ def _list_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-v", "--verbose", action="store_true", help="List full details about each topic")
 
 
-def _names_and_types(node, include_hidden: bool) -> list[tuple[str, list[str]]]:  # type: ignore[no-untyped-def]
+def _names_and_types(node: Node, include_hidden: bool) -> list[tuple[str, list[str]]]:
     return sorted(
         (name, types) for name, types in node.get_topic_names_and_types() if include_hidden or not hidden(name)
     )
@@ -36,7 +37,7 @@ def _list(arguments: argparse.Namespace) -> Result:
         counts = {name: (node.count_publishers(name), node.count_subscribers(name)) for name, _ in rows}
     if arguments.count_topics:
         print(len(rows))
-    elif arguments.verbose:
+    elif arguments.verbose and rows:
         _print_sides(rows, counts)
     else:
         for name, types in rows:
@@ -92,7 +93,7 @@ def _type_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _type(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
-        types = dict(_names_and_types(node, include_hidden=True)).get(arguments.topic_name)
+        types = dict(_names_and_types(node, arguments.include_hidden_topics)).get(arguments.topic_name)
     if types is None:
         return 1
     for each in types:

@@ -86,3 +86,12 @@ def test_call_refuses_what_does_not_fit(ros) -> None:
     assert wrong.exit == 1
     assert wrong.stderr == "Failed to populate field: 'AddTwoInts_Request' object has no attribute 'c'\n"
     assert ros.ask("service", "call", "/x", "std_srvs/srv/Nope").stderr == "The passed service type is invalid\n"
+
+
+def test_hidden_things_are_found_when_told_so(ros) -> None:
+    ros.node(SERVER)
+    ros.node("node = Node('_secret')")
+    assert ros.ask("node", "info", "/_secret").stderr == "Unable to find node '/_secret'\n"
+    assert ros.ask("node", "info", "/_secret", "--include-hidden").stdout.startswith("/_secret\n")
+    assert ros.ask("service", "type", "/math/_hidden").exit == 1
+    assert ros.ask("service", "type", "/math/_hidden", "--include-hidden-services").stdout == "std_srvs/srv/SetBool\n"
