@@ -8,13 +8,12 @@ from functools import lru_cache
 from typing import Any
 
 import launch.logging
-from bot_console.runtime.rmw.parameter_scalars import scalar_value
+from bot_console.runtime.rmw.parameter_scalars import INT64_MAX, INT64_MIN, scalar_value
 from bot_console.runtime.rmw.parameter_yaml import key_matches
 from launch.utilities import perform_substitutions
 from launch.utilities.type_utils import is_normalized_substitution
 
 PARAMETERS_KEY = "ros__parameters"
-INT64 = range(-(2**63), 2**63)
 
 
 def warn_of_files(files: Iterable[str], node_name: str, origin: str) -> None:
@@ -64,7 +63,7 @@ def warn_of_values(context: Any, given: Mapping[Any, Any], evaluated: Mapping[st
 def _warn_of_scalar(name: str, value: Any, origin: str) -> None:
     if isinstance(value, bytes):
         _warn(origin, f"{name}: bytes arrive as their base64 text")
-    elif isinstance(value, int) and value not in INT64:
+    elif isinstance(value, int) and not INT64_MIN <= value <= INT64_MAX:
         _warn(origin, f"{name}: {value} has more than 64 bits and arrives as a double")
     elif isinstance(value, str) and changes_in_file(value):
         arrives = scalar_value(value)

@@ -1,0 +1,127 @@
+"""Warnings, with file and line, where upstream is silent; what happens stays the same."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from launch.substitutions import LaunchConfiguration
+from launch.undeclared_arguments import WarnOfUndeclaredArguments
+from launch_ros.actions import Node, SetParameter
+from launch_ros.parameter_warnings import changes_in_file, changes_in_yaml
+from launching import Launch, Outcome
+
+
+def warnings(outcome: Outcome) -> list[str]:
+    prefix = "[WARNING] [launch]: "
+    return [each.removeprefix(prefix) for each in outcome.lines if each.startswith(prefix)]
+
+
+def node(**options: Any) -> Node:
+    return Node(executable="true", **options)
+
+
+def test_arguments_that_are_not_declared(run: Launch) -> None:
+    from launch.actions import DeclareLaunchArgument, LogInfo
+
+    entities = [
+        DeclareLaunchArgument("speed", default_value="1"),
+        LogInfo(msg=LaunchConfiguration("read", default="")),
+        WarnOfUndeclaredArguments(["sped", "read", "speed", "launch-prefix", "zzz"]),
+    ]
+    assert warnings(run(entities)) == [
+        "the launch argument 'sped' is neither declared nor read by the launch file; did you mean 'speed'?",
+        "the launch argument 'zzz' is neither declared nor read by the launch file",
+    ]
+
+
+FILE = """robot_nod:
+  ros__parameters:
+    a: 1
+ns:
+  other:
+    ros__parameters: {b: 2}
+"""
+
+
+def test_a_file_that_means_another_node(run_file: Launch, tmp_path: Path) -> None:
+    file = tmp_path / "f.yaml"
+    file.write_text(FILE)
+    text = f'<launch>\n  <node exec="true" name="robot_node">\n    <param from="{file}"/>\n  </node>\n</launch>\n'
+    assert warnings(run_file(text, "x.launch.xml")) == [
+        f"{tmp_path}/x.launch.xml:2: no key of the parameter file {file} means the node /robot_node; it has "
+        "robot_nod (line 1), ns/other (line 5)"
+    ]
+
+
+@pytest.mark.parametrize(
+    ("keys", "options"),
+    [
+        ("robot", {"name": "robot"}),
+        ("/robot", {"name": "robot"}),
+        ("/**", {"name": "robot"}),
+        ("/**/robot", {"name": "robot", "namespace": "a/b"}),
+        ("/*/robot", {"name": "robot", "namespace": "a"}),
+        ("any", {}),
+    ],
+)
+def test_files_that_mean_the_node(run: Launch, tmp_path: Path, keys: str, options: Any) -> None:
+    file = tmp_path / "f.yaml"
+    file.write_text(f"{keys}:\n  ros__parameters: {{a: 1}}\n")
+    assert warnings(run([node(parameters=[str(file)], **options)])) == []
+
+
+VALUES: list[tuple[Any, str]] = [
+    ("1e3", "p: the string '1e3' arrives as the double 1000.0, because it is written without quotes"),
+    ("y", "p: the string 'y' arrives as the bool True, because it is written without quotes"),
+    (b"ab", "p: bytes arrive as their base64 text"),
+    (2**63, "p: 9223372036854775808 has more than 64 bits and arrives as a double"),
+    (LaunchConfiguration("octal"), "p: the text '0123' is the integer 83 by YAML's rules"),
+    (LaunchConfiguration("time"), "p: the text '12:30:45' is the integer 45045 by YAML's rules"),
+    (LaunchConfiguration("yes"), "p: the text 'yes' is the bool True by YAML's rules"),
+]
+
+
+@pytest.mark.parametrize(("value", "said"), VALUES, ids=[row[1] for row in VALUES])
+def test_values_whose_type_changes(run: Launch, value: Any, said: str) -> None:
+    action = node(parameters=[{"p": value}])
+    [found] = warnings(run([action], {"octal": "0123", "time": "12:30:45", "yes": "yes"}))
+    assert found == f"{action.origin}: {said}"
+    assert action.origin.startswith(f"{__file__}:")
+
+
+@pytest.mark.parametrize("value", [True, 1, -5, 2.5, "text", "5", "true", "", "null", [1, 2], ["y", "n"]])
+def test_values_that_stay_what_they_are(run: Launch, value: Any) -> None:
+    class Own(int):
+        pass
+
+    assert warnings(run([node(parameters=[{"p": value, "own": Own(4)}])])) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "changes"), [("5", False), ("+5", False), ("-3", False), ("1_000", True), ("0x1F", True)]
+)
+def test_numbers_in_yaml(text: str, changes: bool) -> None:
+    import yaml
+
+    assert changes_in_yaml(text, yaml.safe_load(text)) is changes
+
+
+def test_strings_in_files() -> None:
+    assert [changes_in_file(each) for each in ("1e3", "nan", "5", "yes", "a")] == [True, True, False, False, False]
+
+
+def test_parameters_for_all(run: Launch) -> None:
+    said = warnings(run([SetParameter("a", "5"), SetParameter("b", [1, 2]), SetParameter("c", 1)]))
+    assert [each.partition(": ")[2] for each in said] == [
+        "a: the string '5' arrives as the integer 5",
+        "b: a list set for all nodes arrives as the string '(1, 2)'",
+    ]
+
+
+def test_two_of_one_name_without_a_namespace(run: Launch) -> None:
+    first, second = node(name="n"), node(name="n")
+    assert warnings(run([first, second, node(), node()])) == [
+        f"{second.origin}: this node and the one of {first.origin} have the same name /n"
+    ]
