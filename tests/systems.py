@@ -14,6 +14,9 @@ from bot_console.runtime.process import NodeProcess, SteppedTime, file_program, 
 LONG = 120.0
 """How long (virtual s) a command may take that is to end by itself."""
 
+STALL = 30.0
+"""How long (wall s) a program may compute or import before the run goes on without it."""
+
 
 @dataclass
 class Program:
@@ -86,7 +89,7 @@ class System:
 @contextmanager
 def system() -> Iterator[System]:
     """A system whose programs are ended with the block."""
-    with stepped() as clock:
+    with stepped(stall_s=STALL) as clock:
         yield System(clock)
 
 
