@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from launch.calling_line import calling_line
 from launch.condition import Condition
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.origin import origin_of_caller
@@ -17,12 +16,6 @@ class Action(LaunchDescriptionEntity):
         self.__condition = condition
         self.origin = origin_of_caller()
         """Where it was made, as `file:line`."""
-        self.__made_at = calling_line()
-
-    @property
-    def made_at(self) -> tuple[str, int] | None:
-        """File and line of the launch file that made it; None where launch itself did, as for XML (not upstream)."""
-        return self.__made_at
 
     @property
     def condition(self) -> Condition | None:

@@ -30,6 +30,8 @@ class LaunchContext:
         self.declared_arguments: set[str] = set()
         self.read_configurations: set[str] = set()
         self.names_without_namespace: dict[str, str] = {}
+        self.resolving = False
+        """Whether nothing is started: the launch file is only evaluated."""
         self.__is_shutdown = False
         self.__asyncio_loop: asyncio.AbstractEventLoop | None = None
         self.__logger = launch.logging.get_logger(__name__)

@@ -3,6 +3,20 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Mapping
+
+
+def print_resolved(path: str, arguments: Mapping[str, str]) -> int:
+    """Print the tree of a launch file with everything evaluated; 1 when the launch would fail."""
+    from launch_ros.resolved_description import resolve_description
+
+    try:
+        for line in resolve_description(path, arguments):
+            print(line)
+    except Exception as error:  # a launch file is a program: what it raises is told without a traceback
+        print(f"{type(error).__name__}: {error}", file=sys.stderr)
+        return 1
+    return 0
 
 
 def print_description(path: str) -> int:

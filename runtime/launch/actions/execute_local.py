@@ -184,7 +184,7 @@ class ExecuteLocal(Action):
         if self.__executed:
             raise RuntimeError(f"ExecuteLocal action '{name}': executed more than once: {self.describe()}")
         self.__executed = True
-        if context.is_shutdown:
+        if context.is_shutdown or context.resolving:
             return None
         self.__logger = launch.logging.get_logger(name)
         if not isinstance(self.__output, dict):

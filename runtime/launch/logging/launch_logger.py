@@ -17,7 +17,8 @@ class LaunchLogger(logging.Logger):
                 handler.handle(record)
         if self.propagate:
             for handler in (launch_config.get_screen_handler(), launch_config.get_log_file_handler()):
-                handler.handle(record)
+                if record.levelno >= handler.level:
+                    handler.handle(record)
 
     def hasHandlers(self) -> bool:
         """True."""

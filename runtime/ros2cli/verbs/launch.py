@@ -60,6 +60,9 @@ def _arguments(parser: argparse.ArgumentParser) -> None:
         help="Regular expression for the names of executables that get the --launch-prefix",
     )
     parser.add_argument(
+        "--resolved", action="store_true", help="With --print: the tree with everything evaluated, and each parameter"
+    )
+    parser.add_argument(
         "--allow-missing", action="store_true", help="Go on without nodes whose executables are not installed"
     )
     parser.add_argument("package_name", help="The package that has the launch file, or the path of a launch file")
@@ -98,10 +101,12 @@ def _act(arguments: argparse.Namespace, path: str, words: list[str]) -> Result:
         from ros2cli.launch_show_args import show_args
 
         return show_args(path)
+    if arguments.resolved and not arguments.print:
+        return "--resolved goes with --print"
     if arguments.print:
-        from ros2cli.launch_print import print_description
+        from ros2cli.launch_print import print_description, print_resolved
 
-        return print_description(path)
+        return print_resolved(path, parse_launch_arguments(words)) if arguments.resolved else print_description(path)
     given = parse_launch_arguments(words)
     if arguments.launch_prefix_filter is not None and arguments.launch_prefix is None:
         return "--launch-prefix must be specified if --launch-prefix-filter is provided"

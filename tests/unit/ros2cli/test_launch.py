@@ -261,3 +261,54 @@ def test_exit_codes(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
     for text, code in rows:
         (folder / "e.launch.py").write_text(template.format(text))
         assert launched(capsys, "e.launch.py")[0] == code, text
+
+
+RESOLVED = """
+<launch>
+  <arg name="speed" default="1"/>
+  <log message="never" if="false"/>
+  <set_parameter name="everywhere" value="yes"/>
+  <group>
+    <push_ros_namespace namespace="fleet"/>
+    <node exec="true" name="worker">
+      <param name="speed" value="$(var speed)"/>
+      <param from="{file}"/>
+      <remap from="a" to="b"/>
+    </node>
+  </group>
+  <timer period="1.0"><log message="later"/></timer>
+</launch>
+"""
+
+
+def test_print_resolved(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
+    (folder / "f.yaml").write_text("/**:\n  ros__parameters: {speed: 2.5, names: [a, b]}\n")
+    path = folder / "r.launch.xml"
+    path.write_text(RESOLVED.format(file=folder / "f.yaml").lstrip())
+    code, out, err = launched(capsys, "--print", "--resolved", str(path), "speed:=7")
+    assert code == 0, err
+    assert out.splitlines() == [
+        f"include {path}",
+        "  speed = '7'",
+        "  argument speed = '7' (given)",
+        "  LogInfo (left out: its condition is false)",
+        "  SetParameter",
+        "  GroupAction",
+        "    PushLaunchConfigurations",
+        "    PushEnvironment",
+        "    PushROSNamespace",
+        f"    node /fleet/worker: true  [{path}:7]",
+        "      remap a -> b",
+        "      parameter everywhere = True  (bool, set by name)",
+        f"      parameter names = ['a', 'b']  (string_array, {folder}/f.yaml)",
+        "      parameter speed = 7  (integer, launch file)",
+        "    PopEnvironment",
+        "    PopLaunchConfigurations",
+        "  TimerAction",
+        "    after 1.0 seconds:",
+        "      LogInfo",
+    ]
+
+
+def test_resolved_goes_with_print(capsys: pytest.CaptureFixture[str]) -> None:
+    assert launched(capsys, "--resolved", "says.launch.py") == (1, "", "--resolved goes with --print\n")

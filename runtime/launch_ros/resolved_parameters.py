@@ -1,0 +1,74 @@
+"""The parameters that a node will start with: value, type, and which part of the launch file each comes from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from bot_console.runtime.rmw.parameter_yaml import ALL_NODES, ParameterTable, ParameterYamlError
+from launch_ros.descriptions.parameter_file import PREFIX
+from launch_ros.parameter_arguments import ParameterArgument
+
+
+@dataclass(frozen=True)
+class ResolvedParameter:
+    """A parameter's value, the word for its type, and where it comes from."""
+
+    name: str
+    value: Any
+    type_name: str
+    source: str
+
+
+def resolve_parameters(arguments: Iterable[ParameterArgument], node_name: str) -> list[ResolvedParameter]:
+    """The overrides of a node, by rcl's rules; raises `ParameterYamlError` for what the node would refuse."""
+    together = ParameterTable()
+    sources: dict[str, list[tuple[str, Any]]] = {}
+    for argument, is_file in arguments:
+        alone = ParameterTable()
+        for table in (together, alone):
+            _add(table, argument, is_file)
+        source = _source(argument, is_file)
+        for name, value in alone.for_node(node_name).items():
+            sources.setdefault(name, []).append((source, value))
+    return [
+        ResolvedParameter(name, value, _type_name(value), _source_of(sources[name], value))
+        for name, value in sorted(together.for_node(node_name).items())
+    ]
+
+
+def problem_of(arguments: Iterable[ParameterArgument], node_name: str) -> str:
+    """Why the node would refuse its parameters; empty when it would not."""
+    try:
+        resolve_parameters(arguments, node_name)
+    except ParameterYamlError as error:
+        return str(error)
+    return ""
+
+
+def _add(table: ParameterTable, argument: str, is_file: bool) -> None:
+    if is_file:
+        table.add_file(argument)
+    else:
+        name, _, value = argument.partition(":=")
+        table.add_value(ALL_NODES, name, value)
+
+
+def _source(argument: str, is_file: bool) -> str:
+    if not is_file:
+        return "set by name"
+    return "launch file" if Path(argument).name.startswith(PREFIX) else argument
+
+
+def _source_of(given: list[tuple[str, Any]], value: Any) -> str:
+    """The last source that gave the value which counts."""
+    return next((source for source, each in reversed(given) if each == value), given[-1][0])
+
+
+def _type_name(value: Any) -> str:
+    if isinstance(value, list):
+        return f"{_type_name(value[0])}_array" if value else "empty array"
+    names = {bool: "bool", int: "integer", float: "double", str: "string", type(None): "not set"}
+    return names.get(type(value), type(value).__name__)

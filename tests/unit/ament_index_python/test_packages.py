@@ -1,0 +1,71 @@
+"""The index of installed packages. Contract, section 1.6."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+
+import pytest
+from ament_index_python import get_resource, get_resource_types, get_resources, has_resource
+from ament_index_python.packages import (
+    PackageNotFoundError,
+    get_package_prefix,
+    get_package_share_directory,
+    get_package_share_path,
+    get_packages_with_prefixes,
+)
+
+
+@pytest.fixture
+def prefixes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[Path]:
+    """Two prefixes: the first has `both`, the second `both` and `second`."""
+    found = [tmp_path / "first", tmp_path / "second"]
+    for prefix, names in zip(found, (["both"], ["both", "second"]), strict=True):
+        index = prefix / "share" / "ament_index" / "resource_index" / "packages"
+        index.mkdir(parents=True)
+        for name in names:
+            (index / name).write_text(f"{name} of {prefix.name}")
+    (found[0] / "share" / "both").mkdir()
+    monkeypatch.setenv("AMENT_PREFIX_PATH", ":".join(map(str, [*found, tmp_path / "none"])))
+    return found
+
+
+def test_the_first_prefix_wins(prefixes: list[Path]) -> None:
+    first, second = map(str, prefixes)
+    assert get_package_prefix("both") == first
+    assert get_package_prefix("second") == second
+    assert get_packages_with_prefixes()["both"] == first
+    assert get_package_share_directory("both") == f"{first}/share/both"
+    assert get_package_share_path("both") == prefixes[0] / "share" / "both"
+
+
+def test_a_missing_share_folder_is_only_a_warning(prefixes: list[Path]) -> None:
+    with pytest.warns(UserWarning, match="does not exist"):
+        assert get_package_share_directory("second") == f"{prefixes[1]}/share/second"
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        get_package_share_directory("second", print_warning=False)
+
+
+def test_an_unknown_package(prefixes: list[Path]) -> None:
+    with pytest.raises(PackageNotFoundError) as caught:
+        get_package_prefix("nopkg")
+    assert isinstance(caught.value, KeyError)
+    assert str(caught.value) == f"\"package 'nopkg' not found, searching: {[str(each) for each in prefixes]}\""
+
+
+@pytest.mark.parametrize("name", ["./x.launch.py", "a/b", "", "a b"])
+def test_what_is_no_name(name: str) -> None:
+    with pytest.raises(ValueError, match="is not a valid package name"):
+        get_package_prefix(name)
+
+
+def test_resources(prefixes: list[Path]) -> None:
+    first, second = map(str, prefixes)
+    assert get_resource("packages", "both") == ("both of first", first)
+    assert get_resources("packages") == {"both": first, "second": second}
+    assert has_resource("packages", "second") == second
+    assert not has_resource("packages", "none")
+    assert get_resource_types() == {"packages": {first, second}}
+    with pytest.raises(LookupError):
+        get_resource("packages", "none")
