@@ -36,8 +36,17 @@ def said(program: Program) -> list[str]:
     return [each.message for each in logs(program)]
 
 
+def cannot_be_run(page: Page, name: str) -> None:
+    """There is no main() to run, which is said with the mend (N14)."""
+    failed = page.ask(f"ros2 run my_package {name}")
+    assert failed.exit == 1
+    assert f"module 'my_package.{name}' has no attribute 'main'" in failed.stderr
+    assert "Add def main()" in failed.stderr.splitlines()[-1]
+
+
 @row(117)
 def the_listing_runs_as_printed(page: Page, row: Row) -> None:
+    cannot_be_run(page, "dynamic_robot")
     robot = as_printed(page)
     assert [page.value(NODE, name) for name in ("speed", "mode", "sensitivity")] == ["1.0", "normal", "50"]
     assert row.quoted[-1] in said(robot)
@@ -112,7 +121,7 @@ rclpy.spin(node)"""
 
 @row(129)
 def the_client_has_its_clients(page: Page, row: Row) -> None:
-    """As printed the file defines no main() and starts nothing (N14)."""
+    cannot_be_run(page, "parameter_client")
     assert page.node_file("parameter_client.py").exit == 0
     page.python("import rclpy, parameter_client as page\nrclpy.init()\nrclpy.spin(page.ParameterClient())")
     info = page.ask(f"ros2 node info /{row.quoted[1]}").stdout
