@@ -24,5 +24,7 @@ def read_xml(text: str) -> tuple[ElementTree.Element, Lines]:
     try:
         parser.Parse(text, True)
     except expat.ExpatError as error:
-        raise ElementTree.ParseError(str(error)) from error
+        told = ElementTree.ParseError(str(error))
+        told.code, told.position = error.code, (error.lineno, error.offset)
+        raise told from error
     return builder.close(), lines

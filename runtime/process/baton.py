@@ -10,9 +10,11 @@ from _thread import allocate_lock
 from collections import deque
 from contextlib import suppress
 from heapq import heapify, heappop, heappush
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from .stepped_wakeup import SteppedWakeup
     from .thread_state import ThreadState
 
@@ -23,6 +25,7 @@ POLL_NS = 20_000
 INSTANT_WAITS = 50_000
 """How many waits may happen at one instant before each costs `POLL_NS`: nodes may keep each other awake for ever."""
 STALE_TIMERS = 64
+Note = TypeVar("Note")
 SIGNAL_CHECK_S = 0.2
 """How often (s of wall time) a waiting driver looks for real signals: another thread may have received them."""
 
@@ -181,14 +184,18 @@ class Baton:
                 if self.holder is None:
                     self._grant_next()
 
-    def detach(self, seat: Seat, turns: int) -> bool:
-        """Take the baton from a thread that blocks elsewhere, unless it has moved on since; whether that was done."""
+    def detach(self, seat: Seat, turns: int, note: Callable[[Seat], Note]) -> Note | None:
+        """Take the baton from a thread that blocks elsewhere, unless it has moved on since.
+
+        If so, what `note` says of it before the next one goes on; else None.
+        """
         with self._guard:
             if self.holder is not seat or self.turns != turns:
-                return False
+                return None
             seat.detached = True
+            said = note(seat)
             self._grant_next()
-            return True
+            return said
 
     def _enlist(self, seat: Seat, wakeup: SteppedWakeup | None, deadline: int | None) -> None:
         seat.waiting = True

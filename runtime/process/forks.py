@@ -49,8 +49,8 @@ def _become(process: NodeProcess) -> None:
         capture = getattr(process, name)
         if capture is not None:
             os.dup2(capture.fileno(), descriptor)
-            setattr(sys, name, open(descriptor, "w", buffering=1, closefd=False))
-    sys.stdin = open(os.devnull)
+            setattr(sys, name, open(descriptor, "w", buffering=1, closefd=False))  # noqa: SIM115 - for the life of the process
+    sys.stdin = open(os.devnull)  # noqa: SIM115
     sys.argv = process.argv
     sys.path = process.path
     environment = dict(process.env)

@@ -45,6 +45,16 @@ def thread_line(ident: int) -> str | None:
     return None if frame is None else describe(user_frame(frame))
 
 
+def is_importing(ident: int) -> bool:
+    """Whether a thread is in the import machinery, or in a library's module that is being imported."""
+    frame = sys._current_frames().get(ident)
+    while frame is not None and _is_library(frame.f_code.co_filename):
+        if frame.f_code.co_filename.startswith("<frozen importlib"):
+            return True
+        frame = frame.f_back
+    return False
+
+
 def _is_ours(frame: FrameType) -> bool:
     return frame.f_code.co_filename.startswith((_PROCESS, "<frozen importlib", "<frozen runpy"))
 

@@ -35,7 +35,12 @@ class _Main:
     def __call__(self) -> None:
         target, self._target = self._target, None
         assert target is not None
-        code = exit_code_of(target)
+        try:
+            code = exit_code_of(target)
+        except BaseException:  # an interrupt that fell into its last words
+            code = SIGINT_EXIT
+        if local.state is not None:
+            local.state.ending = True
         if self._process.is_alive:
             self._wind_down()
             self._process.finish(code)

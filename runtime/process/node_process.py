@@ -42,7 +42,8 @@ class ProcessState(Enum):
 class NodeProcess:
     """A process as its code sees it: arguments, environment, output, signals, exit code, and its own clock source.
 
-    Its clock source is that of the process which makes it unless given. `start` runs a callable in it. All other methods may be called from any thread.
+    Its clock source is that of the process which makes it unless given. `start` runs a callable in it. All other
+    methods may be called from any thread.
     """
 
     def __init__(self, name: str, clock: ClockSource | None = None) -> None:

@@ -9,8 +9,23 @@ from collections.abc import Callable
 from types import ModuleType
 from typing import Any
 
+from .crashes import explain_with
 from .fresh_import import FreshModules
 from .thread_state import local
+
+NO_MAIN = (
+    "An executable of setup.py is a function of a module, and this module has no function main(). Add def main(): "
+    "rclpy.init(), make the node, rclpy.spin(node)"
+)
+
+
+def _no_main(exception: BaseException) -> str | None:
+    if isinstance(exception, AttributeError) and isinstance(exception.obj, ModuleType) and exception.name == "main":
+        return NO_MAIN
+    return None
+
+
+explain_with(_no_main)
 
 
 def file_program(path: str, modules: FreshModules | None = None) -> Callable[[], None]:

@@ -18,7 +18,8 @@ LOOKS_PER_STALL = 4
 class StallWatch:
     """Takes the baton from a thread that has not come back to it for `stall_s` s of wall time."""
 
-    def __init__(self, baton: Baton, stall_s: float, report: Callable[[Seat], None]) -> None:
+    def __init__(self, baton: Baton, stall_s: float, report: Callable[[Seat], Callable[[], None]]) -> None:
+        """`report(seat)` is called before others go on, and what it returns when they can."""
         self._baton = baton
         self._stall_s = stall_s
         self._report = report
@@ -41,8 +42,9 @@ class StallWatch:
             seen = turns
             if looks >= LOOKS_PER_STALL and seat is not None and seat.rank != LAST:
                 looks = 0
-                if self._baton.detach(seat, turns):
-                    self._report(seat)
+                told = self._baton.detach(seat, turns, self._report)
+                if told is not None:
+                    told()
 
     def _go_on(self) -> bool:
         with self._guard:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
@@ -110,14 +110,15 @@ class SteppedTime:
         self._unpin()
         uninstall_stepped_calls()
 
-    def _report_stall(self, seat: Seat) -> None:
+    def _report_stall(self, seat: Seat) -> Callable[[], None]:
         self.deterministic = False
-        if seat.state is None:
-            return
-        line = frames.thread_line(seat.state.ident)
-        self.stalls.append(f"{seat.state.process.name}: {line}")
-        notify(
-            seat.state.process,
+        state = seat.state
+        if state is None:
+            return lambda: None
+        line = frames.thread_line(state.ident)
+        self.stalls.append(f"{state.process.name}: {line}")
+        return lambda: notify(
+            state.process,
             f"{line} has blocked the stepped run for {self._stall_s:g} s of wall time, so that others run beside it "
             "and the run is not deterministic. Wait with time.sleep, rclpy or threading instead",
         )

@@ -10,10 +10,16 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from . import frames, real
+
 if TYPE_CHECKING:
     from .baton import Seat
     from .clock_source import ClockSource
     from .node_process import NodeProcess
+
+
+IMPORT_PATIENCE_S = 0.005
+"""How long (s) until it is looked again whether a thread that imports has done so."""
 
 
 class ProcessKilled(BaseException):
@@ -34,6 +40,7 @@ class ThreadState:
         "_waker",
         "clock",
         "daemon",
+        "ending",
         "finished",
         "ident",
         "killed",
@@ -53,6 +60,8 @@ class ThreadState:
         self.ident = 0
         self.waits = 0
         self.killed = False
+        self.ending = False
+        """Whether its program is over: what remains is the runtime's own work, and nothing is thrown into that."""
         self._guard = allocate_lock()
         self._pending: deque[Callable[[], Any]] = deque()
         self._waker: Callable[[], None] | None = None
@@ -108,11 +117,19 @@ class ThreadState:
             return True
 
     def throw(self, exception: type[BaseException]) -> None:
-        """Raise in the thread, a busy one at its next bytecode; a call into C code has to return first."""
+        """Raise in the thread, a busy one at its next bytecode; a call into C code has to return first.
+
+        The import machinery is left to finish: in the middle of it the exception could be lost, or leave a module's
+        lock held for ever, which all other node processes would wait for.
+        """
         with self._guard:
             if self.waiting:
                 self._pending.append(partial(_raise, exception))
                 self._wake()
+            elif self.ending:
+                return
+            elif self.ident and frames.is_importing(self.ident):
+                real.later(IMPORT_PATIENCE_S, partial(self.throw, exception))
             elif self.ident and self.thread.is_alive():
                 import ctypes
 

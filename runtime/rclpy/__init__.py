@@ -76,9 +76,10 @@ def get_global_executor() -> Executor:
     from rclpy.executors import SingleThreadedExecutor
 
     holder = _global_executor.get()
-    if not holder:
+    if not holder or holder[0].context is not get_default_context():
         executor = SingleThreadedExecutor()
-        holder.append(executor)
+        executor.is_global = True
+        holder[:] = [executor]
 
         def forget() -> None:
             holder.clear()

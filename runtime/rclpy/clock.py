@@ -169,7 +169,7 @@ class Clock:
         if until._clock_type != self._clock_type:
             raise ValueError("until's clock type does not match this clock's type")
         wakeup = self._source.wakeup()
-        forget = context.on_shutdown(wakeup.set)
+        forget = context.on_end(wakeup.set)
         changed: list[bool] = []
 
         def jumped(jump: Any) -> None:

@@ -61,9 +61,11 @@ class Executor:
         self._wakeup = self._clock.wakeup()
         self._waiting = 0
         self._is_shutdown = False
+        self.is_global = False
+        """Whether it is the one of `rclpy.spin`, which ends silently with `rclpy.shutdown`."""
         self._polled = False
         """Whether the last call that gave work was one that does not wait."""
-        self._context.on_shutdown(self.wake)
+        self._context.on_end(self.wake)
 
     @property
     def context(self) -> Any:
@@ -203,7 +205,7 @@ class Executor:
                 raise ShutdownException
             if context.ended:
                 current().deliver_signals()
-                raise ExternalShutdownException
+                raise ShutdownException if self.is_global and not context.ended_by_signal else ExternalShutdownException
             if condition is not None and condition():
                 raise ConditionReachedException
             if not self._new_batch():

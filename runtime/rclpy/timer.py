@@ -157,7 +157,7 @@ class Rate:
         self._is_destroyed = False
         self._sleepers = 0
         timer.callback = self._tick
-        context.on_shutdown(self._shutdown)
+        context.on_end(self._shutdown)
 
     def _tick(self) -> None:
         self._wakeup.set()

@@ -21,12 +21,12 @@ from bot_console.runtime.importer import install
 
 install()
 
-from bot_console.runtime.rosidl.cdr import deserialize, serialize  # noqa: E402
-from bot_console.runtime.rosidl.definition import DTYPES, TYPECODES, parse_type  # noqa: E402
-from geometry_msgs.msg import Twist, Vector3  # noqa: E402
-from rosbags.typesys import Stores, get_typestore  # noqa: E402
-from sensor_msgs.msg import LaserScan  # noqa: E402
-from std_msgs.msg import Float64, String  # noqa: E402
+from bot_console.runtime.rosidl.cdr import deserialize, serialize
+from bot_console.runtime.rosidl.definition import DTYPES, TYPECODES, parse_type
+from geometry_msgs.msg import Twist, Vector3
+from rosbags.typesys import Stores, get_typestore
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import Float64, String
 
 COUNT = 20_000
 STORE = get_typestore(Stores.ROS2_JAZZY)

@@ -19,18 +19,18 @@ from bot_console.runtime.importer import install
 
 install()
 
-import rclpy  # noqa: E402
-from rcl_interfaces.msg import (  # noqa: E402
+import rclpy
+from rcl_interfaces.msg import (
     FloatingPointRange,
     ParameterDescriptor,
     ParameterEvent,
     ParameterValue,
     SetParametersResult,
 )
-from rcl_interfaces.msg import Parameter as ParameterMsg  # noqa: E402
-from rcl_interfaces.srv import SetParameters  # noqa: E402
-from rclpy.executors import SingleThreadedExecutor  # noqa: E402
-from rclpy.parameter import Parameter  # noqa: E402
+from rcl_interfaces.msg import Parameter as ParameterMsg
+from rcl_interfaces.srv import SetParameters
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.parameter import Parameter
 
 SETS = 5_000
 ENTRIES = 1_000

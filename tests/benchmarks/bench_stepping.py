@@ -1,6 +1,6 @@
 """What turns, waits and starts of node processes cost: `python tests/benchmarks/bench_stepping.py [RUNS]`, JSON out.
 
-Processor time in microseconds unless a name says otherwise, medians of some runs with spread. The floor of a turn is two
+Processor time in microseconds unless a name says otherwise, medians of some runs with spread. The floor of a turn: two
 threads that wake each other with one lock each, on one processor as the stepped run is.
 """
 

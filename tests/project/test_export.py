@@ -39,7 +39,9 @@ def test_every_ros_import_is_a_dependency_of_the_manifest(tmp_path):
 
 def test_setup_py_is_a_program_that_python_takes(tmp_path):
     place = export(tmp_path)
-    done = subprocess.run([sys.executable, "setup.py", "--name"], cwd=place, capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        [sys.executable, "setup.py", "--name"], cwd=place, capture_output=True, text=True, check=False
+    )
     if "No module named 'setuptools'" in done.stderr:
         pytest.skip("setuptools is not installed")
     assert done.stdout.strip().endswith(NAME)

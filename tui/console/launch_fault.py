@@ -84,7 +84,7 @@ def _file_line(causes: Sequence[BaseException]) -> Place | None:
     """The file that a reader of XML or YAML was at, and the line where its parser says one."""
     frames = [frame for error in causes for frame in _frames(error.__traceback__)]
     files = [each for each in (frame.f_locals.get("launch_file_path") for frame in frames) if isinstance(each, str)]
-    return (files[-1], _parsers_line(causes[-1])) if files else None
+    return (files[-1], _parsers_line(causes[-1]) or _elements_line(frames)) if files else None
 
 
 def _parsers_line(error: BaseException) -> int | None:
@@ -93,6 +93,12 @@ def _parsers_line(error: BaseException) -> int | None:
     if mark is not None:
         return mark.line + 1
     return None if position is None else position[0]
+
+
+def _elements_line(frames: Sequence[FrameType]) -> int | None:
+    """The line of the element that was being read, if it says so."""
+    lines = [getattr(frame.f_locals.get("entity"), "line", None) for frame in frames]
+    return next((line for line in reversed(lines) if isinstance(line, int)), None) or None
 
 
 def _entity_line(causes: Sequence[BaseException], file_of: Callable[[Any], str]) -> Place | None:
@@ -104,10 +110,10 @@ def _entity_line(causes: Sequence[BaseException], file_of: Callable[[Any], str])
     for frame in (frame for error in causes for frame in _frames(error.__traceback__)):
         entity = frame.f_locals.get("self")
         if isinstance(entity, Action):
-            made_at: Place | None = getattr(entity, "made_at", None)
+            made_in, _, line = str(getattr(entity, "origin", "")).rpartition(":")
             file = file_of(entity)
-            if made_at is not None and not made_at[0].startswith(libraries):
-                found = made_at
+            if line.isdigit() and not made_in.startswith(libraries):
+                found = (made_in, int(line))
             elif file:
                 found = (file, None)
     return found

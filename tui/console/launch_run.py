@@ -35,7 +35,7 @@ class LaunchRun:
     """Runs a launch file, or single processes, until nothing is left to do. Methods may be called from any thread."""
 
     def __init__(self, title: str, listener: Listener) -> None:
-        self.title = title
+        self.title = self.path = title
         self.tree = LaunchTree(title)
         self.ending = False
         """Whether it takes no more processes."""
@@ -44,7 +44,7 @@ class LaunchRun:
         self._service: Any = None
         self._unwanted = False
         self._reason = ""
-        self.logged = True
+        self.logged = False
         """Whether launch itself has logged why it failed."""
 
     def run_file(self, path: str, arguments: Mapping[str, str]) -> str:
@@ -54,19 +54,19 @@ class LaunchRun:
 
         from launch import LaunchContext
 
+        self.path = path
         source = AnyLaunchDescriptionSource(path)
         try:
             source.get_launch_description(LaunchContext())  # once more below, but from memory
         except (Exception, SystemExit) as error:  # a launch file is a program: whatever it raises is its reader's
-            self.logged = False
-            return fault_text(error, path)
-        return self._run([IncludeLaunchDescription(source, launch_arguments=arguments.items())], path)
+            return self.fault(error)
+        return self._run([IncludeLaunchDescription(source, launch_arguments=arguments.items())])
 
     def run_action(self, make: Callable[[], Any], failed: Callable[[str], None]) -> str:
         """Run one process to its end, see `start`; what went wrong with the launch itself, if anything."""
-        return self._run([self._guarded(make, failed)], self.title)
+        return self._run([self._guarded(make, failed)])
 
-    def _run(self, entities: list[Any], path: str) -> str:
+    def _run(self, entities: list[Any]) -> str:
         from launch import LaunchDescription, LaunchService
 
         service = LaunchService(noninteractive=True)
@@ -75,12 +75,19 @@ class LaunchRun:
                 return ""
             self._service = service
         service.include_launch_description(LaunchDescription([*self._handlers(), *entities]))
-        code = service.run(shutdown_when_idle=True)
-        self.ending = True
+        try:
+            code = service.run(shutdown_when_idle=True)
+        finally:
+            self.ending = True
+        self.logged = code != 0
         failure = getattr(service, "failure", None)
         if failure is not None:
-            return fault_text(failure, path, self.tree.file_of)
-        return f"{path}: {self._reason.removeprefix(CAUGHT)}" if code else ""
+            return self.fault(failure)
+        return f"{self.path}: {self._reason.removeprefix(CAUGHT)}" if code else ""
+
+    def fault(self, error: BaseException) -> str:
+        """What went wrong, with file and line."""
+        return fault_text(error, self.path, self.tree.file_of)
 
     def _handlers(self) -> Iterable[Any]:
         from launch.actions import IncludeLaunchDescription, RegisterEventHandler

@@ -138,7 +138,7 @@ class RosLauncher:
         try:
             problem = work()
         except (Exception, SystemExit) as error:  # the border of the launch thread
-            problem = f"{run.title}: {error}"
+            problem = run.fault(error)
         with self._lock:
             del self._runs[run]
             of_file = self._unanswered.pop(run, None)

@@ -111,6 +111,8 @@ def limits_of(text: str) -> tuple[float, float] | None:
         raise ValueError("write two numbers, such as: 0 2.5") from None
     if not (math.isfinite(low) and math.isfinite(high) and low < high):
         raise ValueError("the first number must be the smaller one")
+    if not math.isfinite(high - low):
+        raise ValueError("the two numbers are too far apart")
     return low, high
 
 

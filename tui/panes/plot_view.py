@@ -16,6 +16,9 @@ from bot_console.tui.widgets.picture import Line
 LABEL = 9
 """Cells of the value axis with its labels."""
 
+HUGE = 1e300
+"""Values beyond are drawn here, so that the difference of two values is always a number."""
+
 
 @dataclass(frozen=True)
 class Mark:
@@ -68,7 +71,7 @@ def _style(curve: Curve) -> str:
 
 def _reach(curve: Curve, axes: Axes, across: int) -> Reach:
     times, values = curve.between(axes.start, axes.end)
-    return reach(times, values, axes.start, axes.end, across * 2)
+    return reach(times, np.clip(values, -HUGE, HUGE), axes.start, axes.end, across * 2)
 
 
 def limits(reaches: Sequence[Reach]) -> tuple[float, float]:
@@ -109,11 +112,9 @@ def _labels(low: float, high: float, down: int) -> dict[int, str]:
     """The text of each labelled row."""
     step = tick_step(high - low, max(2, down // 3))
     labels: dict[int, str] = {}
-    value = math.ceil(low / step - 1e-9) * step
-    while value <= high + step * 1e-6:
-        row = round((high - value) / (high - low) * (down * 4 - 1)) // 4
-        labels[row] = short_number(value, step)
-        value += step
+    for count in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-6) + 1):
+        row = round((high - count * step) / (high - low) * (down * 4 - 1)) // 4
+        labels[row] = short_number(count * step, step)
     return labels
 
 
@@ -135,15 +136,14 @@ def _time_axis(marks: Sequence[Mark], axes: Axes, across: int) -> list[Line]:
     step = tick_step(span, max(2, across // 12))
     axis = ["─"] * across
     labels = [" "] * (LABEL + across)
-    ago = 0.0
-    while ago <= span * (1 + 1e-9):
+    for count in range(math.floor(span / step + 1e-9) + 1):
+        ago = count * step
         column = min(across - 1, round((1 - ago / span) * (across - 1)))
         axis[column] = "┬"
         text = "now" if ago == 0 else f"-{short_number(ago, step)}s"
         begin = min(LABEL + column - len(text) // 2, LABEL + across - len(text))
         if begin >= 0:
             labels[begin : begin + len(text)] = text
-        ago += step
     for mark in marks:
         if axes.start <= mark.time <= axes.end:
             column = min(across - 1, int((mark.time - axes.start) / span * across))

@@ -50,7 +50,7 @@ def _spread(text: str, letters: list[str]) -> None:
             letters.append(letter)
             letters += [""] * (width - 1)
         elif letters:
-            letters[-1] += letter
+            letters[-1 if letters[-1] or len(letters) == 1 else -2] += letter
 
 
 @lru_cache(maxsize=4096)

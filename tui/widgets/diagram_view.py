@@ -69,6 +69,7 @@ class DiagramView(ScrollView, can_focus=True):
         self._drawings: dict[Flow, Drawing] = {}
         self._flow: Flow | None = None
         self._selecting = False
+        self._downward = False
 
     def show(self, graph: Digraph, warned: frozenset[str] = frozenset()) -> None:
         """Draw a graph; items in `warned` stand out. Selection and scroll position stay where they can."""
@@ -99,8 +100,10 @@ class DiagramView(ScrollView, can_focus=True):
         for each in flows:
             if each not in self._drawings:
                 self._drawings[each] = draw(self._graph, each)
-        drawing = self._drawings[min(flows, key=self._excess)] if flows else self.drawing
+        flow = min(flows, key=self._excess) if flows else RIGHT
+        drawing = self._drawings.get(flow, self.drawing)
         if drawing is not self.drawing:
+            self._downward = flow.downward
             self.drawing = drawing
             self.places = dict(drawing.places or {})
             self._links = frozenset(drawing.edges)
@@ -133,7 +136,7 @@ class DiagramView(ScrollView, can_focus=True):
     def _first(self) -> str:
         def order(item: str) -> tuple[bool, int, int]:
             place = self.places[item]
-            return not place.boxed, place.x, place.y
+            return (not place.boxed, place.y, place.x) if self._downward else (not place.boxed, place.x, place.y)
 
         return min(self.places, key=order, default="")
 

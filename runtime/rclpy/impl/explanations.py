@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import linecache
 from collections.abc import Callable
-from types import ModuleType
 
 WRONG_PARAMETER = (
     "Parameter is imported from rcl_interfaces.msg here, where it is the message class: it has no Parameter.Type and "
@@ -13,11 +12,6 @@ WRONG_PARAMETER = (
 NO_RESULT = (
     "A callback of add_on_set_parameters_callback returned nothing. It must return a SetParametersResult on every "
     "path: end it with  return SetParametersResult(successful=True)"
-)
-
-NO_MAIN = (
-    "An executable of setup.py is a function of a module, and this module has no function main(). Add def main(): "
-    "rclpy.init(), make the node, rclpy.spin(node)"
 )
 
 
@@ -44,14 +38,9 @@ def _no_result(exception: BaseException) -> bool:
     return isinstance(exception, AttributeError) and exception.obj is None and exception.name == "successful"
 
 
-def _no_main(exception: BaseException) -> bool:
-    return isinstance(exception, AttributeError) and isinstance(exception.obj, ModuleType) and exception.name == "main"
-
-
 _KNOWN: tuple[tuple[Callable[[BaseException], bool], str], ...] = (
     (_wrong_parameter, WRONG_PARAMETER),
     (_no_result, NO_RESULT),
-    (_no_main, NO_MAIN),
 )
 
 

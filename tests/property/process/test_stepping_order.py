@@ -1,4 +1,4 @@
-"""Whatever threads do, a stepped run gives the same trace each time, runs one of them at a time, and time only grows."""
+"""Whatever threads do, a stepped run gives the same trace, runs one of them at a time, and time only grows."""
 
 from __future__ import annotations
 
@@ -6,10 +6,9 @@ import queue
 import threading
 import time
 
+from bot_console.runtime.process import NodeProcess, stepped
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-from bot_console.runtime.process import NodeProcess, stepped
 
 DOORS = 3
 durations = st.integers(0, 5).map(lambda tenths: tenths / 10)

@@ -159,4 +159,4 @@ def test_bad_entry_points(entry_point):
 def test_a_missing_function_is_named(run, script, tmp_path):
     script("", "empty_of_test.py")
     ended = run(entry_point_program("empty_of_test:main", FreshModules([str(tmp_path)])))
-    assert ended.err[-1] == "AttributeError: module 'empty_of_test' has no attribute 'main'\n"
+    assert ended.err[-2] == "AttributeError: module 'empty_of_test' has no attribute 'main'\n"

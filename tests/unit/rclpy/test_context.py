@@ -11,6 +11,7 @@ import rclpy
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError, UnknownROSArgsError
 from rclpy.context import Context
 from rclpy.exceptions import NotInitializedException
+from rclpy.executors import ExternalShutdownException
 from rclpy.signals import SignalHandlerOptions, get_current_signal_handlers_options
 from std_msgs.msg import Int32
 
@@ -99,6 +100,45 @@ def test_shutdown_callbacks_in_order_and_once(ros: Any) -> None:
     assert got == ["a", "b", "late"]
     with pytest.raises(TypeError):
         context.on_shutdown("x")
+
+
+def test_a_signal_ends_without_the_callbacks(ros: Any) -> None:
+    context, got = ros.init(), []
+    context.on_shutdown(lambda: got.append("called"))
+    executor = ros.node().executor
+    context.shut_down_by_signal()
+    context.try_shutdown()
+    assert (context.ok(), got) == (False, [])
+    with pytest.raises(ExternalShutdownException):
+        executor.spin_once()
+
+
+def test_what_is_asked_before_init_is_called_as_well() -> None:
+    context, got = Context(), []
+    context.on_shutdown(lambda: got.append("called"))
+    context.init([])
+    context.shutdown()
+    assert got == ["called"]
+
+
+@pytest.mark.parametrize(("signal", "outcome"), [(False, None), (True, ExternalShutdownException)])
+def test_spin_ends_silently_but_for_signals(default: None, signal: bool, outcome: Any) -> None:
+    rclpy.init(args=[])
+    node, executor = rclpy.create_node("n"), rclpy.get_global_executor()
+    end = rclpy.get_default_context().shut_down_by_signal if signal else rclpy.shutdown
+
+    def end_while_it_waits() -> None:
+        while not executor._waiting:
+            threading.Event().wait(0.001)
+        end()
+
+    threading.Thread(target=end_while_it_waits).start()
+    with node:
+        if outcome is None:
+            assert rclpy.spin(node) is None
+        else:
+            with pytest.raises(outcome):
+                rclpy.spin(node)
 
 
 def test_a_context_keeps_no_object_alive_by_its_method(ros: Any) -> None:

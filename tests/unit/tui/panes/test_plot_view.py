@@ -26,7 +26,8 @@ def width_of(line: tuple[tuple[str, str], ...]) -> int:
 def test_no_peak_is_lost_however_many_samples_fall_into_a_column(values: list[float], columns: int) -> None:
     shown = curve(values)
     seen = reach(*shown.between(0.0, shown.times[-1]), 0.0, float(shown.times[-1]), columns)
-    assert np.nanmax(seen.high) == max(values) and np.nanmin(seen.low) == min(values)
+    assert np.nanmax(seen.high) == pytest.approx(max(values), abs=1e-9)
+    assert np.nanmin(seen.low) == pytest.approx(min(values), abs=1e-9)
     assert not np.isnan(seen.low).any()
 
 
@@ -71,6 +72,13 @@ def test_any_series_gives_lines_of_the_width_that_was_asked_for(values: list[flo
     assert len(strips([curve(values), curve(values)], axes, width, height, 0)) <= height
 
 
+@pytest.mark.parametrize("limits", [(-1e300, 1e300), (1e300, math.nextafter(1e300, math.inf)), (0.0, 5e-324)])
+def test_extreme_values_and_limits_come_to_an_end(limits: tuple[float, float]) -> None:
+    for values in (list(limits), [-1.7e308, 1.7e308]):
+        for axes in (Axes(0.0, 5.0), Axes(0.0, 5.0, limits)):
+            assert len(framed([curve(values)], [], axes, 60, 20)) == 20
+
+
 @given(st.floats(allow_nan=True, allow_infinity=True), st.sampled_from([0.0, 1e-7, 0.01, 0.5, 1.0, 20.0, 1e9]))
 def test_numbers_fit_their_place(value: float, step: float) -> None:
     assert len(short_number(value, step)) <= 7
@@ -81,7 +89,7 @@ def test_the_legend_tells_the_newest_value_and_the_figures_of_the_window() -> No
     assert "2.000" in text and "min 1.000  max 3.000  mean 2.000" in text and "1 not finite" in text
 
 
-@pytest.mark.parametrize("text", ["1", "a b", "2 1", "1 1", "nan 2", "1 2 3", "inf 3"])
+@pytest.mark.parametrize("text", ["1", "a b", "2 1", "1 1", "nan 2", "1 2 3", "inf 3", "-1.7e308 1.7e308"])
 def test_limits_that_make_no_sense_are_refused(text: str) -> None:
     assert wrong_limits(text)
 

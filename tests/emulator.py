@@ -1,0 +1,80 @@
+"""A terminal as far as the console uses one: cells, their styles, and where the cursor is."""
+
+from __future__ import annotations
+
+import re
+
+from rich.cells import get_character_cell_size
+
+TOKEN = re.compile(r"\x1b\[(?P<private>\??)(?P<numbers>[\d;]*)(?P<final>[@-~])|\x1b.|(?P<letter>[^\x1b])", re.DOTALL)
+BLANK = (" ", "")
+
+
+class Emulator:
+    """Takes output and remembers what each cell shows, and in which SGR style."""
+
+    def __init__(self, width: int, height: int) -> None:
+        self.cells = [[BLANK] * width for _ in range(height)]
+        self._x = self._y = 0
+        self._style: tuple[str, ...] = ()
+
+    def feed(self, text: str) -> None:
+        """Take output."""
+        for token in TOKEN.finditer(text):
+            if token["letter"] is not None:
+                self._put(token["letter"])
+            elif token["final"] and not token["private"]:
+                self._control(token["final"], token["numbers"])
+
+    def _control(self, final: str, numbers: str) -> None:
+        first, _, second = numbers.partition(";")
+        if final == "H":
+            self._y, self._x = int(first or 1) - 1, int(second or 1) - 1
+        elif final == "C":
+            self._x += int(first or 1)
+        elif final == "m":
+            self._style = styled(self._style, numbers)
+
+    def _put(self, letter: str) -> None:
+        width = get_character_cell_size(letter)
+        row = self.cells[self._y]
+        if not width:
+            before = self._x - 1 - (row[self._x - 1][0] == "")
+            row[before] = (row[before][0] + letter, row[before][1])
+            return
+        for at, shown in enumerate((letter, "")[:width]):
+            if self._x + at < len(row):
+                row[self._x + at] = (shown, ";".join(self._style))
+        self._x += width
+
+    def lines(self) -> list[str]:
+        """The letters of each line."""
+        return ["".join(letter for letter, _ in row) for row in self.cells]
+
+
+def styled(before: tuple[str, ...], numbers: str) -> tuple[str, ...]:
+    """A style after some more SGR codes: attributes in order, then foreground, then background."""
+    style = {_kind(code): code for code in before}
+    for code in _codes(numbers):
+        if code in ("", "0"):
+            style.clear()
+        elif code in ENDS:
+            for each in ENDS[code]:
+                style.pop(each, None)
+        else:
+            style[_kind(code)] = code
+    return tuple(style[each] for each in sorted(style))
+
+
+ENDS = {"22": ("1", "2"), "23": ("3",), "24": ("4",), "27": ("7",), "29": ("9",), "39": ("x",), "49": ("y",)}
+
+
+def _codes(numbers: str) -> list[str]:
+    return re.findall(r"[34]8;2;\d+;\d+;\d+|[34]8;5;\d+|\d+", numbers) or [""]
+
+
+def _kind(code: str) -> str:
+    value = int(code.partition(";")[0])
+    if value == 38 or 30 <= value <= 37 or 90 <= value <= 97:
+        return "x"
+    return "y" if value == 48 or 40 <= value <= 47 or 100 <= value <= 107 else code

@@ -1,0 +1,78 @@
+"""Whatever was shown and whatever comes next: after what is written, the terminal shows what comes next."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+from bot_console.tui.terminal.cells import cells_of
+from bot_console.tui.terminal.difference import ShownScreen
+from bot_console.tui.terminal.pen import change
+from emulator import Emulator, styled
+from hypothesis import given
+from hypothesis import strategies as st
+from rich.color import ColorSystem
+from rich.segment import Segment
+from rich.style import Style
+from textual.strip import Strip
+
+WIDTH, HEIGHT = 14, 3
+COLOURS = ColorSystem.TRUECOLOR
+TEXTS = st.text(alphabet="ab ─⠿●日本e\u0301", max_size=6)
+STYLES = st.sampled_from(
+    [None, *map(Style.parse, ("bold red", "dim red", "red on blue", "on #102030", "reverse underline", "bold italic"))]
+)
+CUTS = st.sampled_from([(0, 14), (0, 5, 14), (0, 5, 9, 14), (0, 7, 14)])
+PIECE = st.lists(st.builds(Segment, TEXTS, STYLES), max_size=4)
+CODES = st.lists(
+    st.sampled_from(["1", "2", "3", "4", "7", "9", "31", "94", "38;2;1;2;3", "38;5;9", "44", "48;2;9;8;7"]), unique=True
+).map(";".join)
+
+
+@st.composite
+def screens(draw: st.DrawFn) -> dict[int, dict[int, Strip | None]]:
+    """A few lines of a screen, some of whose pieces were not drawn."""
+    screen: dict[int, dict[int, Strip | None]] = {}
+    for y in draw(st.lists(st.integers(0, HEIGHT - 1), unique=True, max_size=HEIGHT)):
+        cuts = draw(CUTS)
+        screen[y] = {
+            begin: Strip(draw(PIECE)).adjust_cell_length(end - begin) if draw(st.booleans()) else None
+            for begin, end in pairwise(cuts)
+        }
+    return screen
+
+
+@given(st.lists(screens(), min_size=1, max_size=4))
+def test_the_terminal_shows_what_was_drawn_last(frames) -> None:
+    shown, terminal = ShownScreen(), Emulator(WIDTH, HEIGHT)
+    shown.forget(WIDTH, HEIGHT)
+    for frame in frames:
+        terminal.feed(shown.update(frame.items(), COLOURS))
+        for y, pieces in frame.items():
+            for x, strip in pieces.items():
+                if strip is not None:
+                    cells = cells_of(strip, COLOURS)
+                    expected = [
+                        (letter, ";".join(styled((), codes)))
+                        for letter, codes in zip(cells.letters, cells.styles, strict=True)
+                    ]
+                    assert terminal.cells[y][x : x + strip.cell_length] == expected
+
+
+@given(screens())
+def test_what_is_shown_already_costs_nothing(frame) -> None:
+    shown = ShownScreen()
+    shown.forget(WIDTH, HEIGHT)
+    shown.update(frame.items(), COLOURS)
+    again = {y: {x: strip and Strip([*strip]) for x, strip in pieces.items()} for y, pieces in frame.items()}
+    assert shown.update(again.items(), COLOURS) == ""
+
+
+@given(CODES, CODES)
+def test_a_change_of_style_ends_in_the_new_style(before, after) -> None:
+    sequence = change(before, after)
+    assert (
+        styled(styled((), before), sequence[2:-1]) == styled((), after)
+        if sequence
+        else styled((), before) == styled((), after)
+    )
+    assert len(sequence) <= len(change(None, after))
