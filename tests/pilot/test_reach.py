@@ -89,9 +89,9 @@ def test_help_names_every_key_of_the_pane(entry) -> None:
     async def play(session: Session) -> None:
         await session.press(entry.digit, "question_mark")
         seen = ""
-        for _ in range(60):
+        for _ in range(6):
             seen += session.text()
-            await session.press("down")
+            await session.press("pagedown")
         for key in TABLE[entry.id]:
             assert key.text in seen, key.id
             assert key_text(key) in seen, key.id

@@ -35,7 +35,9 @@ def lidar(name: str, **change: float) -> Settings:
     return Settings(lidar=LidarSettings(**{**profile(name)["simulator"]["lidar"], **change}))
 
 
-@pytest.mark.parametrize(("parameters", "seed"), [("profile", 1), ("profile", 2), ("defaults", 1)])
+@pytest.mark.parametrize(
+    ("parameters", "seed"), [("profile", 1), pytest.param("profile", 2, marks=pytest.mark.soak), ("defaults", 1)]
+)
 @pytest.mark.parametrize("name", NAMES)
 def test_ten_minutes_without_standing_for_twenty_seconds(name: str, seed: int, parameters: str) -> None:
     run = Simulation(world(name), seed, lidar(name))

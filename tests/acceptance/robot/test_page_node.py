@@ -15,7 +15,10 @@ NODE = Path(COURSE) / "nodes" / "intelligent_robot" / "robot_node.py"
 pytestmark = pytest.mark.skipif(not COURSE, reason="BOT_CONSOLE_COURSE names no folder")
 
 
-@pytest.mark.parametrize("world", ["indoor", "outdoor", "warehouse", "competition"])
+@pytest.mark.parametrize(
+    "world",
+    ["indoor", *(pytest.param(each, marks=pytest.mark.soak) for each in ("outdoor", "warehouse", "competition"))],
+)
 def test_ten_minutes_in_our_system(tmp_path, world):
     report = headless(tmp_path, "--profile", world, "--duration", "600", f"navigator:={NODE}")
     assert report["longest_standstill"] < 20.0
