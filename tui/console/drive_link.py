@@ -6,6 +6,7 @@ import math
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from bot_console.tui.console.model import DriveInfo, GraphInfo
@@ -31,9 +32,10 @@ Velocity = tuple[float, float]
 
 @dataclass(frozen=True)
 class Verdict:
-    """What an arbiter made of a command: the rule or parameter that limited it, and what was left of it."""
+    """What an arbiter made of the command that it chose: the rule or parameter that limited it, and what was left."""
 
     limited_by: str = ""
+    asked: Velocity | None = None
     limited: Velocity | None = None
 
 
@@ -79,16 +81,14 @@ class DriveLink:
             if topic:
                 self._watching[token] = self._node.create_subscription(DiagnosticArray, topic, self._told, 10)
         elif topic:
-            self._watching[token] = self._node.create_subscription(
-                Twist, topic, lambda message: self._saw(token, message), 10
-            )
+            self._watching[token] = self._node.create_subscription(Twist, topic, partial(self._saw, token), 10)
 
     def _told(self, message: DiagnosticArray) -> None:
         """What an arbiter of velocities says about its last decision."""
         for status in message.status:
             values = {each.key: each.value for each in status.values}
             if "limited_by" in values:
-                self._verdict = Verdict(values["limited_by"], _velocity(values, "final"))
+                self._verdict = Verdict(values["limited_by"], _velocity(values, "asked"), _velocity(values, "final"))
 
     def _saw(self, token: str, message: Twist) -> None:
         velocity = (message.linear.x, message.angular.z)
@@ -142,7 +142,7 @@ class DriveLink:
         silent = FINAL in self._seen and time.monotonic() - self._heard > SILENCE
         info = DriveInfo(
             topic=self.topic,
-            asked=self._seen.get(ASKED),
+            asked=self._verdict.asked or self._seen.get(ASKED),
             limited=self._verdict.limited,
             final=None if silent else self._seen.get(FINAL),
             actual=actual,

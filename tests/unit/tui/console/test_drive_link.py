@@ -100,11 +100,12 @@ def test_the_arbiters_reason_is_told():
     bench = Bench("/cmd_vel", arbiter=True)
     publisher = bench.robot.create_publisher(DiagnosticArray, "/diagnostics", 10)
     values = {"limited_by": "warning_distance", "final.linear": "0.2", "final.angular": "0"}
+    values |= {"asked.linear": "0.8", "asked.angular": "0"}
     pairs = [KeyValue(key=key, value=value) for key, value in values.items()]
     publisher.publish(DiagnosticArray(status=[DiagnosticStatus(values=pairs)]))
     bench.settle()
     info = bench.link.info((0.1, 0.0))
-    assert (info.limited_by, info.limited) == ("warning_distance", (0.2, 0.0))
+    assert (info.limited_by, info.asked, info.limited) == ("warning_distance", (0.8, 0.0), (0.2, 0.0))
 
 
 def test_silence_is_told(bench, monkeypatch):
