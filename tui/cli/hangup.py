@@ -8,13 +8,13 @@ import select
 import signal
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Generator
 
 LOOK_MS = 1000
 
 
 @contextlib.contextmanager
-def hangup_as_signal() -> Iterator[None]:
+def hangup_as_signal() -> Generator[None]:
     """Raise SIGHUP in this process when the terminal on standard input hangs up."""
     over = threading.Event()
     threading.Thread(target=_watch, args=(sys.stdin.fileno(), over), name="hang-up", daemon=True).start()

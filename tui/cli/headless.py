@@ -9,7 +9,7 @@ import contextlib
 import json
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Generator
 from pathlib import Path
 from typing import Any
 
@@ -63,7 +63,7 @@ def _no_report(launch: NodeProcess) -> int:
 
 
 @contextlib.contextmanager
-def _time(options: Options) -> Iterator[Any]:
+def _time(options: Options) -> Generator[Any]:
     """The clock of the run."""
     if not options.fast:
         yield MAIN.clock
@@ -73,7 +73,7 @@ def _time(options: Options) -> Iterator[Any]:
 
 
 @contextlib.contextmanager
-def _notices() -> Iterator[None]:
+def _notices() -> Generator[None]:
     forget = on_notice(lambda process, text: print(f"[WARN] [{process.name}]: {text}", file=sys.stderr))
     try:
         yield

@@ -8,7 +8,7 @@ import re
 import signal
 import sys
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
 from pathlib import Path
 from types import FrameType
 
@@ -100,7 +100,7 @@ class Session:
         return Launching(target, self.console.printed)
 
     @contextlib.contextmanager
-    def _ended_by_signals(self) -> Iterator[None]:
+    def _ended_by_signals(self) -> Generator[None]:
         """Ctrl-C from elsewhere, SIGTERM and SIGHUP (a closed terminal) stop the robot first, then end the app."""
 
         def end(number: int, frame: FrameType | None) -> None:
@@ -178,7 +178,7 @@ def run_line(line: str) -> str:
 
 
 @contextlib.contextmanager
-def _eager_switching() -> Iterator[None]:
+def _eager_switching() -> Generator[None]:
     before = sys.getswitchinterval()
     sys.setswitchinterval(SWITCH_INTERVAL)
     try:

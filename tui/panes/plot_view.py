@@ -71,7 +71,7 @@ def _style(curve: Curve) -> str:
 
 def _reach(curve: Curve, axes: Axes, across: int) -> Reach:
     times, values = curve.between(axes.start, axes.end)
-    return reach(times, np.clip(values, -HUGE, HUGE), axes.start, axes.end, across * 2)
+    return reach(times, values.clip(-HUGE, HUGE), axes.start, axes.end, across * 2)
 
 
 def limits(reaches: Sequence[Reach]) -> tuple[float, float]:

@@ -7,8 +7,9 @@ import os
 import signal
 import termios
 import threading
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Generator
+from types import FrameType
+from typing import Any, cast
 
 GRACE = 1.0
 """Seconds that a terminal has to take what is still to be written."""
@@ -21,7 +22,7 @@ LAST_WORDS = (
 
 
 @contextlib.contextmanager
-def let_go(driver: Any) -> Iterator[None]:
+def let_go(driver: Any) -> Generator[None]:
     """Close a driver in here; if its writer is still blocked after a while, what it writes is thrown away.
 
     Textual waits for the writer without an end, so that quitting would hang on a stalled terminal.
@@ -44,7 +45,7 @@ def let_go(driver: Any) -> Iterator[None]:
 def _watch(writer: threading.Thread, done: threading.Event) -> None:
     if done.wait(GRACE) or not writer.is_alive() or writer.ident is None:
         return
-    descriptor = writer._file.fileno()  # type: ignore[attr-defined] # of Textual's WriterThread
+    descriptor: int = cast(Any, writer)._file.fileno()  # of Textual's WriterThread
     terminal = os.dup(descriptor)
     sink = os.open(os.devnull, os.O_WRONLY)
     # A write that is interrupted is tried again on the same descriptor, which leads nowhere now.
@@ -69,8 +70,11 @@ def _last_words(terminal: int) -> None:
 
 
 @contextlib.contextmanager
-def _interrupted_by(number: int) -> Iterator[None]:
-    before = signal.signal(number, lambda *_: None)
+def _interrupted_by(number: int) -> Generator[None]:
+    # A signal that is ignored interrupts nothing; one with a handler does.
+    def nothing(number: int, frame: FrameType | None) -> None: ...
+
+    before = signal.signal(number, nothing)
     try:
         yield
     finally:

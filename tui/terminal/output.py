@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from importlib.metadata import version
-from typing import Any
+from typing import Any, cast
 
 from bot_console.tui.terminal.closing import let_go
 from bot_console.tui.terminal.difference import ShownScreen
@@ -108,13 +108,14 @@ class SparingApp(App[None]):
             self._look_again()
             return
         self._held = False
-        self.screen._compositor_refresh()
+        screen: Any = self.screen
+        screen._compositor_refresh()
 
     def _display(self, screen: Screen[Any], renderable: Any) -> None:
         if not isinstance(renderable, (ChopsUpdate, LayoutUpdate)) or not self._sparing():
-            super()._display(screen, renderable)
+            super()._display(screen, renderable)  # pyright: ignore[reportUnknownMemberType] # its Screen has no argument
             return
-        compositor: Any = screen._compositor
+        compositor: Any = cast(Any, screen)._compositor
         if not self.may_draw():
             compositor._dirty_regions.update(_regions(renderable))
             return
