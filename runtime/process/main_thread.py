@@ -7,7 +7,7 @@ import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from . import child_threads
+from . import child_threads, pools
 from .crashes import explanation
 from .frames import print_exception
 from .notices import notify
@@ -48,6 +48,7 @@ class _Main:
 
     def _wind_down(self) -> None:
         """What the interpreter does after the main program: wait for threads, then the exit functions."""
+        pools.shut_down(self._process)
         try:
             while waited_for := [t for t, s in self._process.children.items() if not s.daemon and t.is_alive()]:
                 waited_for[0].join()

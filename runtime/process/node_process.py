@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Mapping, MutableMapping, Sequenc
 from enum import Enum
 from functools import partial
 from typing import TYPE_CHECKING, Any
-from weakref import WeakValueDictionary
+from weakref import WeakSet, WeakValueDictionary
 
 from . import frames, real
 from .capture import NO_INPUT, LineCapture, Sink
@@ -22,6 +22,8 @@ from .signals import SIGKILL, Signals
 from .thread_state import ProcessKilled, ThreadState, local
 
 if TYPE_CHECKING:
+    from concurrent.futures import ThreadPoolExecutor
+
     from .fresh_import import FreshModules
 
 _pids = itertools.count((1 << 22) + 1)  # above Linux's highest possible pid, so that a stray kill() hits nobody
@@ -63,6 +65,7 @@ class NodeProcess:
         self.signals = Signals(self)
         self.main_state: ThreadState | None = None
         self.children: dict[threading.Thread, ThreadState] = {}
+        self.pools: WeakSet[ThreadPoolExecutor] = WeakSet()
         self.exit_functions: list[partial[Any]] = []
         self.notices: list[str] = []
         self.modules: FreshModules | None = None

@@ -10,6 +10,7 @@ import subprocess
 import threading
 import time
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 from . import (
@@ -17,6 +18,7 @@ from . import (
     environment,
     fresh_import,
     os_calls,
+    pools,
     subprocesses,
     sys_module,
     waits,
@@ -57,6 +59,7 @@ def _wraps() -> list[tuple[Any, str, Any]]:
         (atexit, "register", os_calls.register_exit),
         (atexit, "unregister", os_calls.unregister_exit),
         (subprocess.Popen, "__init__", subprocesses.start),
+        (ThreadPoolExecutor, "__init__", pools.make),
         (fresh_import.importlib, "import_module", fresh_import.import_module),
     ]
     if hasattr(signal, "pause"):

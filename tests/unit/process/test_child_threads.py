@@ -186,3 +186,20 @@ def test_subclass_with_its_own_run(run):
         wheel.join()
 
     assert run(target, name="cart").stdout == "turns in cart\n"
+
+
+def test_the_threads_of_a_pool_that_is_kept_end_once_their_work_is_done(start):
+    kept = []
+
+    def target():
+        kept.append(ThreadPoolExecutor(2))
+        kept[0].submit(release.wait)
+        kept[0].submit(print, "pool done")
+        print("main done")
+
+    release = threading.Event()
+    started = start(target)
+    started.until_printed("main done")
+    release.set()
+    assert started.end() == 0
+    assert "pool done" in started.stdout
