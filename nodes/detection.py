@@ -28,7 +28,7 @@ def median_of_three(ranges: Floats) -> Floats:
     """Each range replaced by the median of itself and its neighbours: single stray beams vanish."""
     if len(ranges) < 3:
         return ranges
-    result = ranges.copy()
+    result: Floats = np.array(ranges)
     left, middle, right = ranges[:-2], ranges[1:-1], ranges[2:]
     result[1:-1] = np.maximum(np.minimum(left, middle), np.minimum(np.maximum(left, middle), right))
     return result

@@ -98,10 +98,11 @@ def route_message(points: Iterable[Point], stamp: Time) -> Path:
 
 def obstacles_message(moving: Floats, stamp: Time) -> MarkerArray:
     """Moving obstacles, rows of x, y, radius in m, as upright cylinders."""
-    return MarkerArray(markers=[_cylinder(i, *row, stamp) for i, row in enumerate(moving.tolist())])
+    return MarkerArray(markers=[_cylinder(i, row, stamp) for i, row in enumerate(moving)])
 
 
-def _cylinder(number: int, x: float, y: float, radius: float, stamp: Time) -> Marker:
+def _cylinder(number: int, row: Floats, stamp: Time) -> Marker:
+    x, y, radius = (float(each) for each in row)
     marker = Marker(ns="moving", id=number, type=Marker.CYLINDER, action=Marker.ADD)
     marker.header.stamp = stamp
     marker.header.frame_id = MAP

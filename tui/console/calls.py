@@ -45,7 +45,7 @@ class Calls:
         client = self._client(kind, service)
         if not client.service_is_ready():
             raise NoAnswer(f"no service {service} is offered; has its node ended?")
-        answer: RosFuture = client.call_async(request)
+        answer: RosFuture[Any] = client.call_async(request)
         timer = self._node.create_timer(patience, lambda: self._give_up(answer, client, service, patience))
         try:
             return await answer
@@ -53,7 +53,7 @@ class Calls:
             self._node.destroy_timer(timer)
 
     @staticmethod
-    def _give_up(answer: RosFuture, client: Any, service: str, patience: float) -> None:
+    def _give_up(answer: RosFuture[Any], client: Any, service: str, patience: float) -> None:
         if not answer.done():
             client.remove_pending_request(answer)
             answer.set_exception(

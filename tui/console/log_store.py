@@ -113,12 +113,12 @@ class LogStore:
             for segment in self._segments:
                 index = seq - segment.first
                 if 0 <= index < segment.count:
-                    file, function, line = self._sites.items[segment.site[index]]
+                    file, function, line = self._sites.items[int(segment.site[index])]
                     return LogRecord(
                         seq,
                         int(segment.stamp[index]),
                         Severity(int(segment.severity[index])),
-                        self._names.items[segment.node[index]],
+                        self._names.items[int(segment.node[index])],
                         segment.text(index),
                         file,
                         function,

@@ -7,12 +7,13 @@ import re
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias, cast
 
 import yaml
 from bot_console.tui.console.model import ParameterTree, Value
 
 Loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+_SafeDumper: Any = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
 KEYWORD = "ros__parameters"
 BUILT_IN = ("use_sim_time", "start_type_description_service")
 
@@ -20,11 +21,11 @@ PLAIN = re.compile(r"[A-Za-z_/](?:[\w/. -]*[\w/.-])?", re.ASCII)
 WORDS = frozenset({"y", "n", "yes", "no", "on", "off", "true", "false", "null", "nan", "inf"})
 """Words that YAML or ROS take for something else than text."""
 
-Values = dict[str, dict[str, Value]]
+Values: TypeAlias = Mapping[str, Mapping[str, Value]]
 """Values by node and parameter."""
 
 
-class Dumper(getattr(yaml, "CSafeDumper", yaml.SafeDumper)):  # type: ignore[misc]
+class Dumper(_SafeDumper):
     """Writes every text in quotes that any of the YAML dialects of ROS could take for something else."""
 
 
@@ -65,7 +66,7 @@ def dumped(values: Values) -> str:
 def patched(text: str, values: Values) -> str:
     """The text of a parameter file with values replaced in place; raises `ValueError` when it is not YAML."""
     try:
-        root = yaml.compose(text, Loader=Loader)
+        root = cast("Any", yaml.compose(text, Loader=Loader))  # pyright: ignore[reportUnknownMemberType]
     except yaml.YAMLError as error:
         raise ValueError(f"the file is not YAML, so it cannot be patched: {error}") from None
     places: dict[tuple[str, str], Any] = {}
@@ -76,12 +77,18 @@ def patched(text: str, values: Values) -> str:
     for (node, name), place in places.items():
         if name in left.get(node, {}):
             value = left[node].pop(name)
-            if yaml.safe_load(yaml.serialize(place)) != _plain(value):
+            if _value_at(place) != _plain(value):
                 edits.append((place.start_mark.index, _end(place), _inline(value)))
     for start, end, new in sorted(edits, reverse=True):
         text = text[:start] + new + text[end:]
     rest = {node: found for node, found in left.items() if found}
     return text if not rest else _extended(text, rest)
+
+
+def _value_at(place: Any) -> Any:
+    """What stands in the file now."""
+    text: str = yaml.serialize(place)  # pyright: ignore[reportUnknownMemberType]
+    return yaml.safe_load(text)
 
 
 def _end(place: Any) -> int:
@@ -93,7 +100,7 @@ def _end(place: Any) -> int:
 
 def _extended(text: str, rest: Values) -> str:
     """Add what does not stand in the file yet; nodes that stand there already are rewritten by the YAML library."""
-    data = yaml.load(text, Loader) or {}
+    data: Mapping[Any, Any] = yaml.load(text, Loader) or {}
     known = {("/" + str(key).strip("/")) for key in data}
     new = {node: found for node, found in rest.items() if node not in known}
     if len(new) == len(rest):
@@ -128,11 +135,11 @@ def _nested(values: Mapping[str, Value]) -> dict[str, Any]:
         *path, last = name.split(".")
         at = root
         for step in path:
-            below = at.setdefault(step, {})
+            below: Any = at.setdefault(step, {})
             if not isinstance(below, dict):
                 at, last = root, name
                 break
-            at = below
+            at = cast("dict[str, Any]", below)
         at[last] = _plain(value)
     return root
 

@@ -12,7 +12,7 @@ from bot_console.tui.console.model import ChangeSource, SetOutcome, Value
 from bot_console.tui.console.parameter_mirror import ParameterMirror
 from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.values import refusal, to_message
-from rcl_interfaces.msg import Parameter
+from rcl_interfaces.msg import Parameter, SetParametersResult
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 
 EXPECTED = 200
@@ -69,7 +69,7 @@ class ParameterSetter:
             outcomes.append(self._outcome(entry, before[entry[1]], result.successful, result.reason))
         return tuple(outcomes)
 
-    async def _ask(self, node: str, messages: Sequence[Parameter], atomically: bool) -> Sequence[object]:
+    async def _ask(self, node: str, messages: Sequence[Parameter], atomically: bool) -> Sequence[SetParametersResult]:
         if atomically:
             request = SetParametersAtomically.Request(parameters=list(messages))
             answer = await self._calls.ask(SetParametersAtomically, f"{node}/set_parameters_atomically", request)

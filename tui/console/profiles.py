@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, cast
 
 import yaml
 from bot_console.tui.console.model import ParameterTree, Profile, ProfileDifference, Value
@@ -27,8 +27,7 @@ def load(path: Path) -> Profile:
     """Read a ROS parameter file as a profile; its first comment line is the title."""
     try:
         text = path.read_text(encoding="utf-8")
-        data = yaml.load(text, Loader)
-        values = dict(_values("", data if isinstance(data, dict) else {}))
+        values = dict(_values("", _mapping(yaml.load(text, Loader)) or {}))
     except (OSError, UnicodeDecodeError) as error:
         return Profile(path.stem, str(path), problem=f"cannot be read: {error}")
     except yaml.YAMLError as error:
@@ -44,24 +43,31 @@ def load(path: Path) -> Profile:
     return Profile(path.stem, str(path), first, MappingProxyType(values), str(world))
 
 
+def _mapping(data: object) -> Mapping[Any, Any] | None:
+    return cast("Mapping[Any, Any]", data) if isinstance(data, dict) else None
+
+
 def _values(space: str, data: Mapping[Any, Any]) -> Iterable[tuple[tuple[str, str], Value]]:
     for key, below in data.items():
         name = str(key).strip("/")
         if key == KEYWORD:
-            yield from (((space, each), value) for each, value in _flat("", below or {}))
+            parameters = _mapping(below or {})
+            if parameters is None:
+                raise ValueError(f"below '{KEYWORD}' of {space or 'no node'} stand no 'name: value' lines")
+            yield from (((space, each), value) for each, value in _flat("", parameters))
         elif str(key).startswith("ros_parameters"):
             raise ValueError(f"'{key}' should be '{KEYWORD}', with two underscores")
-        elif isinstance(below, dict):
-            yield from _values(f"{space}/{name}", below)
+        elif (inside := _mapping(below)) is not None:
+            yield from _values(f"{space}/{name}", inside)
 
 
 def _flat(prefix: str, data: Mapping[Any, Any]) -> Iterable[tuple[str, Value]]:
     for key, value in data.items():
         name = f"{prefix}{key}"
-        if isinstance(value, dict):
-            yield from _flat(name + ".", value)
+        if (inside := _mapping(value)) is not None:
+            yield from _flat(name + ".", inside)
         else:
-            yield name, tuple(value) if isinstance(value, list) else value
+            yield name, tuple(cast("list[Any]", value)) if isinstance(value, list) else value
 
 
 def differences(profile: Profile, trees: Mapping[str, ParameterTree]) -> Sequence[ProfileDifference]:

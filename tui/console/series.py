@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any, cast
 
 import numpy as np
 from bot_console.tui.console.protocol import Samples
@@ -63,7 +63,7 @@ def reader(steps: Sequence[str | int]) -> Callable[[Any], float]:
         for step in steps:
             value = _follow(value, step)
         if isinstance(value, (bool, int, float, np.number)):
-            return float(value)
+            return float(cast("float", value))
         if isinstance(value, bytes) and len(value) == 1:
             return float(value[0])
         raise NotPlottable(f"{_name(steps)} is {_kind(value)}, not a number")
@@ -77,8 +77,9 @@ def _follow(value: Any, step: str | int) -> Any:
             return value[step]
         except (IndexError, TypeError, KeyError):
             raise NotPlottable(f"there is no element [{step}]") from None
-    if step not in getattr(value, "get_fields_and_field_types", dict)():
-        fields = ", ".join(getattr(value, "get_fields_and_field_types", dict)()) or "none"
+    known: Mapping[str, str] = getattr(value, "get_fields_and_field_types", dict)()
+    if step not in known:
+        fields = ", ".join(known) or "none"
         raise NotPlottable(f"no field '{step}'; fields here: {fields}")
     return getattr(value, step)
 

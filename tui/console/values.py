@@ -108,7 +108,8 @@ def refusal(parameter: ParameterInfo | None, value: Value) -> tuple[str, str]:
     if not parameter.dynamic and parameter.kind is not Kind.NOT_SET and kind is not parameter.kind:
         return "descriptor", f"Wrong parameter type, expected 'Type.{parameter.kind.name}' got 'Type.{kind.name}'"
     limits = parameter.range
-    number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    if limits and number and not limits.low <= value <= limits.high:
+    if not limits or not isinstance(value, (int, float)) or isinstance(value, bool):
+        return "", ""
+    if not limits.low <= value <= limits.high:
         return "descriptor", f"out of range. Min: {limits.low}, Max: {limits.high}, value: {value}"
     return "", ""

@@ -71,7 +71,7 @@ class WorldWatch:
     def _on_map(self, message: OccupancyGrid) -> None:
         meta = message.info
         origin = Pose(meta.origin.position.x, meta.origin.position.y, _heading(meta.origin.orientation))
-        cells = np.asarray(message.data, np.int8).view(np.uint8).tobytes()
+        cells = np.asarray(message.data, np.int8).tobytes()  # -1, unknown, is the byte 255
         self._map = GridMap(meta.width, meta.height, meta.resolution, origin, cells)
         self._trail.clear()
         self._fresh = True
