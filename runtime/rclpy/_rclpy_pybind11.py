@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import builtins
+
 
 class RCLError(RuntimeError):
     """The ROS client library refused a call."""
@@ -23,7 +25,7 @@ class UnsupportedEventTypeError(RCLError):
     """The middleware has no such event."""
 
 
-class NotImplementedError(RCLError):
+class NotImplementedError(builtins.NotImplementedError):
     """The middleware cannot do this."""
 
 

@@ -12,12 +12,21 @@ class CallbackGroup:
 
     blocked: list[Any] | None = None
     """Entities that are ready and have to wait for the group, or nothing."""
+    own_rules = False
+    """Whether it is a program's own class, which does not tell when an entity that had to wait may begin."""
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        super().__init_subclass__(**kwargs)
+        cls.own_rules = cls.__module__ != __name__
 
     def __init__(self) -> None:
         self.entities: set[Any] = set()
 
     def block(self, entity: Any) -> None:
         """Let an entity that may not begin be told when it may."""
+        if self.own_rules:
+            entity.sink.ask_again(entity)
+            return
         if self.blocked is None:
             self.blocked = []
         self.blocked.append(entity)

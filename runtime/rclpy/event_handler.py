@@ -14,20 +14,24 @@ from rclpy.impl.event_handlers import (
     MatchedHandler,
     MissedHandler,
 )
+from rclpy.impl.event_types import QoSPublisherEventType, QoSSubscriptionEventType
 from rclpy.impl.qos_policies import QoSPolicyKind
 from rclpy.qos import LivelinessPolicy, QoSProfile
 
 __all__ = [
     "EventHandler",
+    "IncompatibleTypeInfo",
     "PublisherEventCallbacks",
     "QoSLivelinessChangedInfo",
     "QoSLivelinessLostInfo",
     "QoSMessageLostInfo",
     "QoSOfferedDeadlineMissedInfo",
     "QoSOfferedIncompatibleQoSInfo",
+    "QoSPublisherEventType",
     "QoSPublisherMatchedInfo",
     "QoSRequestedDeadlineMissedInfo",
     "QoSRequestedIncompatibleQoSInfo",
+    "QoSSubscriptionEventType",
     "QoSSubscriptionMatchedInfo",
     "SubscriptionEventCallbacks",
     "UnsupportedEventTypeError",
@@ -105,6 +109,10 @@ class QoSLivelinessLostInfo(QoSCountInfo):
 
 class QoSMessageLostInfo(QoSCountInfo):
     """What a subscription's message lost event says; within one process no message is lost on its way."""
+
+
+class IncompatibleTypeInfo(QoSCountInfo):
+    """What an event about endpoints of another message type says."""
 
 
 class _EventCallbacks:

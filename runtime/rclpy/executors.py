@@ -10,8 +10,11 @@ from types import TracebackType
 from typing import Any
 
 from bot_console.runtime.process import current
+from rclpy.impl.ready_callbacks import ReadyCallbacks
+from rclpy.impl.ready_callbacks import TimeoutObject as TimeoutObject
+from rclpy.impl.ready_callbacks import await_or_execute as await_or_execute
 from rclpy.impl.timer_heap import TimerHeap
-from rclpy.impl.worker_pool import WorkerPool
+from rclpy.impl.worker_pool import WorkerPool, cpu_count
 from rclpy.task import Future, Task
 from rclpy.utilities import get_default_context, timeout_sec_to_nsec
 
@@ -38,7 +41,7 @@ class ConditionReachedException(Exception):
     """What was waited for has come about."""
 
 
-class Executor:
+class Executor(ReadyCallbacks):
     """Serves nodes; `spin_once` runs one callback.
 
     An entity marks itself ready once, however much it has to do. A wake takes what is ready and the timers that are
@@ -56,6 +59,8 @@ class Executor:
         self._batch: deque[Any] = deque()
         self._tasks: dict[Task[Any], Any] = {}
         self._ready_tasks: list[Task[Any]] = []
+        self._held: list[Any] = []
+        """Ready entities whose group, one of the program's own, did not let them begin."""
         self._timers = TimerHeap()
         self._lock = threading.Lock()
         self._wakeup = self._clock.wakeup()
@@ -87,6 +92,10 @@ class Executor:
         self._timers.push(deadline, timer)
         if self._waiting:
             self._wakeup.set()
+
+    def ask_again(self, entity: Any) -> None:
+        """An entity may not begin now; its group is asked anew at the next wake."""
+        self._held.append(entity)
 
     def wake(self) -> None:
         """Let a waiting `spin_once` look again."""
@@ -187,6 +196,8 @@ class Executor:
             self._polled = False
             if timeout == 0 and not batch:  # as upstream: the poll after a wake's last callback only ends that wake
                 raise TimeoutException
+        if self._held:
+            self._release_held()
         while True:
             while batch:
                 try:
@@ -196,11 +207,9 @@ class Executor:
                 if item.__class__ is Task:
                     self._polled = timeout == 0
                     return item
-                if item.sink is self and item.pending():
-                    if item.callback_group.beginning_execution(item):
-                        self._polled = timeout == 0
-                        return item
-                    item.callback_group.block(item)
+                if item.sink is self and item.pending() and _begins(item, item.callback_group):
+                    self._polled = timeout == 0
+                    return item
             if self._is_shutdown:
                 raise ShutdownException
             if context.ended:
@@ -210,6 +219,12 @@ class Executor:
                 raise ConditionReachedException
             if not self._new_batch():
                 self._wait(deadline)
+                self._release_held()
+
+    def _release_held(self) -> None:
+        held, self._held = self._held, []
+        for entity in held:
+            entity.notify()
 
     def _new_batch(self) -> bool:
         """Collect what is ready; whether there was anything."""
@@ -326,7 +341,7 @@ class MultiThreadedExecutor(Executor):
     def __init__(self, num_threads: int | None = None, *, context: Any = None) -> None:
         super().__init__(context=context)
         if num_threads is None:
-            num_threads = _cpu_count()
+            num_threads = cpu_count()
         if num_threads == 1:
             import warnings
 
@@ -376,10 +391,9 @@ class MultiThreadedExecutor(Executor):
         return result
 
 
-def _cpu_count() -> int:
-    import os
-
-    try:
-        return len(os.sched_getaffinity(0))
-    except AttributeError:
-        return 2
+def _begins(entity: Any, group: Any) -> bool:
+    """Whether a group lets an entity begin; where it does not, the entity has to wait."""
+    if (not group.own_rules or group.can_execute(entity)) and group.beginning_execution(entity):
+        return True
+    group.block(entity)
+    return False

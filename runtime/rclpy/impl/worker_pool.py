@@ -55,3 +55,13 @@ class WorkerPool:
             self._closed = True
             while self._idle:
                 self._idle.popleft().set()
+
+
+def cpu_count() -> int:
+    """How many processors this process may use; 2 where the system does not tell."""
+    import os
+
+    try:
+        return len(os.sched_getaffinity(0))
+    except AttributeError:
+        return 2

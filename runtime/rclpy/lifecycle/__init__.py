@@ -6,6 +6,7 @@ from rclpy.lifecycle.publisher import LifecyclePublisher
 from rclpy.lifecycle.transition_callback_return import TransitionCallbackReturnType
 
 Node = LifecycleNode
+NodeMixin = LifecycleNodeMixin
 State = LifecycleState
 Publisher = LifecyclePublisher
 TransitionCallbackReturn = TransitionCallbackReturnType

@@ -1,0 +1,8 @@
+"""The old name of `rclpy.event_handler`; importing it warns, as it does upstream."""
+
+import warnings
+
+from rclpy.event_handler import *  # noqa: F403 - the same names
+from rclpy.event_handler import EventHandler as QoSEventHandler  # noqa: F401 - the class had this name
+
+warnings.warn("importing 'qos_event' is deprecated; import 'event_handler' instead", stacklevel=2)
