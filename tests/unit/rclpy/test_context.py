@@ -224,9 +224,10 @@ def test_the_global_executor_ends_with_its_context(default: None) -> None:
     first = rclpy.get_global_executor()
     assert rclpy.get_global_executor() is first
     node.create_guard_condition(lambda: threading.Thread(target=rclpy.shutdown).start()).trigger()
-    rclpy.spin(node)
-    with pytest.raises(TypeError):
-        rclpy.spin_once(node, timeout_sec=0)
+    with node:
+        rclpy.spin(node)
+        with pytest.raises(TypeError):
+            rclpy.spin_once(node, timeout_sec=0)
     rclpy.init(args=[])
     assert rclpy.get_global_executor() is not first
 
