@@ -160,9 +160,9 @@ class HoldingScreen(Screen[None]):
 
 
 def _lines(update: ChopsUpdate | LayoutUpdate) -> dict[int, Mapping[int, Strip | None]]:
-    """The pieces of each line that may have changed."""
+    """The pieces of each line that may have changed; of the others nothing is known."""
     if isinstance(update, ChopsUpdate):
-        return {y: update.chops[y] for y, _, _ in update.spans}
+        return _pieces(update)
     lines: dict[int, Mapping[int, Strip | None]] = {}
     for y, strips in enumerate(update.strips, update.region.y):
         pieces: dict[int, Strip | None] = {}
@@ -172,6 +172,18 @@ def _lines(update: ChopsUpdate | LayoutUpdate) -> dict[int, Mapping[int, Strip |
             x += strip.cell_length
         lines[y] = pieces
     return lines
+
+
+def _pieces(update: ChopsUpdate) -> dict[int, Mapping[int, Strip | None]]:
+    # Beside what was to be drawn a line holds what lies beneath: widgets that were not dirty are missing there.
+    lines: dict[int, dict[int, Strip | None]] = {}
+    for y, begin, end in update.spans:
+        drawn = update.chops[y]
+        pieces = lines.setdefault(y, dict.fromkeys(drawn))
+        for (x, strip), piece_end in zip(drawn.items(), update.chop_ends[y], strict=True):
+            if x < end and piece_end > begin:
+                pieces[x] = strip
+    return {**lines}
 
 
 def _regions(update: ChopsUpdate | LayoutUpdate) -> set[Region]:
