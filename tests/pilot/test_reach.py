@@ -17,13 +17,13 @@ def shown(session: Session) -> list[str]:
     return [each.id or "" for each in session.app.visible_panes()]
 
 
-@pytest.mark.parametrize("entry", PANES, ids=IDS)
-def test_a_digit_jumps_to_the_pane_and_gives_it_the_keyboard(entry) -> None:
+def test_a_digit_jumps_to_the_pane_and_gives_it_the_keyboard() -> None:
     async def play(session: Session) -> None:
-        await session.press(entry.digit)
-        assert shown(session) == [entry.id]
-        assert session.app.focused is not None
-        assert session.app.current_pane is not None and session.app.current_pane.id == entry.id
+        for entry in PANES:
+            await session.press(entry.digit)
+            assert shown(session) == [entry.id]
+            assert session.app.focused is not None
+            assert session.app.current_pane is not None and session.app.current_pane.id == entry.id
 
     run(live(), play)
 
@@ -84,21 +84,30 @@ def test_a_terminal_that_is_too_small_gets_a_polite_word_and_recovers() -> None:
     run(live(), play)
 
 
-@pytest.mark.parametrize("entry", PANES, ids=IDS)
-def test_help_names_every_key_of_the_pane(entry) -> None:
+def test_help_names_every_key_of_the_pane() -> None:
     async def play(session: Session) -> None:
-        await session.press(entry.digit, "question_mark")
-        seen = ""
-        for _ in range(6):
-            seen += session.text()
-            await session.press("pagedown")
-        for key in TABLE[entry.id]:
-            assert key.text in seen, key.id
-            assert key_text(key) in seen, key.id
-        await session.press("escape")
-        assert len(session.app.screen_stack) == 1
+        for entry in PANES:
+            await session.press(entry.digit, "question_mark")
+            seen = session.text()
+            for key in TABLE[entry.id]:
+                assert key.text in seen, (entry.id, key.id)
+                assert key_text(key) in seen, (entry.id, key.id)
+            await session.press("escape")
+            assert len(session.app.screen_stack) == 1
 
-    run(live(), play, (100, 30))
+    run(live(), play, (100, 70))
+
+
+def test_a_help_that_is_longer_than_the_screen_scrolls() -> None:
+    async def play(session: Session) -> None:
+        await session.press("1", "question_mark")
+        begin = session.text()
+        await session.press("pagedown")
+        assert session.text() != begin
+        await session.press("home")
+        assert session.text() == begin
+
+    run(live(), play)
 
 
 @pytest.mark.parametrize("key", ["colon", "ctrl+p"])
@@ -117,14 +126,14 @@ def test_the_palette_opens_and_runs_an_action(key: str) -> None:
     run(live(), play)
 
 
-@pytest.mark.parametrize("entry", PANES, ids=IDS)
-def test_the_all_stop_works_in_every_pane_and_over_help(entry) -> None:
+def test_the_all_stop_works_in_every_pane_and_over_help() -> None:
     async def play(session: Session) -> None:
-        await session.press(entry.digit, "exclamation_mark")
-        assert session.console.asked[-1] == ("all_stop", True)
-        assert "ALL STOP" in session.lines()[-2]
-        await session.press("question_mark", "exclamation_mark")
-        assert session.console.asked[-1] == ("all_stop", False)
+        for entry in PANES:
+            await session.press(entry.digit, "exclamation_mark")
+            assert session.console.asked[-1] == ("all_stop", True), entry.id
+            assert "ALL STOP" in session.lines()[-2]
+            await session.press("question_mark", "exclamation_mark", "escape")
+            assert session.console.asked[-1] == ("all_stop", False), entry.id
 
     run(live(), play)
 
