@@ -61,8 +61,8 @@ class LaunchDescription(LaunchDescriptionEntity):
 
     def get_launch_arguments_with_include_launch_description_actions(
         self, conditional_inclusion: bool = False
-    ) -> list[tuple[Any, list[Any]]]:
-        """The arguments, each with the includes through which it was found."""
+    ) -> list[tuple[Any, list[Any] | None]]:
+        """The arguments, each with the includes through which it was found; None where there is none on the way."""
         from launch.argument_discovery import discover
 
         return discover(self.__entities, conditional_inclusion)

@@ -9,6 +9,8 @@ from launch.launch_description_entity import LaunchDescriptionEntity
 
 SomeEntitiesType = LaunchDescriptionEntity | Iterable[LaunchDescriptionEntity]
 
+SomeEntitiesType_types_tuple = (LaunchDescriptionEntity, Iterable)
+
 
 def check_entities(entities: Any) -> list[LaunchDescriptionEntity]:
     """A list of entities from one, several or none."""

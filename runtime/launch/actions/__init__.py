@@ -5,9 +5,10 @@ from launch.actions.declare_launch_argument import DeclareLaunchArgument
 from launch.actions.emit_event import EmitEvent
 from launch.actions.execute_local import ExecuteLocal
 from launch.actions.execute_process import ExecuteProcess
-from launch.actions.for_each import ForEach, ForLoop
+from launch.actions.for_loop import ForEach, ForLoop
 from launch.actions.group_action import GroupAction
 from launch.actions.include_launch_description import IncludeLaunchDescription
+from launch.actions.log import Log, LogDebug, LogError, LogWarning
 from launch.actions.log_info import LogInfo
 from launch.actions.opaque_coroutine import OpaqueCoroutine
 from launch.actions.opaque_function import OpaqueFunction
@@ -36,7 +37,11 @@ __all__ = [
     "ForLoop",
     "GroupAction",
     "IncludeLaunchDescription",
+    "Log",
+    "LogDebug",
+    "LogError",
     "LogInfo",
+    "LogWarning",
     "OpaqueCoroutine",
     "OpaqueFunction",
     "PopEnvironment",

@@ -148,7 +148,10 @@ class ExecuteLocal(Action):
 
     def __cached(self, stream: int) -> str:
         if not self.__cached_output:
-            raise RuntimeError(f"cached_output must be true to be able to use get_std{'out' if stream == 1 else 'err'}")
+            what = "stdout, proc" if stream == 1 else "stderr, proc"
+            raise RuntimeError(
+                f"cached output must be true to be able to get {what} '{self.__process_description.name}'"
+            )
         return b"".join(self.__cache[stream]).decode("utf-8", "replace")
 
     def get_sub_entities(self) -> list[Any]:

@@ -37,6 +37,13 @@ class ExecuteProcess(ExecuteLocal):
         _, kwargs = super().parse(entity, parser)
         return cls, parse_process(entity, parser, kwargs, frozenset(ignore or ()))
 
+    @classmethod
+    def _parse_cmdline(cls, cmd: str, parser: Any) -> list[list[Substitution]]:
+        """Words of a command line, for classes of others that parse one."""
+        from launch.frontend.process_attributes import parse_command_line
+
+        return parse_command_line(cmd, parser)
+
     @property
     def name(self) -> Any:
         """The label: without its number until it was prepared."""

@@ -72,24 +72,34 @@ class IncludeLaunchDescription(Action):
         """Read the file, check its required arguments, and visit it."""
         description = self.__source.get_launch_description(context)
         self._set_locals(context)
-        given = self._given_names(context)
-        for argument, above in description.get_launch_arguments_with_include_launch_description_actions():
+        self._check_required(description, self._given_names(context))
+        return [*(SetLaunchConfiguration(name, value) for name, value in self.__arguments), description]
+
+    def _check_required(self, description: Any, given: list[str]) -> None:
+        """Raise `RuntimeError` for a required argument that nobody gives; names of includes below add up on the way."""
+        for argument, below in description.get_launch_arguments_with_include_launch_description_actions():
             if argument._conditionally_included or argument.default_value is not None:
                 continue
-            names = [*given]
-            for include in above:
-                names += include._given_names(context)
-            if argument.name not in names:
+            for include in below or ():
+                given += include._given_names_without_context()
+            if argument.name not in given:
                 raise RuntimeError(
                     f"Included launch description missing required argument '{argument.name}' "
-                    f"(description: '{argument.description}'), given: [{', '.join(names)}]"
+                    f"(description: '{argument.description}'), given: [{', '.join(given)}]"
                 )
-        return [*(SetLaunchConfiguration(name, value) for name, value in self.__arguments), description]
 
     def _given_names(self, context: Any) -> list[str]:
         return [
             perform_substitutions(context, normalize_to_list_of_substitutions(name)) for name, _ in self.__arguments
         ]
+
+    def _given_names_without_context(self) -> list[str]:
+        from launch.launch_context import LaunchContext
+
+        try:
+            return self._given_names(LaunchContext())
+        except Exception:  # a name that only the running launch knows cannot be counted
+            return []
 
     def _set_locals(self, context: Any) -> None:
         path = os.path.abspath(self.__source.location)

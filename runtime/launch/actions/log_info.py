@@ -12,6 +12,7 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 
 
 @expose_action("log")
+@expose_action("log_info")
 class LogInfo(Action):
     """Logs a text."""
 

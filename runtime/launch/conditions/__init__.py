@@ -1,6 +1,6 @@
 """Conditions."""
 
-from launch.conditions.evaluate_condition_expression import evaluate_condition_expression
+from launch.conditions.evaluate_condition_expression_impl import evaluate_condition_expression
 from launch.conditions.if_condition import IfCondition
 from launch.conditions.invalid_condition_expression_error import InvalidConditionExpressionError
 from launch.conditions.launch_configuration_equals import LaunchConfigurationEquals

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from launch.condition import Condition
-from launch.conditions.evaluate_condition_expression import evaluate_condition_expression
+from launch.conditions.evaluate_condition_expression_impl import evaluate_condition_expression
 from launch.utilities import normalize_to_list_of_substitutions
 
 

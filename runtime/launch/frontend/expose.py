@@ -2,31 +2,54 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-T = TypeVar("T")
+T = TypeVar("T", bound=Callable[..., Any])
 
 action_parse_methods: dict[str, Callable[..., Any]] = {}
 substitution_parse_methods: dict[str, Callable[..., Any]] = {}
 
 
-def expose_action(name: str) -> Callable[[type[T]], type[T]]:
-    """Let a class be an action of this name; its `parse(entity, parser)` gives class and keyword arguments."""
-    return _exposer(name, action_parse_methods)
+def expose_action(name: str) -> Callable[[T], T]:
+    """Let a class be an action of this name; its `parse(entity, parser)` gives class and keyword arguments.
+
+    A function in its place is the parse method itself. Raises `RuntimeError` for anything else, and for a name that
+    another class has.
+    """
+    return _exposer(name, action_parse_methods, "action")
 
 
-def expose_substitution(name: str) -> Callable[[type[T]], type[T]]:
-    """Let a class be a substitution of this name; its `parse(data)` gives class and keyword arguments."""
-    return _exposer(name, substitution_parse_methods)
+def expose_substitution(name: str) -> Callable[[T], T]:
+    """Let a class, or a parse function, be a substitution of this name; `parse(data)` gives class and arguments."""
+    return _exposer(name, substitution_parse_methods, "substitution")
 
 
-def _exposer(name: str, methods: dict[str, Callable[..., Any]]) -> Callable[[type[T]], type[T]]:
-    def expose(exposed: type[T]) -> type[T]:
-        parse: Any = getattr(exposed, "parse", None)
+def _exposer(name: str, methods: dict[str, Callable[..., Any]], kind: str) -> Callable[[T], T]:
+    def expose(exposed: T) -> T:
+        parse = _parse_method(exposed)
         if parse is None:
-            raise RuntimeError(f"Did not find a parse method in class {exposed.__name__}")
+            raise RuntimeError(
+                f"Exposed {kind} parser for {name} is not a callable or a class containing a parse method"
+            )
+        if name in methods and not _is_same(methods[name], parse):
+            raise RuntimeError(f"Two {kind} parsing methods exposed with the same name: [{name}]")
         methods[name] = parse
         return exposed
 
     return expose
+
+
+def _parse_method(exposed: Any) -> Callable[..., Any] | None:
+    if not inspect.isclass(exposed):
+        return exposed if callable(exposed) else None
+    parse = getattr(exposed, "parse", None)
+    if not callable(parse):
+        raise RuntimeError("Did not find a method called 'parse' in the class being decorated.")
+    return parse
+
+
+def _is_same(known: Any, parse: Any) -> bool:
+    """Whether two parse methods are one, or one that was loaded again from the same place."""
+    return known is parse or (known.__module__, known.__qualname__) == (parse.__module__, parse.__qualname__)

@@ -40,12 +40,25 @@ def parse_substitution(string_value: str) -> list[Any]:
 
 
 def parse_if_substitutions(value: Any) -> Any:
-    """The same for a text or each text of a list; other values as they are."""
-    if isinstance(value, str):
-        return parse_substitution(value)
-    if isinstance(value, list) and value and all(isinstance(each, str) for each in value):
-        return [parse_substitution(each) for each in value]
-    return value
+    """The same for a text, or each text of a list, that has any; without them it stays a text, and others as they are.
+
+    Raises `ValueError` for a list whose plain values are not of one type.
+    """
+    if not isinstance(value, list):
+        return _parsed_if_needed(value)
+    found = [_parsed_if_needed(each) for each in value]
+    if len({type(each) for each in found if not isinstance(each, list)}) > 1:
+        raise ValueError("The result is a non-uniform list")
+    return found
+
+
+def _parsed_if_needed(value: Any) -> Any:
+    from launch.substitutions.text_substitution import TextSubstitution
+
+    if not isinstance(value, str):
+        return value
+    found = parse_substitution(value)
+    return found[0].text if len(found) == 1 and isinstance(found[0], TextSubstitution) else found
 
 
 def _substitution(name: str, arguments: list[Any]) -> Any:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import os
 import sys
+from collections.abc import Callable
 from typing import TextIO
 
 from launch.logging import formats
@@ -49,6 +50,8 @@ class LaunchConfig:
         self._screen: logging.Handler | None = None
         self._screen_format: str | None = None
         self._log_format: str | None = None
+        self.log_handler_factory: Callable[..., logging.Handler] = logging.FileHandler
+        """Makes the handler of a log file, from its path and `encoding=`."""
 
     @property
     def level(self) -> int:
@@ -95,6 +98,15 @@ class LaunchConfig:
             self._screen = self._with_screen_format(ScreenHandler())
         return self._screen
 
+    @property
+    def screen_handler(self) -> logging.Handler:
+        """What writes to the screen."""
+        return self.get_screen_handler()
+
+    @screen_handler.setter
+    def screen_handler(self, handler: logging.Handler) -> None:
+        self.set_screen_handler(handler)
+
     def set_screen_handler(self, handler: logging.Handler) -> None:
         """Let something else than the standard output be the screen: a console that draws it itself."""
         self._screen = self._with_screen_format(handler)
@@ -102,7 +114,11 @@ class LaunchConfig:
     def get_log_file_handler(self, file_name: str = "launch.log") -> logging.Handler:
         """What writes to a log file of this run; the file is made with its first line."""
         if file_name not in self._files:
-            handler = logging.FileHandler(self.get_log_file_path(file_name), delay=True, encoding="utf-8")
+            path = self.get_log_file_path(file_name)
+            if self.log_handler_factory is logging.FileHandler:
+                handler: logging.Handler = logging.FileHandler(path, delay=True, encoding="utf-8")
+            else:
+                handler = self.log_handler_factory(path, encoding="utf-8")
             chosen = os.environ.get(LOG_FORMAT) or self._log_format or "default"
             launch_format = formats.LOG.get(chosen, chosen)
             handler.setFormatter(formats.OutputAwareFormatter(launch_format, formats.OUTPUT_IN_LOG))

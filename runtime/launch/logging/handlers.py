@@ -1,5 +1,12 @@
-"""Handlers of the records of a launch."""
+"""Handlers of the records of a launch, and those of the standard library by the same names."""
+
+from logging.handlers import (
+    RotatingFileHandler,
+    SysLogHandler,
+    TimedRotatingFileHandler,
+    WatchedFileHandler,
+)
 
 from launch.logging.config import ScreenHandler
 
-__all__ = ["ScreenHandler"]
+__all__ = ["RotatingFileHandler", "ScreenHandler", "SysLogHandler", "TimedRotatingFileHandler", "WatchedFileHandler"]

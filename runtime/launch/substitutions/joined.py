@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from launch.utilities.perform_substitutions import perform_substitutions
+from launch.utilities.perform_substitutions_impl import perform_substitutions
 
 
 def described(subs: Iterable[Any]) -> str:

@@ -7,18 +7,39 @@ from typing import Any
 
 from launch.substitution import Substitution
 from launch.utilities.data_types import extract_type, is_instance_of, is_typing_list
-from launch.utilities.normalize_to_list_of_substitutions import normalize_to_list_of_substitutions
-from launch.utilities.perform_substitutions import perform_substitutions
+from launch.utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
+from launch.utilities.perform_substitutions_impl import perform_substitutions
+
+ScalarValueType = int | float | bool | str
+ListValueType = list[int] | list[float] | list[bool] | list[str]
+AllowedValueType = ScalarValueType | ListValueType
+ScalarTypesTuple = (int, float, bool, str)
+AllowedTypesTuple = (*ScalarTypesTuple, list[int], list[float], list[bool], list[str])
+AllowedTypesType = Any
+StrSomeValueType = Any
+SomeValueType = Any
+NormalizedValueType = Any
 
 __all__ = [
+    "AllowedTypesTuple",
+    "AllowedTypesType",
+    "AllowedValueType",
+    "ListValueType",
+    "NormalizedValueType",
+    "ScalarTypesTuple",
+    "ScalarValueType",
+    "SomeValueType",
+    "StrSomeValueType",
     "coerce_list",
     "coerce_to_type",
     "extract_type",
     "get_typed_value",
     "is_instance_of",
+    "is_instance_of_valid_type",
     "is_normalized_substitution",
     "is_substitution",
     "is_typing_list",
+    "is_valid_scalar_type",
     "normalize_typed_substitution",
     "perform_typed_substitution",
 ]
@@ -90,6 +111,16 @@ def _yaml(value: str) -> Any:
         return yaml.safe_load(value)
     except yaml.YAMLError:
         return value
+
+
+def is_instance_of_valid_type(value: Any, *, can_be_str: bool = False) -> bool:
+    """Whether a value is of any type that values in launch files may have."""
+    return is_instance_of(value, None, can_be_str=can_be_str)
+
+
+def is_valid_scalar_type(data_type: Any) -> bool:
+    """Whether a type is one that a single value may have."""
+    return data_type in ScalarTypesTuple
 
 
 def is_substitution(value: Any) -> bool:

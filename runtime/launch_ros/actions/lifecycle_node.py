@@ -102,7 +102,7 @@ class LifecycleNode(Node):
             if context.is_shutdown:
                 return
         if future.exception() is not None or not future.result().success:
-            label = _label(transition_id)
+            label = ChangeState.valid_transitions[transition_id]
             self.__logger.error(f"Failed to make transition '{label}' for LifecycleNode '{self.node_name}'")
 
 
@@ -116,11 +116,3 @@ class _OnChangeState(BaseEventHandler):
     def handle(self, event: Any, context: Any) -> None:
         super().handle(event, context)
         self._callback(event, context)
-
-
-def _label(transition_id: int) -> str:
-    """The name of the constant in `lifecycle_msgs/msg/Transition`, `TRANSITION_CONFIGURE` for 1."""
-    from lifecycle_msgs.msg import Transition
-
-    names = (each for each in dir(Transition) if each.startswith("TRANSITION_"))
-    return next((name for name in names if getattr(Transition, name) == transition_id), str(transition_id))

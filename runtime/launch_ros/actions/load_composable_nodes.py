@@ -4,20 +4,29 @@ from __future__ import annotations
 
 import asyncio
 import threading
-from functools import partial
+from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import launch.logging
 from launch.action import Action
 from launch.frontend import expose_action
-from launch.utilities import create_future, normalize_to_list_of_substitutions, perform_substitutions
-from launch_ros.descriptions import ComposableNode
+from launch.some_substitutions_type import SomeSubstitutionsType_types_tuple
+from launch.utilities import (
+    create_future,
+    ensure_argument_type,
+    normalize_to_list_of_substitutions,
+    perform_substitutions,
+)
+from launch_ros.actions.node import Node
+from launch_ros.descriptions import ComposableNode, ParameterFile
 from launch_ros.ros_adapters import get_ros_node
 from launch_ros.utilities import (
     add_node_name,
     evaluate_parameters,
     get_node_name_count,
     make_namespace_absolute,
+    normalize_parameter_dict,
     prefix_namespace,
     to_parameters_list,
 )
@@ -30,6 +39,9 @@ class LoadComposableNodes(Action):
     """Lets a running container load nodes, one after the other."""
 
     def __init__(self, *, composable_node_descriptions: Any, target_container: Any, **kwargs: Any) -> None:
+        ensure_argument_type(
+            target_container, (*SomeSubstitutionsType_types_tuple, Node), "target_container", "LoadComposableNodes"
+        )
         super().__init__(**kwargs)
         self.__descriptions = composable_node_descriptions
         self.__target = target_container
@@ -53,9 +65,6 @@ class LoadComposableNodes(Action):
         from composition_interfaces.srv import LoadNode
 
         target = self._container_name(context)
-        if target is None:
-            self.__logger.error("node name not set for action: ComposableNodeContainer without a name")
-            return
         requests = [request_for(each, context) for each in self.__descriptions if holds(each, context)]
         if not requests:
             return
@@ -64,68 +73,60 @@ class LoadComposableNodes(Action):
         worker = threading.Thread(target=self._load, args=(requests, client, target, context), daemon=True)
         worker.start()
 
-    def _container_name(self, context: Any) -> str | None:
-        from launch_ros.actions.composable_node_container import ComposableNodeContainer
-
-        if isinstance(self.__target, ComposableNodeContainer):
-            name: str | None = self.__target.node_name
-        else:
-            text = perform_substitutions(context, normalize_to_list_of_substitutions(self.__target))
-            name = text if text.startswith("/") else None
-            if name is None:
-                base = context.launch_configurations.get("ros_namespace")
-                name = make_namespace_absolute(prefix_namespace(base, text))
-        return None if name is None or "<" in name else name
+    def _container_name(self, context: Any) -> str:
+        """The container's full name, or the text as it is: no pushed namespace goes before it."""
+        if isinstance(self.__target, Node):
+            return self.__target.node_name
+        return perform_substitutions(context, normalize_to_list_of_substitutions(self.__target))
 
     def _load(self, requests: list[Any], client: Any, target: str, context: Any) -> None:
         try:
             for request in requests:
-                if not self._load_one(request, client, target, context):
-                    return
+                self._load_one(request, client, target, context)
         finally:
             context.asyncio_loop.call_soon_threadsafe(self._finish)
 
-    def _load_one(self, request: Any, client: Any, target: str, context: Any) -> bool:
-        """Whether to go on with the next one."""
-        while not client.wait_for_service(timeout_sec=WAIT_S):
+    def _load_one(self, request: Any, client: Any, target: str, context: Any) -> None:
+        while not client.wait_for_service(timeout_sec=0.0 if context.is_shutdown else WAIT_S):
             if context.is_shutdown:
-                self.__logger.warning(f"Abandoning wait for the '{client.srv_name}' service response, due to shutdown.")
-                return False
+                self.__logger.warning(f"Abandoning wait for the '{client.srv_name}' service, due to shutdown.")
+                return
         answered = threading.Event()
         future = client.call_async(request)
         future.add_done_callback(lambda _: answered.set())
         while not answered.wait(WAIT_S):
             if context.is_shutdown:
-                return False
+                self.__logger.warning(f"Abandoning wait for the '{client.srv_name}' service response, due to shutdown.")
+                future.cancel()
+                return
         if future.exception() is not None:
             self.__logger.error(f"Failed to load node '{request.node_name}': {future.exception()}")
-            return True
+            return
         self._report(future.result(), request, target, context)
-        return True
 
     def _report(self, answer: Any, request: Any, target: str, context: Any) -> None:
-        name = request.node_name or request.plugin_name
+        name = answer.full_node_name or request.node_name
         if not answer.success:
             self.__logger.error(
                 f"Failed to load node '{name}' of type '{request.plugin_name}' in container '{target}': "
                 f"{answer.error_message}"
             )
             return
-        loaded = answer.full_node_name or name
-        context.asyncio_loop.call_soon_threadsafe(partial(self._count, loaded, context))
-        self.__logger.info(f"Loaded node '{loaded}' in container '{target}'")
-
-    def _count(self, name: str, context: Any) -> None:
-        add_node_name(context, name)
-        count = get_node_name_count(context, name)
-        if count > 1:
-            self.__logger.warning(
-                f"there are now at least {count} nodes with the name {name} created within this launch context"
-            )
+        context.asyncio_loop.call_soon_threadsafe(_count, name, target, context)
+        self.__logger.info(f"Loaded node '{answer.full_node_name}' in container '{target}'")
 
     def _finish(self) -> None:
         if self.__done is not None and not self.__done.done():
             self.__done.set_result(None)
+
+
+def _count(name: str, target: str, context: Any) -> None:
+    add_node_name(context, name)
+    count = get_node_name_count(context, name)
+    if count > 1:
+        launch.logging.get_logger(target).warning(
+            f"there are now at least {count} nodes with the name {name} created within this launch context"
+        )
 
 
 def parse_composable_nodes(entity: Any, parser: Any, *, optional: bool = False) -> list[ComposableNode]:
@@ -164,12 +165,30 @@ def request_for(description: ComposableNode, context: Any) -> Any:
     ]
     request.remap_rules = [f"{source}:={target}" for source, target in rules]
     names = (request.node_name, request.node_namespace)
-    everywhere = dict(
-        each for each in context.launch_configurations.get("global_params", ()) if isinstance(each, tuple)
-    )
-    given = [everywhere] if everywhere else []
-    own_parameters = evaluate_parameters(context, description.parameters or [])
-    request.parameters = to_parameters_list(context, *names, [*given, *own_parameters])
-    extra = evaluate_parameters(context, description.extra_arguments or [])
-    request.extra_arguments = to_parameters_list(context, *names, extra)
+    everywhere = context.launch_configurations.get("global_params") or ()
+    given = [*map(_of_all_nodes, everywhere), *(description.parameters or ())]
+    request.parameters = _messages(context, names, given)
+    request.extra_arguments = _messages(context, names, description.extra_arguments or ())
     return request
+
+
+def _of_all_nodes(given: Any) -> Any:
+    """What `SetParameter` or `SetParametersFromFile` has set, as an entry of a node's parameters."""
+    if isinstance(given, tuple):
+        return normalize_parameter_dict({given[0]: given[1]})
+    path = Path(given).resolve()
+    if not path.is_file():
+        raise AssertionError
+    return ParameterFile(path)
+
+
+def _messages(context: Any, names: tuple[str, str], parameters: Sequence[Any]) -> list[Any]:
+    evaluated = evaluate_parameters(context, parameters)
+    return [each.to_parameter_msg() for each in to_parameters_list(context, *names, evaluated)]
+
+
+def get_composable_node_load_request(composable_node_description: ComposableNode, context: Any) -> Any:
+    """The request that loads a node; None where its condition does not hold."""
+    if not holds(composable_node_description, context):
+        return None
+    return request_for(composable_node_description, context)

@@ -91,6 +91,13 @@ class Node(ExecuteProcess):
         _, kwargs = super().parse(entity, parser, ignore=("cmd", "name", *(ignore or ())))
         return cls, parse_node(entity, parser, kwargs)
 
+    @staticmethod
+    def parse_nested_parameters(params: Any, parser: Any) -> list[Any]:
+        """`param` elements as the `parameters` of a node, for classes of others that parse them."""
+        from launch_ros.actions.parse_parameters import parse_nested_parameters
+
+        return parse_nested_parameters(params, parser)
+
     @property
     def node_package(self) -> Any:
         """The package."""

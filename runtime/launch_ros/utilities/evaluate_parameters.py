@@ -43,7 +43,7 @@ def _evaluate(context: Any, name: str, value: Any) -> Any:
         return yaml_value(name, perform_substitutions(context, value))
     if isinstance(value, tuple) and any(isinstance(each, list) for each in value):
         return [
-            each if isinstance(each, str) else yaml_value(name, perform_substitutions(context, each)) for each in value
+            yaml_value(name, perform_substitutions(context, each)) if isinstance(each, list) else each for each in value
         ]
     if isinstance(value, tuple) and not value:
         ensure_argument_type(value, SCALARS, "value")

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from launch.some_substitutions_type import SomeSubstitutionsType_types_tuple
 from launch.substitution import Substitution
 from launch.substitutions import TextSubstitution
 from launch.utilities import ensure_argument_type, normalize_to_list_of_substitutions
@@ -62,11 +63,20 @@ def normalize_value(value: Any) -> Any:
 
 
 def _normalize_sequence(values: Sequence[Any]) -> Any:
-    if values and any(isinstance(each, Substitution) for each in values):
-        return normalize_to_list_of_substitutions(values)
-    if any(isinstance(each, (list, tuple)) for each in values):
-        return tuple(each if isinstance(each, str) else normalize_to_list_of_substitutions(each) for each in values)
-    kinds = {type(each) for each in values}
+    """Numbers as they are, floats where there is one; text and substitutions as one text; else item by item."""
+    for each in values:
+        ensure_argument_type(each, (float, int, str, bool, *SomeSubstitutionsType_types_tuple), "subvalue")
+    kinds = {_kind(each) for each in values}
     if kinds == {int, float}:
         return tuple(float(each) for each in values)
+    if Substitution in kinds and kinds <= {str, Substitution, list}:
+        return normalize_to_list_of_substitutions(values)
+    if kinds & {Substitution, list}:
+        return tuple(each if isinstance(each, SCALARS) else normalize_to_list_of_substitutions(each) for each in values)
     return tuple(values)
+
+
+def _kind(value: Any) -> type:
+    if isinstance(value, Substitution):
+        return Substitution
+    return type(value) if isinstance(value, (bool, int, float, str)) else list

@@ -2,25 +2,81 @@
 
 from __future__ import annotations
 
+import re
+import warnings
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+PARAMETERS_KEY = "ros__parameters"
 
-def to_parameters_list(context: Any, node_name: str, namespace: str, evaluated_parameters: Any) -> list[Any]:
-    """Parameter messages of a node from what `evaluate_parameters` gave; those of files by the node's full name."""
-    from rclpy.parameter import Parameter, parameter_dict_from_yaml_file
 
-    full_name = f"{namespace.rstrip('/')}/{node_name}"
+def to_parameters_list(context: Any, node_name: str, namespace: str | None, evaluated_parameters: Any) -> list[Any]:
+    """The `rclpy` parameters of a node from what `evaluate_parameters` gave; of files, what is meant for the node.
+
+    A `UserWarning` says that a file has nothing for the node. Raises `OSError`, `yaml.YAMLError`, `RuntimeError` for a
+    file whose keys cannot be matched, and `TypeError` for values that no parameter can have.
+    """
+    from rclpy.parameter import Parameter
+
+    full_name = _full_name(node_name, namespace)
     found: list[Any] = []
     for each in evaluated_parameters:
         if isinstance(each, Path):
-            found += parameter_dict_from_yaml_file(str(each), use_wildcard=True, target_nodes=[full_name]).values()
-        elif isinstance(each, dict):
-            found += [
-                Parameter(name, value=list(value) if isinstance(value, tuple) else value).to_parameter_msg()
-                for name, value in each.items()
-            ]
+            values = _values_of_file(context, each, full_name)
         else:
-            name, value = each.evaluate(context)
-            found.append(Parameter(name, value=list(value) if isinstance(value, tuple) else value).to_parameter_msg())
+            values = each if isinstance(each, Mapping) else dict([each.evaluate(context)])
+        found += [
+            Parameter(name, value=list(value) if isinstance(value, tuple) else value) for name, value in values.items()
+        ]
     return found
+
+
+def _full_name(node_name: str, namespace: str | None) -> str:
+    name = node_name if node_name.startswith("/") else f"/{node_name}"
+    return name if not namespace or namespace == "/" else f"/{namespace.strip('/')}{name}"
+
+
+def _values_of_file(context: Any, path: Path, full_name: str) -> dict[str, Any]:
+    """Values of the keys that mean the node, later ones over earlier ones; a file without node keys is all values."""
+    import yaml
+    from launch_ros.utilities.evaluate_parameters import evaluate_parameter_dict
+    from launch_ros.utilities.normalize_parameters import normalize_parameter_dict
+
+    content = yaml.safe_load(path.read_text(encoding="utf-8"))
+    if not isinstance(content, Mapping):
+        raise RuntimeError(f"invalid yaml file {path}, error: it has no keys")
+    sections = list(_sections(content, []))
+    values: dict[str, Any] = {}
+    for key, section in sections:
+        if _means(key, full_name, path):
+            values.update(section or {})
+    if not sections:
+        values = dict(content)
+    elif not values:
+        warnings.warn(
+            "node name not provided to launch; parameter files will not apply "
+            f"(no key of {path} means the node {full_name})",
+            UserWarning,
+            stacklevel=2,
+        )
+    return evaluate_parameter_dict(context, normalize_parameter_dict(values))
+
+
+def _sections(content: Mapping[Any, Any], above: list[str]) -> Iterator[tuple[str, Any]]:
+    """Node keys, those of nested namespaces joined, each with its parameters."""
+    for key, value in content.items():
+        if key == PARAMETERS_KEY:
+            yield "/".join(above), value
+            return
+        if isinstance(value, Mapping):
+            yield from _sections(value, [*above, str(key).lstrip("/")])
+
+
+def _means(key: str, full_name: str, path: Path) -> bool:
+    """Whether a key means the node: `*` is one part of a name, `**` is any number of them."""
+    pattern = (key if key.startswith("/") else f"/{key}").replace("/*", r"(/\w+)")
+    try:
+        return re.fullmatch(pattern, full_name) is not None
+    except re.error as error:
+        raise RuntimeError(f"invalid yaml file {path}, error: {error}") from error

@@ -214,7 +214,7 @@ def test_components_in_python(run: Launch, tmp_path: Path, monkeypatch: pytest.M
 
     text = run([container, loading, RegisterEventHandler(OnProcessIO(target_action=container, on_stdout=loaded))]).text
     assert "] /s/t 2" in text
-    assert "Failed to load node 'bc_components::Cpp' of type 'bc_components::Cpp' in container '/c':" in text
+    assert "Failed to load node '' of type 'bc_components::Cpp' in container '/c':" in text
 
 
 def test_two_hundred_nodes_start_and_stop(run: Launch, script: Any) -> None:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import inspect
 from collections.abc import Callable
 from typing import Any
 
+import launch.logging
 from launch.action import Action
 from launch.frontend import expose_action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
@@ -14,6 +14,8 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 @expose_action("for_each")
 class ForEach(Action):
     """Visits what a function gives for each iteration; the values are YAML maps with `;` between them."""
+
+    SEPARATOR = ";"
 
     def __init__(self, input_values: Any, *, function: Callable[..., Any], **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -25,7 +27,8 @@ class ForEach(Action):
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["input_values"] = parser.parse_substitution(entity.get_attr("values"))
-        kwargs["function"] = _children_function(entity, parser)
+        iteration = _children_function(entity, parser)
+        kwargs["function"] = lambda **values: iteration(values)
         return cls, kwargs
 
     @property
@@ -33,33 +36,34 @@ class ForEach(Action):
         """The values as a text."""
         return self._input_values
 
+    @property
+    def function(self) -> Callable[..., Any]:
+        """What is called with the values of each iteration."""
+        return self._function
+
     def execute(self, context: Any) -> list[Any]:
-        """Call the function for each iteration."""
+        """Call the function for each iteration; raises `SyntaxError` for values that are no YAML map."""
         import yaml
 
+        texts = [
+            each for each in perform_substitutions(context, self._input_values).strip().split(self.SEPARATOR) if each
+        ]
+        if not texts:
+            launch.logging.get_logger("launch.actions.for_loop").warning("no input values: will not iterate")
         found: list[Any] = []
-        for text in perform_substitutions(context, self._input_values).split(";"):
-            values = yaml.safe_load(text) if text.strip() else None
+        for text in texts:
+            values = yaml.safe_load(text.strip())
             if values is None:
                 continue
             if not isinstance(values, dict):
                 raise SyntaxError(f"Unable to parse iteration values: {text!r} is no YAML map")
-            found += self._iteration(values)
+            found += self._function(**values) or ()
         return found
-
-    def _iteration(self, values: dict[str, Any]) -> list[Any]:
-        if getattr(self._function, "takes_locals", False):
-            return list(self._function(values))
-        wanted = inspect.signature(self._function).parameters
-        for name, parameter in wanted.items():
-            if name not in values and parameter.default is inspect.Parameter.empty:
-                raise ValueError(f"No value is provided for the argument {name!r} of the function of ForEach")
-        return list(self._function(**{name: values[name] for name in wanted if name in values}) or ())
 
 
 @expose_action("for")
 class ForLoop(Action):
-    """Visits what a function gives for each number below a length."""
+    """Visits what a function of `i` gives for each number below a length."""
 
     def __init__(self, length: Any, *, function: Callable[..., Any], name: str | None = None, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -72,18 +76,33 @@ class ForLoop(Action):
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["length"] = parser.parse_substitution(entity.get_attr("len"))
-        kwargs["name"] = entity.get_attr("name")
-        kwargs["function"] = _children_function(entity, parser)
+        name = entity.get_attr("name")
+        kwargs["name"] = name
+        iteration = _children_function(entity, parser)
+        kwargs["function"] = lambda i: iteration({name: i})
         return cls, kwargs
 
+    @property
+    def length(self) -> list[Any]:
+        """How often, as a text."""
+        return self._length
+
+    @property
+    def function(self) -> Callable[..., Any]:
+        """What is called with each number."""
+        return self._function
+
+    @property
+    def name(self) -> str | None:
+        """The name by which `$(index name)` knows the number."""
+        return self._name
+
     def execute(self, context: Any) -> list[Any]:
-        """Call the function for each number."""
+        """Call the function for each number; raises `ValueError` for a length that is none."""
+        length = int(perform_substitutions(context, self._length))
         found: list[Any] = []
-        for number in range(int(perform_substitutions(context, self._length))):
-            if getattr(self._function, "takes_locals", False):
-                found += self._function({self._name or "i": number})
-            else:
-                found += self._function(number) or ()
+        for number in range(length):
+            found += self._function(i=number) or ()
         return found
 
 
@@ -108,7 +127,6 @@ def _children_function(entity: Any, parser: Any) -> Callable[[dict[str, Any]], l
     def iteration(values: dict[str, Any]) -> list[Any]:
         return [_WithLocals(values), *(parser.parse_action(each) for each in children), _WithLocals(None)]
 
-    iteration.takes_locals = True  # type: ignore[attr-defined]
     for each in children:
         parser.parse_action(each)
     return iteration

@@ -1,0 +1,75 @@
+"""Saying something at a level: names of Kilted, which public launch files already use."""
+
+from __future__ import annotations
+
+import logging
+from typing import Any
+
+import launch.logging
+from launch.action import Action
+from launch.actions.log_info import LogInfo
+from launch.frontend import expose_action
+from launch.substitution import Substitution
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+LEVELS = {name: getattr(logging, name) for name in ("NOTSET", "DEBUG", "INFO", "WARNING", "ERROR", "CRITICAL")}
+
+__all__ = ["Log", "LogDebug", "LogError", "LogInfo", "LogWarning"]
+
+
+class Log(Action):
+    """Logs a text at a level, as `debug` or `WARNING`."""
+
+    def __init__(self, *, msg: Any, level: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__msg = normalize_to_list_of_substitutions(msg)
+        self.__level = normalize_to_list_of_substitutions(level)
+
+    @classmethod
+    def parse(cls, entity: Any, parser: Any) -> tuple[type[Log], dict[str, Any]]:
+        """From XML or YAML."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["msg"] = parser.parse_substitution(entity.get_attr("message"))
+        return cls, kwargs
+
+    @property
+    def msg(self) -> list[Substitution]:
+        """The text."""
+        return self.__msg
+
+    @property
+    def level(self) -> list[Substitution]:
+        """The level."""
+        return self.__level
+
+    def execute(self, context: Any) -> None:
+        """Log it; raises `KeyError` for a level that there is not."""
+        level = perform_substitutions(context, self.__level).upper()
+        if level not in LEVELS:
+            raise KeyError(f"Invalid log level '{level}', expected: {LEVELS.keys()}")
+        text = perform_substitutions(context, self.__msg)
+        launch.logging.get_logger("launch.user").log(LEVELS[level], "%s", text)
+
+
+@expose_action("log_debug")
+class LogDebug(Log):
+    """Logs a text that only `--debug` shows."""
+
+    def __init__(self, *, msg: Any, **kwargs: Any) -> None:
+        super().__init__(msg=msg, level="DEBUG", **kwargs)
+
+
+@expose_action("log_warning")
+class LogWarning(Log):
+    """Logs a warning."""
+
+    def __init__(self, *, msg: Any, **kwargs: Any) -> None:
+        super().__init__(msg=msg, level="WARNING", **kwargs)
+
+
+@expose_action("log_error")
+class LogError(Log):
+    """Logs an error."""
+
+    def __init__(self, *, msg: Any, **kwargs: Any) -> None:
+        super().__init__(msg=msg, level="ERROR", **kwargs)

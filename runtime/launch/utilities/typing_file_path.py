@@ -1,0 +1,9 @@
+"""The type of paths of files."""
+
+from __future__ import annotations
+
+import os
+
+FilePath = str | bytes | os.PathLike[str] | os.PathLike[bytes]
+
+__all__ = ["FilePath"]

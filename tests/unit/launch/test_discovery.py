@@ -1,0 +1,64 @@
+"""Arguments that are found without running a launch file, and which of them an include must be given."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.actions import (
+    DeclareLaunchArgument,
+    GroupAction,
+    IncludeLaunchDescription,
+    ResetLaunchConfigurations,
+)
+from launch.conditions import IfCondition
+from launching import Launch
+
+from launch import LaunchDescription, LaunchDescriptionSource
+
+YES = IfCondition("true")
+
+
+def include(*entities: Any, **arguments: str) -> IncludeLaunchDescription:
+    source = LaunchDescriptionSource(LaunchDescription(list(entities)))
+    return IncludeLaunchDescription(source, launch_arguments=arguments.items())
+
+
+def found(*entities: Any) -> dict[str, bool]:
+    """Names of the arguments, with whether each is conditional."""
+    arguments = LaunchDescription(list(entities)).get_launch_arguments()
+    return {each.name: each._conditionally_included for each in arguments}
+
+
+def test_what_stands_in_a_conditional_branch_is_conditional() -> None:
+    group = GroupAction([DeclareLaunchArgument("a")], condition=YES)
+    assert found(group, DeclareLaunchArgument("b", condition=YES), DeclareLaunchArgument("c")) == {
+        "a": True,
+        "b": True,
+        "c": False,
+    }
+
+
+def test_what_lies_deeper_in_a_conditional_branch_is_not() -> None:
+    inside = GroupAction([DeclareLaunchArgument("a")])
+    assert found(GroupAction([inside, include(DeclareLaunchArgument("b"))], condition=YES)) == {"a": False, "b": False}
+
+
+def test_a_reset_hides_the_rest_of_its_own_list_only() -> None:
+    isolated = GroupAction([DeclareLaunchArgument("a")], forwarding=False)
+    assert found(isolated, DeclareLaunchArgument("b")) == {"b": False}
+    assert found(DeclareLaunchArgument("a"), ResetLaunchConfigurations(), DeclareLaunchArgument("b")) == {"a": False}
+
+
+def test_includes_below_count_as_givers_for_each_other(run: Launch) -> None:
+    needs = include(DeclareLaunchArgument("x", description="needed"))
+    gives = include(x="1")
+    outcome = run([include(needs, gives)])
+    assert outcome.code == 1
+    assert "missing required argument 'x' (description: 'needed'), given: []" in outcome.text
+
+
+def test_names_that_are_given_add_up_in_the_message(run: Launch) -> None:
+    first = include(DeclareLaunchArgument("x"), x="1")
+    second = include(DeclareLaunchArgument("y"))
+    outcome = run([include(first, second, z="3")])
+    assert "missing required argument 'y' (description: 'no description given'), given: [z, x]" in outcome.text
