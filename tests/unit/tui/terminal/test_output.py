@@ -1,0 +1,195 @@
+"""What reaches the terminal: after every frame it shows what Textual has composed; none comes while it is busy."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable
+from typing import Any
+
+import pytest
+from bot_console.tui.terminal.gate import AnswerGate
+from bot_console.tui.terminal.output import QUESTION, SparingApp
+from emulator import Emulator
+from textual import events
+from textual.app import ComposeResult
+from textual.containers import Container, Horizontal
+from textual.drivers.headless_driver import HeadlessDriver
+from textual.geometry import Region, Size
+from textual.pilot import Pilot
+from textual.screen import ModalScreen
+from textual.widgets import Static
+
+WIDTH, HEIGHT = 40, 8
+
+
+class Door(AnswerGate):
+    """A gate that is opened and closed by hand."""
+
+    closed = False
+
+    def wait(self) -> float:
+        return 3600.0 if self.closed else 0.0
+
+
+class Wire(HeadlessDriver):
+    """Leads to the terminal that the app has in the test."""
+
+    is_headless = False
+
+    def write(self, data: str) -> None:
+        app: Any = self._app
+        app.terminal.feed(data)
+        if QUESTION in data:
+            app.frames.append(data)
+            self.process_message(events.CursorPosition(0, 0))
+
+
+class Over(ModalScreen[None]):
+    """A screen over the panes."""
+
+    CSS = "Over { align: center middle; } Over Static { width: 12; height: 3; border: round white; }"
+
+    def compose(self) -> ComposeResult:
+        yield Static("over")
+
+
+class Panes(SparingApp):
+    """Two framed panes beside each other, so that a line holds parts of both."""
+
+    CSS = "Container { width: 1fr; border: round white; } Static { height: 3; }"
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.driver_class = Wire
+        self.gate: Door = Door()
+        self.terminal = Emulator(WIDTH, HEIGHT)
+        self.frames: list[str] = []
+
+    def compose(self) -> ComposeResult:
+        with Horizontal():
+            yield Container(Static("one\ntwo\nthree", id="left"))
+            yield Container(Static("red\ngreen\nblue", id="right"))
+
+    def write(self, side: str, text: str) -> None:
+        self.query_one(f"#{side}", Static).update(text, layout=False)
+
+    def composed(self) -> list[str]:
+        """What stock Textual would draw now."""
+        return [strip.text for strip in self.screen._compositor.render_strips()]
+
+
+def run(script: Callable[[Panes, Pilot[None]], Awaitable[None]]) -> None:
+    """Run the app in a terminal, and the script on it."""
+
+    async def whole() -> None:
+        app = Panes()
+        outcome: list[BaseException] = []
+
+        async def pilot(pilot: Pilot[Any]) -> None:
+            try:
+                await pilot.pause()
+                await script(app, pilot)
+            except BaseException as error:
+                outcome.append(error)
+                raise
+            finally:
+                app.exit()
+
+        await app.run_async(size=(WIDTH, HEIGHT), auto_pilot=pilot)
+        if outcome:
+            raise outcome[0]
+
+    asyncio.run(whole())
+
+
+def test_a_pane_beside_a_changed_one_stays() -> None:
+    async def script(app: Panes, pilot: Pilot[None]) -> None:
+        for side, text in (("right", "cyan\ngreen\nblue"), ("left", "four"), ("right", "a\nb\nc"), ("left", "5\n6\n7")):
+            app.write(side, text)
+            await pilot.pause()
+            assert app.terminal.lines() == app.composed()
+
+    run(script)
+
+
+def test_two_spans_of_one_line_are_both_drawn() -> None:
+    async def script(app: Panes, pilot: Pilot[None]) -> None:
+        app.write("left", "four\nfive\nsix")
+        app.write("right", "cyan\nmagenta\nyellow")
+        await pilot.pause()
+        assert app.terminal.lines() == app.composed()
+        assert "five" in app.terminal.lines()[2] and "magenta" in app.terminal.lines()[2]
+
+    run(script)
+
+
+def test_only_the_asked_part_of_a_widget_need_be_sent() -> None:
+    async def script(app: Panes, pilot: Pilot[None]) -> None:
+        app.query_one("#left").refresh(Region(0, 1, 2, 1))
+        before = len(app.frames)
+        await pilot.pause()
+        assert app.terminal.lines() == app.composed()
+        assert len(app.frames) == before, "nothing has changed, so nothing is sent"
+
+    run(script)
+
+
+def test_a_screen_over_the_panes_comes_and_goes() -> None:
+    async def script(app: Panes, pilot: Pilot[None]) -> None:
+        await app.push_screen(Over())
+        await pilot.pause()
+        assert app.terminal.lines() == app.composed()
+        assert "over" in "".join(app.terminal.lines())
+        app.pop_screen()
+        await pilot.pause()
+        assert app.terminal.lines() == app.composed()
+        assert "over" not in "".join(app.terminal.lines())
+
+    run(script)
+
+
+def test_a_new_size_is_drawn_whole() -> None:
+    async def script(app: Panes, pilot: Pilot[None]) -> None:
+        for width, height in ((20, 5), (60, 12), (1, 1), (WIDTH, HEIGHT)):
+            app.terminal = Emulator(width, height)
+            app._driver._size = (width, height)
+            size = Size(width, height)
+            app.post_message(events.Resize(size, size))
+            await pilot.pause()
+            await pilot.pause()
+            assert app.terminal.lines() == app.composed()
+
+    run(script)
+
+
+@pytest.mark.parametrize("changes", [1, 50])
+def test_while_the_terminal_is_busy_frames_merge_into_one(changes: int) -> None:
+    async def script(app: Panes, pilot: Pilot[None]) -> None:
+        app.gate.closed = True
+        before = len(app.frames)
+        for number in range(changes):
+            app.write("left", f"number {number}")
+            await pilot.pause()
+        assert len(app.frames) == before
+        app.gate.closed = False
+        app._draw_held()
+        assert len(app.frames) == before + 1
+        assert f"number {changes - 1}" in app.terminal.lines()[1]
+        assert app.terminal.lines() == app.composed()
+
+    run(script)
+
+
+def test_a_layout_while_the_terminal_is_busy_is_not_lost() -> None:
+    async def script(app: Panes, pilot: Pilot[None]) -> None:
+        app.gate.closed = True
+        app.query_one("#left").styles.height = 1
+        await app.query_one("#right").remove()
+        await pilot.pause()
+        app.gate.closed = False
+        app._draw_held()
+        await pilot.pause()
+        assert app.terminal.lines() == app.composed()
+        assert "green" not in "".join(app.terminal.lines())
+
+    run(script)
