@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
-from bot_console.runtime.process import ClockSource, NodeProcess
+from bot_console.runtime.process import ClockSource, NodeProcess, SteppedTime, stepped
 from bot_console.runtime.process.virtual import uninstall_virtual_process
 
 LONG = 20.0
@@ -79,3 +79,11 @@ def run(start: Callable[..., Started]) -> Callable[..., Started]:
         return started
 
     return run_one
+
+
+@pytest.fixture
+def clock() -> Iterator[SteppedTime]:
+    """A stepped run that the test drives."""
+    with stepped() as clock:
+        yield clock
+    uninstall_virtual_process()
