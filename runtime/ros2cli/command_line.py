@@ -35,6 +35,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         return stop.code if isinstance(stop.code, int) else 1 if stop.code else 0
     except KeyboardInterrupt:
         return int(signal.SIGINT)
+    except RuntimeError as error:  # among them what the client library refuses
+        return _finish(str(error))
     except Exception:  # a verb's border: upstream ends in this traceback, and a console goes on after it
         traceback.print_exc()
         return 1

@@ -35,9 +35,14 @@ def message_to_yaml(
     flow_style: bool = False,
 ) -> str:
     """A message as YAML; each sequence and string up to `truncate_length`, followed by `...`."""
+    values = message_to_ordereddict(msg, truncate_length=truncate_length, no_arr=no_arr, no_str=no_str)
+    return ordereddict_to_yaml(values, flow_style=flow_style)
+
+
+def ordereddict_to_yaml(values: OrderedDict[str, Any], *, flow_style: bool = False) -> str:
+    """Fields as YAML in their order; sequences in brackets where `flow_style`."""
     import yaml
 
-    values = message_to_ordereddict(msg, truncate_length=truncate_length, no_arr=no_arr, no_str=no_str)
     return yaml.dump(values, Dumper=_dumper(), allow_unicode=True, width=sys.maxsize, default_flow_style=flow_style)
 
 

@@ -118,7 +118,7 @@ def _send_goal(arguments: argparse.Namespace) -> Result:
     goal = kind.Goal()
     try:
         set_message_fields(goal, values)
-    except (AttributeError, TypeError, ValueError) as error:
+    except Exception as error:  # whatever a field says about a value, as upstream
         return f"Failed to populate message fields: {error!r}"
     arguments.no_daemon = True
     with DirectNode(arguments, name=f"_ros2cli_send_goal_{arguments.action_type.replace('/', '_')}") as node:

@@ -1,8 +1,9 @@
-"""`ros2 service`: list, type, find, info and call."""
+"""`ros2 service`: list, type, find, info and call; echo has a file of its own."""
 
 from __future__ import annotations
 
 import argparse
+import importlib
 import sys
 from typing import Any
 
@@ -12,9 +13,9 @@ from rclpy.node import Node
 from ros2cli.command import Command, Result, Verb
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, node_names, spin_until
 from ros2cli.endpoints import hidden
+from ros2cli.verbs import service_echo
 from ros2cli.verbs.topic_pub import POSITIVE_FLOAT
 from rosidl_runtime_py import set_message_fields
-from rosidl_runtime_py.utilities import get_service
 
 
 def _hidden_argument(parser: argparse.ArgumentParser) -> None:
@@ -120,29 +121,27 @@ def _call_arguments(parser: argparse.ArgumentParser) -> None:
 def _call(arguments: argparse.Namespace) -> Result:
     import yaml
 
+    parts = arguments.service_type.split("/")
+    if len(parts) == 2:
+        parts = [parts[0], "srv", parts[1]]
     try:
-        kind = get_service(arguments.service_type)
-    except (AttributeError, ModuleNotFoundError):
+        kind = getattr(importlib.import_module(".".join(parts[:-1])), parts[-1])
+    except (AttributeError, ModuleNotFoundError, ValueError):
         return "The passed service type is invalid"
-    except ValueError:
-        parts = arguments.service_type.split("/")
-        return "The passed type is not a service" if len(parts) == 3 else "The passed service type is invalid"
     if not hasattr(kind, "Request"):
         return "The passed type is not a service"
     values = yaml.safe_load(sys.stdin if arguments.stdin else arguments.values)
-    if not isinstance(values, dict):
-        return "The passed value needs to be a dictionary in YAML format"
     arguments.no_daemon = True
-    with DirectNode(arguments) as node:
+    with DirectNode(arguments, name=f"_ros2cli_requester_{parts[0]}_{parts[-1]}") as node:
         return _requests(node, kind, values, arguments)
 
 
-def _requests(node: Node, kind: Any, values: dict[str, Any], arguments: argparse.Namespace) -> Result:
+def _requests(node: Node, kind: Any, values: Any, arguments: argparse.Namespace) -> Result:
     client = node.create_client(kind, arguments.service_name)
     request = kind.Request()
     try:
         set_message_fields(request, values)
-    except (AttributeError, TypeError, ValueError) as error:
+    except Exception as error:  # whatever a field says about a value, as upstream
         return f"Failed to populate field: {error}"
     if not client.service_is_ready():
         print("waiting for service to become available...")
@@ -163,6 +162,7 @@ COMMAND = Command(
     "Various service related sub-commands",
     (
         Verb("call", "Call a service", _call, _call_arguments),
+        Verb("echo", "Echo a service", service_echo.echo, service_echo.arguments),
         Verb("find", "Output a list of available services of a given type", _find, _find_arguments),
         Verb("info", "Print information about a service", _info, _info_arguments),
         Verb("list", "Output a list of available services", _list, _list_arguments),

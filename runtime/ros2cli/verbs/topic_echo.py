@@ -17,7 +17,8 @@ from rosidl_runtime_py.utilities import get_message
 TRUNCATE = 128
 
 
-def _positive(text: str) -> int:
+def unsigned(text: str) -> int:
+    """A number of an option that is 0 or more."""
     try:
         value = int(text)
     except ValueError:
@@ -25,6 +26,24 @@ def _positive(text: str) -> int:
     if value < 0:
         raise argparse.ArgumentTypeError("value must be an unsigned integer")
     return value
+
+
+def add_length_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options that say how much of arrays and strings is shown."""
+    parser.add_argument(
+        "--full-length",
+        "-f",
+        action="store_true",
+        help="Output all elements for arrays, bytes, and string with a length > '--truncate-length', by default they "
+        "are truncated after '--truncate-length' elements with '...''",
+    )
+    parser.add_argument(
+        "--truncate-length",
+        "-l",
+        type=unsigned,
+        default=TRUNCATE,
+        help=f"The length to truncate arrays, bytes, and string to (default: {TRUNCATE})",
+    )
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
@@ -46,20 +65,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         help="Echo a selected field of a message. Use '.' to select sub-fields. For example, to echo the position "
         "field of a nav_msgs/msg/Odometry message: 'ros2 topic echo /odom --field pose.pose.position'",
     )
-    add(
-        "--full-length",
-        "-f",
-        action="store_true",
-        help="Output all elements for arrays, bytes, and string with a length > '--truncate-length', by default they "
-        "are truncated after '--truncate-length' elements with '...''",
-    )
-    add(
-        "--truncate-length",
-        "-l",
-        type=_positive,
-        default=TRUNCATE,
-        help=f"The length to truncate arrays, bytes, and string to (default: {TRUNCATE})",
-    )
+    add_length_arguments(parser)
     add("--no-arr", action="store_true", help="Don't print array fields of messages")
     add("--no-str", action="store_true", help="Don't print string fields of messages")
     add(
@@ -91,48 +97,52 @@ class _Printer:
         self.done = False
 
     def show(self, message: Any, info: Any) -> None:
-        """Print one message."""
+        """Print one message, or its field; the filter sees what would be printed."""
         chosen = self._arguments
-        if not chosen.raw and not self._passes(message):
-            return
-        if chosen.field and not chosen.raw:
+        if chosen.field:
             try:
                 message = attrgetter(chosen.field)(message)
             except AttributeError as error:
                 self.problem = f"Invalid field '{chosen.field}': {error}"
                 self.done = True
                 return
-        if chosen.csv:
+        if not self._passes(message):
+            return
+        if not hasattr(message, "get_fields_and_field_types"):
+            self._print_value(message, info)
+        elif chosen.csv:
             print(self._csv(message, info))
         else:
-            if chosen.include_message_info:
-                print(info)
-            print(self._block(message))
-            print("---")
+            self._print_block(message, info)
         self.done = chosen.once
 
+    def _print_value(self, value: Any, info: Any) -> None:
+        """What is no message: a field, or raw bytes; `--csv` does not count for it."""
+        if self._arguments.include_message_info:
+            print(f"---Got new message, message info:---\n{info}\n---Message data:---")
+        print(value, end="\n---\n")
+
     def _csv(self, message: Any, info: Any) -> str:
-        text = message_to_csv(message, truncate_length=self._limit, no_arr=self._arguments.no_arr,
-                              no_str=self._arguments.no_str) if _is_message(message) else str(message)  # fmt: skip
-        if not self._arguments.include_message_info:
+        chosen = self._arguments
+        text = message_to_csv(message, truncate_length=self._limit, no_arr=chosen.no_arr, no_str=chosen.no_str)
+        if not chosen.include_message_info:
             return text
         return ",".join([*(str(each) for each in dict(info).values()), text])
 
-    def _block(self, message: Any) -> str:
-        if not _is_message(message):
-            return str(message)
+    def _print_block(self, message: Any, info: Any) -> None:
+        chosen = self._arguments
+        if chosen.include_message_info:
+            import yaml
+
+            print(yaml.dump(dict(info)), end="---\n")
         text = message_to_yaml(
             message,
             truncate_length=self._limit,
-            no_arr=self._arguments.no_arr,
-            no_str=self._arguments.no_str,
-            flow_style=self._arguments.flow_style,
+            no_arr=chosen.no_arr,
+            no_str=chosen.no_str,
+            flow_style=chosen.flow_style,
         )
-        return text.removesuffix("\n")
-
-
-def _is_message(value: Any) -> bool:
-    return hasattr(value, "get_fields_and_field_types")
+        print(text, end="---\n")
 
 
 def _filter(expression: str | None) -> Callable[[Any], bool]:

@@ -183,8 +183,9 @@ def _amount(count: float, total: float) -> str:
 
 
 def delay(arguments: argparse.Namespace) -> Result:
-    """`ros2 topic delay`; raises `RuntimeError` for messages without a header."""
+    """`ros2 topic delay`; the first message only begins it. Raises `RuntimeError` for messages without a header."""
     delays: deque[int] = deque(maxlen=arguments.window_size)
+    started: list[None] = []
     fresh: list[None] = []
     arguments.no_daemon = True
     with DirectNode(arguments) as node:
@@ -192,13 +193,21 @@ def delay(arguments: argparse.Namespace) -> Result:
         def take(message: Any) -> None:
             if not hasattr(message, "header"):
                 raise RuntimeError("msg does not have header")
-            stamp = message.header.stamp
-            delays.append(node.get_clock().now().nanoseconds - stamp.sec * SECOND_NS - stamp.nanosec)
-            fresh[:] = [None]
+            stamp, now = message.header.stamp, node.get_clock().now().nanoseconds
+            if now == 0:
+                if delays:
+                    print("time has reset, resetting counters")
+                    delays.clear()
+                return
+            if started:
+                delays.append(now - stamp.sec * SECOND_NS - stamp.nanosec)
+            started[:] = fresh[:] = [None]
 
         def tell() -> str:
+            if not delays:
+                return ""
             if not fresh:
-                return "no new messages" if delays else ""
+                return "no new messages"
             fresh.clear()
             mean, low, high, deviation = (each * 1e-9 for each in spread(list(delays)))
             return (

@@ -95,3 +95,46 @@ def test_hidden_things_are_found_when_told_so(ros) -> None:
     assert ros.ask("node", "info", "/_secret", "--include-hidden").stdout.startswith("/_secret\n")
     assert ros.ask("service", "type", "/math/_hidden").exit == 1
     assert ros.ask("service", "type", "/math/_hidden", "--include-hidden-services").stdout == "std_srvs/srv/SetBool\n"
+
+
+INTROSPECTED = """
+from example_interfaces.srv import AddTwoInts
+from rclpy.qos import qos_profile_system_default
+from rclpy.service_introspection import ServiceIntrospectionState
+node = Node('math')
+def add(request, response):
+    response.sum = request.a + request.b
+    return response
+service = node.create_service(AddTwoInts, 'add', add)
+service.configure_introspection(node.get_clock(), qos_profile_system_default, ServiceIntrospectionState.CONTENTS)
+"""
+
+
+def test_service_echo(ros) -> None:
+    ros.node(INTROSPECTED)
+    echo = ros.ros2("service", "echo", "--flow-style", "/add")
+    ros.run(0.5)
+    ros.ask("service", "call", "/add", "example_interfaces/srv/AddTwoInts", "{a: 2, b: 3}")
+    echo.process.interrupt()
+    received, sent = ros.finish(echo).stdout.split("---\n")[:2]
+    assert received.startswith("info:\n  event_type: REQUEST_RECEIVED\n  stamp:\n    sec: ")
+    assert "\n  client_gid: [" in received
+    assert received.endswith("request: [{a: 2, b: 3}]\nresponse: []\n")
+    assert sent.startswith("info:\n  event_type: RESPONSE_SENT\n")
+    assert sent.endswith("request: []\nresponse: [{sum: 5}]\n")
+
+
+def test_service_echo_needs_a_type(ros) -> None:
+    assert ros.ask("service", "echo", "/x").stderr == "Could not load the type for the passed service\n"
+    assert ros.ask("service", "echo", "/x", "std_srvs/srv/Nope").stderr == (
+        "The service type 'std_srvs/srv/Nope' is invalid\n"
+    )
+
+
+def test_call_takes_a_type_without_srv_and_wants_a_map(ros) -> None:
+    ros.node(SERVER)
+    assert ros.ask("service", "call", "/math/add", "example_interfaces/AddTwoInts", "{a: 1}").exit == 0
+    assert ros.ask("service", "call", "/x", "std_srvs/srv/Empty", "hello").stderr == (
+        "Failed to populate field: Value 'hello' is expected to be a dictionary but is a str\n"
+    )
+    assert ros.ask("service", "call", "/x", "std_msgs/msg/String").stderr == "The passed type is not a service\n"

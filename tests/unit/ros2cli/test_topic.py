@@ -191,3 +191,49 @@ def test_spread() -> None:
     from ros2cli.verbs.topic_rate import spread
 
     assert spread([1, 2, 3, 4]) == (2.5, 1, 4, math.sqrt(1.25))
+
+
+JOINTS = """
+from sensor_msgs.msg import JointState
+node = Node('joints')
+publisher = node.create_publisher(JointState, 'joints', 10)
+def tell():
+    message = JointState(name=['a', 'b'])
+    message.header.stamp = node.get_clock().now().to_msg()
+    publisher.publish(message)
+node.create_timer(0.25, tell)
+"""
+
+
+def test_echo_filters_by_what_is_printed(ros) -> None:
+    ros.node(JOINTS)
+    words = ("topic", "echo", "/joints", "--once", "--field", "name")
+    assert ros.ask(*words, "--filter", "len(m) == 2").stdout == "['a', 'b']\n---\n"
+    assert ros.ask(*words, "--csv").stdout == "['a', 'b']\n---\n"
+
+
+def test_echo_with_the_message_s_times(ros) -> None:
+    ros.node(COUNTER)
+    block = ros.ask("topic", "echo", "/count", "--once", "-i").stdout.split("---\n")
+    assert [line.split(":")[0] for line in block[0].splitlines()] == [
+        "publication_sequence_number",
+        "received_timestamp",
+        "reception_sequence_number",
+        "source_timestamp",
+    ]
+    assert block[1].startswith("data: ")
+    field = ros.ask("topic", "echo", "/count", "--once", "-i", "--field", "data").stdout
+    assert field.startswith("---Got new message, message info:---\n{'source_timestamp': ")
+
+
+def test_delay_begins_with_the_second_message(ros) -> None:
+    ros.node(JOINTS)
+    assert ros.ask("topic", "delay", "/joints", stop_after=1.1).stdout == (
+        "average delay: 0.000\n\tmin: 0.000s max: 0.000s std dev: 0.00000s window: 3\n"
+    )
+
+
+def test_delay_without_a_header_is_one_line(ros) -> None:
+    ros.node(COUNTER)
+    delay = ros.ask("topic", "delay", "/count")
+    assert (delay.stdout, delay.stderr, delay.exit) == ("", "msg does not have header\n", 1)

@@ -1,0 +1,81 @@
+"""`ros2 service echo`: the requests and responses of a service whose introspection is on."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+from rclpy.node import Node
+from ros2cli.command import Result
+from ros2cli.direct_node import DirectNode, add_strategy_arguments, spin_until
+from ros2cli.qos_arguments import add_qos_arguments, profile
+from ros2cli.verbs.topic_echo import add_length_arguments
+from rosidl_runtime_py import message_to_csv, message_to_ordereddict
+from rosidl_runtime_py.convert import ordereddict_to_yaml
+from rosidl_runtime_py.utilities import get_service
+
+EVENT_TOPIC = "/_service_event"
+EVENTS = ("REQUEST_SENT", "REQUEST_RECEIVED", "RESPONSE_SENT", "RESPONSE_RECEIVED")
+"""Words for `service_msgs/msg/ServiceEventInfo.event_type`."""
+INVALID = (AttributeError, ModuleNotFoundError, ValueError)
+
+
+def arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of the verb."""
+    add = parser.add_argument
+    add_strategy_arguments(parser)
+    add("service_name", help="Name of the ROS service to echo (e.g. '/add_two_ints')")
+    add("service_type", nargs="?", help="Type of the ROS service (e.g. 'example_interfaces/srv/AddTwoInts')")
+    add_qos_arguments(parser, "subscribe", "services_default")
+    add(
+        "--csv",
+        action="store_true",
+        help="Output all recursive fields separated by commas (e.g. for plotting).",
+    )
+    add_length_arguments(parser)
+    add("--no-arr", action="store_true", help="Don't print array fields of messages")
+    add("--no-str", action="store_true", help="Don't print string fields of messages")
+    add(
+        "--flow-style", action="store_true", help="Print collections in the block style (not available with csv format)"
+    )
+
+
+def echo(arguments: argparse.Namespace) -> Result:
+    """`ros2 service echo`."""
+    with DirectNode(arguments) as node:
+        kind = _service_class(node, arguments)
+        if isinstance(kind, str):
+            return kind
+        qos = profile(arguments, "services_default")
+        topic = arguments.service_name + EVENT_TOPIC
+        node.create_subscription(kind.Event, topic, lambda event: _show(event, arguments), qos)
+        spin_until(node, lambda: False)
+    return None
+
+
+def _service_class(node: Node, arguments: argparse.Namespace) -> Any:
+    """The class of the service, or a text that says why there is none."""
+    name = arguments.service_name
+    if arguments.service_type is not None:
+        try:
+            return get_service(arguments.service_type)
+        except INVALID:
+            return f"The service type '{arguments.service_type}' is invalid"
+    types = dict(node.get_service_names_and_types()).get(name if name.startswith("/") else f"/{name}")
+    if not types:
+        return "Could not load the type for the passed service"
+    try:
+        return get_service(types[0])
+    except INVALID:
+        return f"The service name '{name}' is invalid"
+
+
+def _show(event: Any, chosen: argparse.Namespace) -> None:
+    length = None if chosen.full_length else chosen.truncate_length
+    shown = {"truncate_length": length, "no_arr": chosen.no_arr, "no_str": chosen.no_str}
+    if chosen.csv:
+        print(message_to_csv(event, **shown))
+        return
+    fields = message_to_ordereddict(event, **shown)
+    fields["info"]["event_type"] = EVENTS[event.info.event_type]
+    print(ordereddict_to_yaml(fields, flow_style=chosen.flow_style), end="---\n")
