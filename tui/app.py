@@ -114,8 +114,6 @@ class BotConsoleApp(SparingApp):
             for bar in self.query(StatusBar):
                 bar.show(snapshot, self.gate.held_back)
 
-    # Layout -------------------------------------------------------------------------------------------------------
-
     def panes(self) -> list[Pane]:
         """All panes, in the order in which they stand on the screen."""
         return list(self.query(Pane))
@@ -192,8 +190,6 @@ class BotConsoleApp(SparingApp):
 
     def _typing(self) -> bool:
         return isinstance(self.focused, Input)
-
-    # Actions ------------------------------------------------------------------------------------------------------
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
         """Letters and digits belong to a text field while one has the keyboard."""

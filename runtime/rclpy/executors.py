@@ -85,8 +85,6 @@ class Executor(ReadyCallbacks):
     ) -> None:
         self.shutdown()
 
-    # What becomes ready ------------------------------------------------------------------------------------------
-
     def arm(self, timer: Any, deadline: int) -> None:
         """A timer is due at a steady time (ns); from any thread."""
         self._timers.push(deadline, timer)
@@ -125,8 +123,6 @@ class Executor(ReadyCallbacks):
         if self._waiting:
             self._wakeup.set()
 
-    # Nodes -------------------------------------------------------------------------------------------------------
-
     def add_node(self, node: Any) -> bool:
         """Serve a node; whether it was new. It leaves the executor that it was in."""
         if node in self._nodes:
@@ -148,8 +144,6 @@ class Executor(ReadyCallbacks):
     def get_nodes(self) -> list[Any]:
         """The nodes that are served."""
         return list(self._nodes)
-
-    # Spinning ----------------------------------------------------------------------------------------------------
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:
         """Stop serving; whether running callbacks ended in time."""

@@ -86,7 +86,9 @@ def test_default_undo_redo_fold_and_filters() -> None:
         await session.press("C", "slash")
         await session.type("lidar")
         assert {row.node for row in rows(session).rows} == {"/simulator"}
-        await session.press("escape")
+        await session.press("enter")
+        assert rows(session).current.parameter.name == "lidar.beams"
+        await session.press("slash", "escape")
         assert len({row.node for row in rows(session).rows}) == 2
 
     run(live(), play)

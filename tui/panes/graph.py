@@ -108,8 +108,6 @@ class GraphPane(Pane):
         event.stop()
         self._tell()
 
-    # Actions ------------------------------------------------------------------------------------------------------
-
     def action_mode(self) -> None:
         """The next mode."""
         modes = list(Mode)

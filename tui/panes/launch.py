@@ -122,8 +122,6 @@ class LaunchPane(Pane):
         """No events where there is little room."""
         self.set_class(self.size.height < 12, "short")
 
-    # Actions ------------------------------------------------------------------------------------------------------
-
     def action_fold(self, closed: bool) -> None:
         """Close or open the group at the cursor."""
         row = self._list.current

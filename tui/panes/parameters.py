@@ -182,8 +182,6 @@ class ParametersPane(Pane):
         text.append("\n" + harmless(command_of(parameter, parameter.value)), "dim italic")
         return text
 
-    # Changing -----------------------------------------------------------------------------------------------------
-
     def _at(self) -> ParameterInfo | None:
         row = self._list.current
         return row.parameter if row else None
@@ -255,8 +253,6 @@ class ParametersPane(Pane):
         answer = done.result()
         self.notify(answer.text, severity="information" if answer.ok else "warning", markup=False)
 
-    # Viewing ------------------------------------------------------------------------------------------------------
-
     def action_filter(self) -> None:
         """Ask for a filter."""
         self.query_one(Prompt).open("filter", "filter", self._filter, _bad_filter)
@@ -274,6 +270,7 @@ class ParametersPane(Pane):
         parameter = self._at()
         if event.purpose == "filter":
             self._apply_filter(event.text or "")
+            self._to_first_match()
         elif event.text is not None and event.purpose == "save":
             answer = self.console.save_parameters(event.text)
             self.notify(answer.text, severity="information" if answer.ok else "error", markup=False)
@@ -290,6 +287,11 @@ class ParametersPane(Pane):
         self._view = replace(self._view, query=parse(text))
         self.caption(f"/{text}" if text else "")
         self._arrange()
+
+    def _to_first_match(self) -> None:
+        if self._filter and self._at() is None:
+            matches = (index for index, row in enumerate(self._list.rows) if row.parameter is not None)
+            self._list.cursor = next(matches, 0)
 
     def action_toggle_changed(self) -> None:
         """Only what differs from its default, or all."""

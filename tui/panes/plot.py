@@ -83,8 +83,6 @@ class PlotPane(Pane):
         if changed or force:
             self.draw()
 
-    # Drawing ------------------------------------------------------------------------------------------------------
-
     def draw(self) -> None:
         """Draw the picture and its legend, and say which window is shown."""
         picture, legend = self.query_one("#plot-picture", Picture), self.query_one("#plot-legend", Picture)
@@ -133,8 +131,6 @@ class PlotPane(Pane):
         """Draw for the new size."""
         event.stop()
         self.draw()
-
-    # Actions ------------------------------------------------------------------------------------------------------
 
     def action_add(self) -> None:
         """Ask for a path."""

@@ -101,8 +101,6 @@ class ProfilesPane(Pane):
         if event.rows is self._list:
             self.action_again()
 
-    # Actions ------------------------------------------------------------------------------------------------------
-
     def action_again(self) -> None:
         """Forget the outcome and compare anew."""
         self._outcomes, self._told, self._held = {}, "", False

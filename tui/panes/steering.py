@@ -94,8 +94,6 @@ class SteeringPane(Pane):
         self.state.disarm()
         self._send()
 
-    # Actions ------------------------------------------------------------------------------------------------------
-
     def _ready(self) -> bool:
         if self._snapshot.drive.stopped:
             self.notify("The all-stop holds the robot; ! lets it go.", severity="warning")

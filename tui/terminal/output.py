@@ -71,8 +71,6 @@ class SparingApp(App[None]):
         self._shown = ShownScreen()
         self.refresh(repaint=True, layout=True)
 
-    # Frames -------------------------------------------------------------------------------------------------------
-
     def may_draw(self) -> bool:
         """Whether a frame would be sent now; if not, it is as soon as that changes."""
         if not self._sparing() or (self._waiting() <= 0 and not self._batch_count):

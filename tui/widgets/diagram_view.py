@@ -140,8 +140,6 @@ class DiagramView(ScrollView, can_focus=True):
 
         return min(self.places, key=order, default="")
 
-    # Drawing ------------------------------------------------------------------------------------------------------
-
     def render_line(self, y: int) -> Strip:
         """One line of the picture."""
         row = y + self.scroll_offset.y
@@ -181,8 +179,6 @@ class DiagramView(ScrollView, can_focus=True):
         if run.item in self._warned:
             return "warn"
         return "box" if boxed else "chip"
-
-    # Selecting ----------------------------------------------------------------------------------------------------
 
     def watch_selected(self, before: str, after: str) -> None:
         """Draw anew, keep the item in view, and tell."""

@@ -58,8 +58,6 @@ class ActionClient(ActionEntity):
         )
         self._join()
 
-    # What the executor serves ------------------------------------------------------------------------------------
-
     def get_num_entities(self) -> NumberOfEntities:
         """Two subscriptions and three clients."""
         return NumberOfEntities(2, 0, 0, 3, 0)
@@ -122,8 +120,6 @@ class ActionClient(ActionEntity):
             if handle is None or each.status in TERMINAL:
                 del self._goal_handles[key]
 
-    # Goals -------------------------------------------------------------------------------------------------------
-
     def send_goal(self, goal: Any, **kwargs: Any) -> Any:
         """Send a goal and wait for the result response, which another thread has to receive."""
         return self._get_result(_wait(self.send_goal_async(goal, **kwargs)))
@@ -170,8 +166,6 @@ class ActionClient(ActionEntity):
         if not isinstance(goal_handle, ClientGoalHandle):
             raise TypeError(f"Expected type ClientGoalHandle but received {type(goal_handle)}")
         self.use()
-
-    # The server --------------------------------------------------------------------------------------------------
 
     def server_is_ready(self) -> bool:
         """Whether a server is there."""

@@ -103,8 +103,6 @@ class ActionServer(ActionEntity):
         """The action's class."""
         return self._action_type
 
-    # Callbacks ---------------------------------------------------------------------------------------------------
-
     def register_handle_accepted_callback(self, handle_accepted_callback: Callable[..., Any] | None) -> None:
         """Set what gets the handle of each accepted goal; None executes it at once."""
         self._handle_accepted_callback = handle_accepted_callback or default_handle_accepted_callback
@@ -122,8 +120,6 @@ class ActionServer(ActionEntity):
         if not callable(execute_callback):
             raise TypeError("Failed to register goal execution callback: not callable")
         self._execute_callback = execute_callback
-
-    # What the executor serves ------------------------------------------------------------------------------------
 
     def get_num_entities(self) -> NumberOfEntities:
         """A timer and three services."""
@@ -216,8 +212,6 @@ class ActionServer(ActionEntity):
     def _send_result(self, client: Any, number: int, future: Any) -> None:
         self._node._bus.respond(client, number, future.result())
 
-    # What goal handles need --------------------------------------------------------------------------------------
-
     def notify_execute(self, goal_handle: ServerGoalHandle, execute_callback: Callable[..., Any] | None) -> None:
         """Let the node's executor run a callback, the server's own by default, for a goal."""
         callback = self._execute_callback if execute_callback is None else execute_callback
@@ -271,8 +265,6 @@ class ActionServer(ActionEntity):
 
     def _now_ns(self) -> int:
         return self._clock._now_ns()
-
-    # Old results -------------------------------------------------------------------------------------------------
 
     def _expired(self) -> bool:
         due = self._goals.next_expiry

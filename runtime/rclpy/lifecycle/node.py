@@ -57,8 +57,6 @@ class LifecycleNodeMixin(ManagedEntity):
             self._service_get_available_transitions = services.get_available_transitions
             self._service_get_transition_graph = services.get_transition_graph
 
-    # Transitions -------------------------------------------------------------------------------------------------
-
     def trigger_configure(self) -> TransitionCallbackReturn:
         """From unconfigured to inactive; raises `RCLError` in another state, as all of these do."""
         return self.__change_state(Transition.TRANSITION_CONFIGURE)
@@ -108,8 +106,6 @@ class LifecycleNodeMixin(ManagedEntity):
             )
             return TransitionCallbackReturn.ERROR
 
-    # Callbacks ---------------------------------------------------------------------------------------------------
-
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """The node is being configured."""
         return self.__ask_entities("on_configure", state)
@@ -145,8 +141,6 @@ class LifecycleNodeMixin(ManagedEntity):
             if answer is not TransitionCallbackReturn.SUCCESS:
                 return answer
         return TransitionCallbackReturn.SUCCESS
-
-    # Managed entities --------------------------------------------------------------------------------------------
 
     def add_managed_entity(self, entity: ManagedEntity) -> None:
         """Let an entity take part in the transitions; raises `TypeError` for anything else."""
