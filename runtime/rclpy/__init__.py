@@ -166,3 +166,9 @@ def spin_until_future_complete(
         executor.spin_until_future_complete(future, timeout_sec)
     finally:
         executor.remove_node(node)
+
+
+def __getattr__(name: str) -> Any:
+    from rclpy.impl.reexports import submodule
+
+    return submodule(name)

@@ -8,6 +8,7 @@ from typing import Any
 
 from bot_console.runtime.process import current
 from rclpy.impl.entity import CLIENT, Entity
+from rclpy.impl.reexports import reexporting
 from rclpy.task import Future
 
 NANO = 1_000_000_000
@@ -154,3 +155,9 @@ class Client(Entity):
 
     def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
         self.destroy()
+
+
+__getattr__ = reexporting(
+    __name__,
+    "CallbackGroup Clock Context QoSProfile ServiceIntrospectionState SrvType SrvTypeRequest SrvTypeResponse",
+)

@@ -13,6 +13,7 @@ from bot_console.runtime.process import current
 from rclpy.clock_type import ClockType
 from rclpy.duration import Duration
 from rclpy.exceptions import NotInitializedException
+from rclpy.impl.reexports import reexporting
 from rclpy.time import Time
 from rclpy.utilities import get_default_context
 
@@ -263,3 +264,6 @@ def _tells(threshold: JumpThreshold, jump: TimeJump) -> bool:
     if delta > 0:
         return forward is not None and delta >= forward.nanoseconds
     return backward is not None and delta <= backward.nanoseconds
+
+
+__getattr__ = reexporting(__name__, "Context")

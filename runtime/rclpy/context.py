@@ -13,6 +13,7 @@ from typing import Any
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.local import local_bus
 from rclpy._rclpy_pybind11 import RCLError
+from rclpy.impl.reexports import reexporting
 from rclpy.signals import remember_context
 
 DOMAIN_VARIABLE = "ROS_DOMAIN_ID"
@@ -192,3 +193,6 @@ def _domain_of_environment() -> int:
         raise RCLError(
             f"failed to get domain ID from environment: {DOMAIN_VARIABLE} is '{text}', not a number"
         ) from None
+
+
+__getattr__ = reexporting(__name__, "")

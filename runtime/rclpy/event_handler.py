@@ -16,6 +16,7 @@ from rclpy.impl.event_handlers import (
 )
 from rclpy.impl.event_types import QoSPublisherEventType, QoSSubscriptionEventType
 from rclpy.impl.qos_policies import QoSPolicyKind
+from rclpy.impl.reexports import reexporting
 from rclpy.qos import LivelinessPolicy, QoSProfile
 
 __all__ = [
@@ -205,3 +206,6 @@ class PublisherEventCallbacks(_EventCallbacks):
 def limit(duration: Any) -> int | None:
     """A duration of a profile in ns; None where it stands for no limit."""
     return duration.nanoseconds if 0 < duration.nanoseconds < INFINITE_NS else None
+
+
+__getattr__ = reexporting(__name__, "CallbackGroup NumberOfEntities Waitable get_logger qos_policy_name_from_kind")

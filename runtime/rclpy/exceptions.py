@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from rclpy._rclpy_pybind11 import InvalidHandle as InvalidHandle
+from rclpy.impl.reexports import reexporting
 
 
 class NotInitializedException(Exception):
@@ -133,3 +134,6 @@ class ParameterUninitializedException(ParameterException):
 
     def __init__(self, parameter: str, *args: Any) -> None:
         ParameterException.__init__(self, f"The parameter '{parameter}' is not initialized", parameter, *args)
+
+
+__getattr__ = reexporting(__name__, "")

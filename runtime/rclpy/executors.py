@@ -13,6 +13,7 @@ from bot_console.runtime.process import current
 from rclpy.impl.ready_callbacks import ReadyCallbacks
 from rclpy.impl.ready_callbacks import TimeoutObject as TimeoutObject
 from rclpy.impl.ready_callbacks import await_or_execute as await_or_execute
+from rclpy.impl.reexports import reexporting
 from rclpy.impl.timer_heap import TimerHeap
 from rclpy.impl.worker_pool import WorkerPool, cpu_count
 from rclpy.task import Future, Task
@@ -391,3 +392,9 @@ def _begins(entity: Any, group: Any) -> bool:
         return True
     group.block(entity)
     return False
+
+
+__getattr__ = reexporting(
+    __name__,
+    "Client Clock ClockType Context GuardCondition InvalidHandle NumberOfEntities Service Subscription Timer Waitable",
+)

@@ -12,6 +12,7 @@ from rclpy.impl.rcutils_logger import RcutilsLogger
 if TYPE_CHECKING:
     from pathlib import Path
 
+_root_logger = RcutilsLogger()
 _REGISTERED_TWICE = (
     "Publisher already registered for node name: '{0}'. If this is due to multiple nodes with the same name then all "
     "logs for the logger named '{0}' will go out over the existing publisher. As soon as any node with that name is "

@@ -16,6 +16,7 @@ from rclpy.impl.node_entities import NodeEntities
 from rclpy.impl.node_graph import NodeGraph
 from rclpy.impl.node_parameters import NodeParameters
 from rclpy.impl.node_rosout import Rosout
+from rclpy.impl.reexports import reexporting
 from rclpy.logging import get_logger
 from rclpy.parameter import Parameter
 from rclpy.parameter_service import ParameterService
@@ -217,3 +218,19 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
 
 def _logger_name(namespace: str, name: str) -> str:
     return f"{namespace.rstrip('/')}/{name}".lstrip("/").replace("/", LOGGER_SEPARATOR)
+
+
+__getattr__ = reexporting(
+    __name__,
+    "Callable CallbackGroup Client Context Dict Executor FloatingPointRange GuardCondition IntegerRange "
+    "InvalidParameterTypeException InvalidParameterValueException InvalidTopicNameException Iterator List "
+    "ListParameters ListParametersResult LoggingService MsgType NodeNameNonExistentError Optional "
+    "PARAMETER_SEPARATOR_STRING ParameterAlreadyDeclaredException ParameterDescriptor ParameterEvent "
+    "ParameterImmutableException ParameterMsg ParameterNotDeclaredException ParameterType "
+    "ParameterUninitializedException ParameterValue Publisher PublisherEventCallbacks QoSOverridingOptions "
+    "QoSProfile Rate ReentrantCallbackGroup S_TO_NS Service SetParametersResult SrvType SrvTypeRequest "
+    "SrvTypeResponse Subscription SubscriptionEventCallbacks Timer TopicEndpointInfo Tuple Type "
+    "TypeDescriptionService TypeVar Union Waitable check_is_valid_msg_type check_is_valid_srv_type "
+    "expand_topic_name qos_profile_services_default validate_full_topic_name validate_namespace "
+    "validate_node_name validate_parameter_name validate_topic_name",
+)

@@ -6,6 +6,7 @@ from enum import Enum
 from typing import TYPE_CHECKING, Any
 
 from rclpy.impl.parameter_types import FIELDS, LIST_FIELDS, infer, value_fits
+from rclpy.impl.reexports import reexporting
 
 if TYPE_CHECKING:
     from rcl_interfaces.msg import Parameter as ParameterMsg
@@ -188,3 +189,6 @@ def _unpack_parameter_dict(namespace: str, parameter_dict: dict[str, Any]) -> di
         else:
             parameters[full_name] = ParameterMsg(name=full_name, value=get_parameter_value(str(value)))
     return parameters
+
+
+__getattr__ = reexporting(__name__, "ParameterMsg ParameterType ParameterValue")

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.process import current
+from rclpy.impl.reexports import reexporting
 from rclpy.parameter import Parameter, parameter_dict_from_yaml_file
 from rclpy.qos import QoSProfile, qos_profile_services_default
 from rclpy.task import Future
@@ -139,3 +140,10 @@ def _ask(client: Any, request: Any, callback: Callback | None) -> Future[Any]:
     if callback is not None:
         future.add_done_callback(callback)
     return future
+
+
+__getattr__ = reexporting(
+    __name__,
+    "CallbackGroup Client DescribeParameters GetParameterTypes GetParameters ListParameters Node ParameterMsg "
+    "SetParameters SetParametersAtomically",
+)

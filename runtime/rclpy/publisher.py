@@ -9,6 +9,7 @@ from bot_console.runtime.rosidl.conversion import FieldTypeError
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.duration import Duration
 from rclpy.impl.entity import DESTROYED
+from rclpy.impl.reexports import reexporting
 
 
 class Publisher:
@@ -119,3 +120,6 @@ class Publisher:
 
     def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
         self.destroy()
+
+
+__getattr__ = reexporting(__name__, "CallbackGroup EventHandler MsgType QoSProfile")

@@ -14,6 +14,7 @@ from rclpy.impl.qos_policies import QoSPolicyEnum as QoSPolicyEnum
 from rclpy.impl.qos_policies import QoSPolicyKind as QoSPolicyKind
 from rclpy.impl.qos_policies import ReliabilityPolicy as ReliabilityPolicy
 from rclpy.impl.qos_policies import qos_policy_name_from_kind as qos_policy_name_from_kind
+from rclpy.impl.reexports import reexporting
 
 QoSHistoryPolicy = HistoryPolicy
 QoSReliabilityPolicy = ReliabilityPolicy
@@ -246,3 +247,6 @@ def qos_check_compatible(publisher_qos: QoSProfile, subscription_qos: QoSProfile
     if found:
         return QoSCompatibility.WARNING, "".join(f"WARNING: {text};" for text in found)
     return QoSCompatibility.OK, ""
+
+
+__getattr__ = reexporting(__name__, "")

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from rclpy.impl.entity import SERVICE, Entity
+from rclpy.impl.reexports import reexporting
 
 
 class Service(Entity):
@@ -96,3 +97,9 @@ class Service(Entity):
 
     def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
         self.destroy()
+
+
+__getattr__ = reexporting(
+    __name__,
+    "CallbackGroup Clock QoSProfile ServiceIntrospectionState SrvType SrvTypeRequest SrvTypeResponse",
+)

@@ -10,6 +10,7 @@ from typing import Any
 
 from bot_console.runtime.process import current
 from rclpy.impl.entity import SUBSCRIPTION, Entity
+from rclpy.impl.reexports import reexporting
 
 DOUBLE_ARGUMENT, SINGLE_ARGUMENT = 2, 1
 
@@ -141,3 +142,6 @@ class Subscription(Entity):
 
     def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
         self.destroy()
+
+
+__getattr__ = reexporting(__name__, "CallbackGroup EventHandler MsgType QoSProfile")

@@ -7,6 +7,7 @@ from typing import Any
 from rclpy.clock_type import ClockType
 from rclpy.constants import S_TO_NS
 from rclpy.duration import Duration
+from rclpy.impl.reexports import reexporting
 
 LIMIT = 2**63
 
@@ -123,3 +124,6 @@ class Time:
         if not isinstance(msg, TimeMessage):
             raise TypeError("Must pass a builtin_interfaces.msg.Time object")
         return cls(seconds=msg.sec, nanoseconds=msg.nanosec, clock_type=clock_type)
+
+
+__getattr__ = reexporting(__name__, "")

@@ -7,6 +7,7 @@ from typing import Any
 
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import ROSClock
+from rclpy.impl.reexports import reexporting
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.time import Time
@@ -104,3 +105,6 @@ class TimeSource:
                     return SetParametersResult(successful=False, reason=WRONG_TYPE)
                 self.ros_time_is_active = parameter.value
         return SetParametersResult(successful=True, check_fields=False)
+
+
+__getattr__ = reexporting(__name__, "Clock")

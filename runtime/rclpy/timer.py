@@ -10,6 +10,7 @@ from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.callback_groups import CallbackGroup
 from rclpy.exceptions import ROSInterruptException
 from rclpy.impl.entity import DESTROYED, TIMER, Entity
+from rclpy.impl.reexports import reexporting
 
 NANO = 1_000_000_000
 
@@ -188,3 +189,6 @@ class Rate:
             raise ROSInterruptException
         if self._is_destroyed:
             raise InvalidHandle(DESTROYED)
+
+
+__getattr__ = reexporting(__name__, "Clock Context get_default_context")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from bot_console.runtime.rosidl.message import Message, ServiceType
+from rclpy.impl.reexports import reexporting
 
 HINT = (
     " This might be a ROS 1 message type but it should be a ROS 2 message type."
@@ -41,3 +42,6 @@ def check_is_valid_action_type(action_type: Any) -> None:
     check_for_type_support(action_type)
     if not all(hasattr(action_type, part) for part in ("Goal", "Result", "Feedback", "Impl")):
         raise RuntimeError(f"The action type provided is not valid ({action_type}), this might be a message or service")
+
+
+__getattr__ = reexporting(__name__, "NoTypeSupportImportedException")

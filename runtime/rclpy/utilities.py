@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from bot_console.runtime.process import ProcessLocal
+from rclpy.impl.reexports import reexporting
 
 NANO = 1_000_000_000
 
@@ -66,3 +67,6 @@ def timeout_sec_to_nsec(timeout_sec: float | None) -> int | None:
     if timeout_sec is None or timeout_sec < 0:
         return None
     return int(float(timeout_sec) * NANO)
+
+
+__getattr__ = reexporting(__name__, "Context S_TO_NS")

@@ -16,6 +16,7 @@ from rclpy.action.endpoints import ClientEndpoints, action_names
 from rclpy.action.entity import ActionEntity, call, take
 from rclpy.action.goal_state import TERMINAL
 from rclpy.action.pending_requests import PendingRequests
+from rclpy.impl.reexports import reexporting
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 from rclpy.task import Future
 from rclpy.waitable import NumberOfEntities
@@ -199,3 +200,6 @@ def _wait(future: Future[Any]) -> Any:
     if not future.done():
         wakeup.wait()
     return future.result()
+
+
+__getattr__ = reexporting(__name__, "Waitable check_for_type_support")

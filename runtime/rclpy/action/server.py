@@ -17,6 +17,7 @@ from rclpy.action.goal_state import GoalEvent
 from rclpy.action.goals import Goals
 from rclpy.action.server_goal_handle import ServerGoalHandle
 from rclpy.impl.logging_severity import LoggingSeverity
+from rclpy.impl.reexports import reexporting
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 from rclpy.waitable import NumberOfEntities
 
@@ -297,3 +298,6 @@ class ActionServer(ActionEntity):
         self._goals.destroy()
         self._clock._remove_timer(self)
         super().destroy()
+
+
+__getattr__ = reexporting(__name__, "Future Task Waitable await_or_execute check_for_type_support")

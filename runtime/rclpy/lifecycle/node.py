@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 from lifecycle_msgs.msg import State, Transition
 from rclpy._rclpy_pybind11 import RCLError
+from rclpy.impl.reexports import reexporting
 from rclpy.lifecycle.managed_entity import ManagedEntity
 from rclpy.lifecycle.publisher import LifecyclePublisher
 from rclpy.lifecycle.services import LifecycleServices
@@ -168,3 +169,10 @@ class LifecycleNode(LifecycleNodeMixin, Node):
     def __init__(self, node_name: str, *, enable_communication_interface: bool = True, **kwargs: Any) -> None:
         Node.__init__(self, node_name, **kwargs)
         LifecycleNodeMixin.__init__(self, enable_communication_interface=enable_communication_interface)
+
+
+__getattr__ = reexporting(
+    __name__,
+    "CallbackGroup Publisher PublisherEventCallbacks QoSOverridingOptions QoSProfile Service "
+    "TransitionCallbackReturnType",
+)

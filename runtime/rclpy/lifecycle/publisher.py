@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from rclpy.impl.reexports import reexporting
 from rclpy.lifecycle.managed_entity import SimpleManagedEntity
 from rclpy.publisher import Publisher
 
@@ -19,3 +20,6 @@ class LifecyclePublisher(SimpleManagedEntity, Publisher):
     def publish(self, msg: Any) -> None:
         """Publish a message, or its serialized bytes, if the node is active."""
         Publisher.publish(self, msg)
+
+
+__getattr__ = reexporting(__name__, "MsgType")
