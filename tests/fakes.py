@@ -1,10 +1,12 @@
-"""`FakeConsole`: a scripted ROS system for tests of what is drawn, and sample snapshots."""
+"""`FakeConsole`: a scripted ROS system that keeps the promises of the `Console` protocol without ROS."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
@@ -13,7 +15,7 @@ from bot_console.tui.console.model import (
     Change,
     ChangeSource,
     ConsoleSnapshot,
-    LaunchArgument,
+    JournalState,
     LogFilter,
     LogRecord,
     ProfileDifference,
@@ -21,10 +23,13 @@ from bot_console.tui.console.model import (
     Severity,
     Value,
 )
+from bot_console.tui.console.parameter_file import save
+from bot_console.tui.console.profiles import differences
 from bot_console.tui.console.protocol import Answer, Samples
 from bot_console.tui.console.values import refusal
 
 START = 1_700_000_000_000_000_000
+CLOSED = "the console has closed"
 
 
 def done(value: Any) -> Future[Any]:
@@ -41,12 +46,21 @@ class FakeConsole:
         self.logs = LogStore(1000)
         self.current = snapshot or ConsoleSnapshot()
         self.asked: list[tuple[Any, ...]] = []
+        self.sent: list[tuple[float, float]] = []
+        """Velocities that have reached the robot."""
         self.refusals: dict[tuple[str, str], str] = {}
         self.series: dict[str, tuple[list[float], list[float]]] = {}
         self.unplottable: dict[str, str] = {}
         self.journal: list[Change] = []
         self.differences: dict[str, tuple[ProfileDifference, ...]] = {}
+        """What profiles would change, where that is scripted; else it follows from their values."""
         self.now = 60.0
+        self.closed = False
+        self._steps: dict[ChangeSource, list[tuple[str, dict[str, Value], dict[str, Value]]]] = {
+            ChangeSource.UNDO: [],
+            ChangeSource.REDO: [],
+        }
+        self._watched: set[str] = set()
 
     def change(self, **parts: Any) -> None:
         """Replace parts of the snapshot."""
@@ -71,7 +85,7 @@ class FakeConsole:
         self.change(logs=self.logs.state)
 
     def changes(self, after: int = 0) -> Sequence[Change]:
-        return tuple(self.journal)
+        return tuple(each for each in self.journal if each.seq >= after)
 
     def set_parameters(
         self,
@@ -82,37 +96,106 @@ class FakeConsole:
         atomically: bool = False,
     ) -> Future[tuple[SetOutcome, ...]]:
         self.asked.append(("set", node, dict(values)))
-        tree = self.current.parameters[node]
-        outcomes: list[SetOutcome] = []
-        for name, value in values.items():
-            by, why = refusal(tree.get(name), value)
-            own = self.refusals.get((node, name), "")
-            outcomes.append(
-                SetOutcome(node, name, value, not (why or own), why or own, by or ("callback" if own else ""))
+        if self.closed:
+            return done(
+                tuple(SetOutcome(node, name, value, False, CLOSED, "console") for name, value in values.items())
             )
+        before = {name: self._value(node, name) for name in values}
+        outcomes = self.take(node, values, source, atomically=atomically)
         taken = {each.name: each.value for each in outcomes if each.accepted}
-        parameters = tuple(replace(each, value=taken.get(each.name, each.value)) for each in tree.parameters)
-        trees = {**self.current.parameters, node: replace(tree, parameters=parameters)}
-        self.change(parameters=MappingProxyType(trees))
-        return done(tuple(outcomes))
+        if taken:
+            self._steps[ChangeSource.UNDO].append((node, {name: before[name] for name in taken}, taken))
+            self._steps[ChangeSource.REDO].clear()
+            self._tell_journal()
+        return done(outcomes)
+
+    def take(
+        self, node: str, values: Mapping[str, Value], source: ChangeSource, *, atomically: bool = False
+    ) -> tuple[SetOutcome, ...]:
+        """What the node makes of values, whoever has asked for them."""
+        outcomes = [self._judged(node, name, value) for name, value in values.items()]
+        bad = next((each for each in outcomes if not each.accepted), None)
+        if atomically and bad:
+            outcomes = [
+                replace(each, accepted=False, reason=bad.reason, refused_by=each.refused_by or "callback")
+                for each in outcomes
+            ]
+        for each in outcomes:
+            entry = Change(
+                len(self.journal), START, node, each.name, self._value(node, each.name), each.value, source,
+                each.accepted, each.reason,
+            )  # fmt: skip
+            self.journal.append(entry)
+        taken = {each.name: each.value for each in outcomes if each.accepted}
+        if taken:
+            tree = self.current.parameters[node]
+            parameters = tuple(replace(each, value=taken.get(each.name, each.value)) for each in tree.parameters)
+            self.change(
+                parameters=MappingProxyType({**self.current.parameters, node: replace(tree, parameters=parameters)})
+            )
+            for name, value in taken.items():
+                self._plot(f"{node}:{name}", value)
+        self._tell_journal()
+        return tuple(outcomes)
+
+    def _judged(self, node: str, name: str, value: Value) -> SetOutcome:
+        tree = self.current.parameters.get(node)
+        by, why = refusal(tree.get(name), value) if tree else ("node", f"no service {node}/set_parameters is offered")
+        own = self.refusals.get((node, name), "")
+        return SetOutcome(node, name, value, not (why or own), why or own, by or ("callback" if own else ""))
+
+    def _value(self, node: str, name: str) -> Value:
+        tree = self.current.parameters.get(node)
+        known = tree.get(name) if tree else None
+        return known.value if known else None
+
+    def _tell_journal(self) -> None:
+        undo, redo = self._steps[ChangeSource.UNDO], self._steps[ChangeSource.REDO]
+        self.change(journal=JournalState(0, len(self.journal), 0, bool(undo), bool(redo)))
 
     def undo(self) -> Future[Answer]:
         self.asked.append(("undo",))
-        return done(Answer(True, "undone"))
+        return self._move(ChangeSource.UNDO, ChangeSource.REDO)
 
     def redo(self) -> Future[Answer]:
         self.asked.append(("redo",))
-        return done(Answer(False, "nothing to redo"))
+        return self._move(ChangeSource.REDO, ChangeSource.UNDO)
+
+    def _move(self, source: ChangeSource, back: ChangeSource) -> Future[Answer]:
+        if self.closed or not self._steps[source]:
+            return done(Answer(False, CLOSED if self.closed else f"nothing to {source.value}"))
+        node, before, after = self._steps[source].pop()
+        self.take(node, before if source is ChangeSource.UNDO else after, source)
+        self._steps[back].append((node, before, after))
+        self._tell_journal()
+        return done(Answer(True, f"{source.value}: {node} {', '.join(before)}"))
+
+    def _plot(self, path: str, value: Value) -> None:
+        if path in self._watched and isinstance(value, (bool, int, float)):
+            times, values = self.series.setdefault(path, ([], []))
+            times.append(self.now)
+            values.append(float(value))
 
     def watch(self, path: str) -> Answer:
         self.asked.append(("watch", path))
-        why = self.unplottable.get(path, "" if path in self.series else f"there is no topic {path}")
+        if self.closed:
+            return Answer(False, CLOSED)
+        node, _, name = path.partition(":")
+        number = isinstance(self._value(node, name), (bool, int, float))
+        why = self.unplottable.get(path, "" if path in self.series or number else f"there is no topic {path}")
+        if not why:
+            self._watched.add(path)
+            if path not in self.series:
+                self._plot(path, self._value(node, name))
         return Answer(not why, why or path)
 
     def unwatch(self, path: str) -> None:
         self.asked.append(("unwatch", path))
+        self._watched.discard(path)
 
     def samples(self, path: str, after: int = 0) -> Samples:
+        if path not in self._watched:
+            return Samples((), (), after)
         times, values = self.series.get(path, ([], []))
         return Samples(times[after:], values[after:], len(times))
 
@@ -124,76 +207,78 @@ class FakeConsole:
 
     def drive(self, linear: float, angular: float) -> None:
         self.asked.append(("drive", linear, angular))
+        if not (math.isfinite(linear) and math.isfinite(angular)):
+            raise ValueError("a velocity must be a finite number")
+        if not (self.current.drive.stopped or self.closed):
+            self.sent.append((linear, angular))
 
     def all_stop(self, hold: bool = True) -> None:
         self.asked.append(("all_stop", hold))
-        self.change(drive=replace(self.current.drive, stopped=hold))
+        if not self.closed:
+            self.sent.append((0.0, 0.0))
+            self.change(drive=replace(self.current.drive, stopped=hold))
 
     def call(self, service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:
         self.asked.append(("call", service))
+        known = {each.name: each.types for each in self.current.graph.services}
+        if self.closed or (known and type_name not in known.get(service, ())):
+            return done(
+                Answer(False, CLOSED if self.closed else f"no service {service} of type {type_name} is offered")
+            )
         return done(Answer(True))
 
     def set_logger_level(self, node: str, severity: Severity) -> Future[Answer]:
+        known = {each.name for each in self.current.graph.services}
+        if self.closed or (known and f"{node}/set_logger_levels" not in known):
+            return done(Answer(False, CLOSED if self.closed else f"{node} offers no logger service"))
         return done(Answer(True))
 
     def profile_differences(self, name: str) -> Sequence[ProfileDifference]:
-        return self.differences.get(name, ())
+        scripted = self.differences.get(name)
+        if scripted is not None:
+            return scripted
+        profile = next((each for each in self.current.profiles if each.name == name), None)
+        return differences(profile, self.current.parameters) if profile else ()
 
     def apply_profile(self, name: str, *, reset_world: bool = False) -> Future[tuple[SetOutcome, ...]]:
         self.asked.append(("apply", name, reset_world))
-        self.change(active_profile=name)
-        return done(
-            tuple(
-                SetOutcome(each.node, each.name, each.then, not each.refusal, each.refusal)
-                for each in self.differences.get(name, ())
+        profile = next((each for each in self.current.profiles if each.name == name), None)
+        if self.closed or profile is None or profile.problem:
+            failed: Future[tuple[SetOutcome, ...]] = Future()
+            why = CLOSED if self.closed else profile.problem if profile else f"there is no profile {name}"
+            failed.set_exception(ValueError(why))
+            return failed
+        found = self.profile_differences(name)
+        outcomes = tuple(SetOutcome(e.node, e.name, e.then, not e.refusal, e.refusal) for e in found)
+        if name not in self.differences:
+            by_node: dict[str, dict[str, Value]] = {}
+            for each in found:
+                by_node.setdefault(each.node, {})[each.name] = each.then
+            futures = (
+                self.set_parameters(node, values, ChangeSource.PROFILE, atomically=True)
+                for node, values in by_node.items()
             )
-        )
+            outcomes = tuple(outcome for future in futures for outcome in future.result())
+        if all(each.accepted for each in outcomes):
+            self.change(active_profile=name)
+        return done(outcomes)
 
     def save_parameters(self, path: str, nodes: Sequence[str] = ()) -> Answer:
         self.asked.append(("save", path))
-        return Answer(True, f"saved to {path}")
+        if not Path(path).is_absolute():
+            return Answer(True, f"saved to {path}")
+        try:
+            count = save(Path(path), self.current.parameters, tuple(nodes))
+        except (OSError, ValueError) as error:
+            return Answer(False, f"not saved: {error}")
+        return Answer(True, f"{count} parameters saved to {path}")
 
     def run_line(self, line: str) -> Future[str]:
         self.asked.append(("run", line))
-        return done("/robot_navigator\n")
+        return done(CLOSED if self.closed else "/robot_navigator\n")
 
     def close(self) -> None:
         self.asked.append(("close",))
-
-
-class FakeLauncher:
-    """A launcher that remembers what it was asked."""
-
-    def __init__(self, arguments: Sequence[LaunchArgument] = (), files: Sequence[str] = ()) -> None:
-        self.asked: list[tuple[Any, ...]] = []
-        self.declared = arguments
-        self.known = files
-        self.broken = ""
-
-    def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
-        self.asked.append(("launch", path, dict(arguments)))
-        return done(Answer(True))
-
-    def arguments(self, path: str) -> Sequence[LaunchArgument]:
-        if self.broken:
-            raise ValueError(self.broken)
-        return self.declared
-
-    def files(self) -> Sequence[str]:
-        return self.known
-
-    def start(self, key: str) -> Future[Answer]:
-        return self._asked("start", key)
-
-    def stop(self, key: str) -> Future[Answer]:
-        return self._asked("stop", key)
-
-    def kill(self, key: str) -> Future[Answer]:
-        return self._asked("kill", key)
-
-    def restart(self, key: str) -> Future[Answer]:
-        return self._asked("restart", key)
-
-    def _asked(self, verb: str, key: str) -> Future[Answer]:
-        self.asked.append((verb, key))
-        return done(Answer(True))
+        if not self.closed:
+            self.sent.append((0.0, 0.0))
+        self.closed = True

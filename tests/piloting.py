@@ -10,7 +10,8 @@ from typing import TypeVar
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.steering import SteeringPane
-from fakes import FakeConsole, FakeLauncher
+from fake_launcher import FakeLauncher
+from fakes import FakeConsole
 from textual.pilot import Pilot
 
 P = TypeVar("P", bound=Pane)

@@ -33,7 +33,8 @@ from bot_console.tui.console.model import (
     Value,
     WorldInfo,
 )
-from fakes import START, FakeConsole, FakeLauncher
+from fake_launcher import FakeLauncher
+from fakes import START, FakeConsole
 
 SPEED, LIMIT, NEAREST = "/odom/twist.twist.linear.x", "/robot_navigator:max_speed", "/telemetry/nearest_obstacle/data"
 BELL = "\x1b[2J\x07evil[red]\u202etxt"
@@ -211,6 +212,7 @@ def live(parts: tuple[str, ...] = ()) -> tuple[FakeConsole, FakeLauncher]:
         Change(1, START - 5 * 10**9, "/robot_navigator", "max_speed", 1.0, 10.0, ChangeSource.EDIT, False, "too fast"),
     ]
     console.differences["competition"] = differences()
+    console.differences["indoor"] = ()
     lines = (
         (Severity.INFO, "robot_navigator", "IntelligentRobot initialized!"),
         (Severity.INFO, "robot_navigator", "Max Speed: 1.0 m/s"),

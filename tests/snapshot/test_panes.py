@@ -9,7 +9,8 @@ import pytest
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.pane_table import PANES
 from bot_console.tui.panes.steering import SteeringPane
-from fakes import FakeConsole, FakeLauncher
+from fake_launcher import FakeLauncher
+from fakes import FakeConsole
 from piloting import Clock
 from samples import empty, faulty, live
 

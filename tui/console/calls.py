@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Coroutine
+import inspect
+import threading
+from collections.abc import Callable, Coroutine
 from concurrent.futures import Future
+from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from rclpy.executors import Executor
@@ -19,6 +22,18 @@ class NoAnswer(Exception):
     """A service did not answer in time; the text says which."""
 
 
+def _raise(why: str) -> Any:
+    raise NoAnswer(why)
+
+
+@dataclass(frozen=True)
+class _Pending:
+    """How an outcome is refused, and the coroutines that are to bring it about."""
+
+    refused: Callable[[str], Any]
+    coroutines: tuple[Coroutine[Any, Any, Any], ...]
+
+
 class Calls:
     """Runs coroutines in the console's executor and asks services from within them."""
 
@@ -26,19 +41,61 @@ class Calls:
         self._node = node
         self._executor = executor
         self._clients: dict[tuple[str, str], Any] = {}
+        self._lock = threading.Lock()
+        self._pending: dict[Future[Any], _Pending] = {}
+        self._closed = ""
 
-    def run(self, work: Coroutine[Any, Any, T]) -> Future[T]:
-        """Start a coroutine in the executor; from any thread."""
+    def run(self, work: Coroutine[Any, Any, T], refused: Callable[[str], T] = _raise) -> Future[T]:
+        """Start a coroutine in the executor; from any thread.
+
+        The future is always answered: `refused` turns the reason why the console has closed into an outcome.
+        """
         outcome: Future[T] = Future()
 
         async def guarded() -> None:
             try:
-                outcome.set_result(await work)
+                result = await work
             except Exception as error:  # the border to whoever holds the future
-                outcome.set_exception(error)
+                if self._claim(outcome):
+                    outcome.set_exception(error)
+            else:
+                if self._claim(outcome):
+                    outcome.set_result(result)
 
-        self._executor.create_task(guarded)
+        task = guarded()
+        with self._lock:
+            closed = self._closed
+            self._pending[outcome] = _Pending(refused, (task, work))
+        if closed:
+            self._refuse(outcome, closed)
+        else:
+            self._executor.create_task(task)
         return outcome
+
+    def _claim(self, outcome: Future[Any]) -> _Pending | None:
+        """What was pending, for whoever answers it first."""
+        with self._lock:
+            return self._pending.pop(outcome, None)
+
+    def _refuse(self, outcome: Future[Any], why: str) -> None:
+        pending = self._claim(outcome)
+        if pending is None:
+            return
+        for each in pending.coroutines:
+            if inspect.getcoroutinestate(each) == inspect.CORO_CREATED:
+                each.close()  # else the interpreter complains that nobody has awaited it
+        try:
+            outcome.set_result(pending.refused(why))
+        except NoAnswer as error:
+            outcome.set_exception(error)
+
+    def close(self, why: str) -> None:
+        """Answer all that wait, and all that will be asked, with the reason why nothing is served any more."""
+        with self._lock:
+            self._closed = why
+            waiting = list(self._pending)
+        for outcome in waiting:
+            self._refuse(outcome, why)
 
     async def ask(self, kind: Any, service: str, request: Any, patience: float = PATIENCE) -> Any:
         """Call a service; raises `NoAnswer` when no server is there or none answers in time."""

@@ -10,6 +10,8 @@ import time
 import traceback
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
@@ -37,7 +39,9 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 STARTING = "the console is still connecting to the ROS system"
+CLOSED = "the console has closed"
 NOWHERE = ("", "", 0)
+NOTHING_LAUNCHED = LaunchInfo()
 LAST_WORD = 0.15
 """Seconds that the final zero Twist has to reach the robot before anything is shut down."""
 
@@ -48,7 +52,7 @@ class RosConsole:
     def __init__(
         self,
         *,
-        launch_info: Callable[[], LaunchInfo] = LaunchInfo,
+        launch_info: Callable[[], LaunchInfo] = lambda: NOTHING_LAUNCHED,
         profile_folders: Sequence[Path] = (),
         active_profile: str = "",
         capabilities: Capabilities | None = None,
@@ -67,7 +71,7 @@ class RosConsole:
         self._ready = threading.Event()
         self._thread = threading.Thread(target=self._serve, name="bot-console", daemon=True)
         self._closed = False
-        self._snapshot = ConsoleSnapshot()
+        self._snapshot = ConsoleSnapshot(capabilities=self._capabilities)
 
     def start(self) -> None:
         """Connect to the ROS system, in the background."""
@@ -85,10 +89,15 @@ class RosConsole:
             self._node = ConsoleNode(self._once)
             self._profiles = find(self._profile_folders)
             self._ready.set()
-            self._node.spin()
+            if self._closed:
+                self._node.close(CLOSED)
+            else:
+                self._node.spin()
         except Exception as error:  # the border of the thread: the panes show what ended it
             place = traceback.extract_tb(error.__traceback__)[-1]
             self._problem = f"the console's link to ROS has ended: {error} ({place.filename}:{place.lineno})"
+            if self._node:
+                self._node.calls.close(self._problem)
         finally:
             self._ready.set()
 
@@ -111,7 +120,7 @@ class RosConsole:
         old, node = self._snapshot, self._node
         launch = self._launch_info()
         if node is None:
-            new = ConsoleSnapshot(old.seq, launch=launch, capabilities=self._capabilities, problem=self._problem)
+            new = replace(old, launch=launch, problem=self._problem)
         else:
             world = node.world.info
             new = ConsoleSnapshot(
@@ -129,7 +138,7 @@ class RosConsole:
                 problem=self._problem,
             )
         if not _same(old, new):
-            self._snapshot = ConsoleSnapshot(**{**_parts(new), "seq": old.seq + 1})
+            self._snapshot = replace(new, seq=old.seq + 1)
         return self._snapshot
 
     def log(self, seq: int) -> LogRecord | None:
@@ -159,26 +168,28 @@ class RosConsole:
     ) -> Future[tuple[SetOutcome, ...]]:
         """Ask a node to take values."""
         if self._node is None:
-            refused = (SetOutcome(node, name, value, False, STARTING, "console") for name, value in values.items())
+            refused = (SetOutcome(node, name, value, False, self._why_not, "console") for name, value in values.items())
             return _done(tuple(refused))
-        return self._node.calls.run(self._node.setter.set(node, values, source, atomically=atomically))
+        return self._node.set(node, values, source, atomically=atomically)
 
     def undo(self) -> Future[Answer]:
         """Take the last change of this console back."""
-        return self._node.calls.run(self._node.setter.undo()) if self._node else _done(Answer(False, STARTING))
+        return self._node.undo() if self._node else _done(Answer(False, self._why_not))
 
     def redo(self) -> Future[Answer]:
         """Make the last undone change again."""
-        return self._node.calls.run(self._node.setter.redo()) if self._node else _done(Answer(False, STARTING))
+        return self._node.redo() if self._node else _done(Answer(False, self._why_not))
 
     def watch(self, path: str) -> Answer:
         """Collect a series."""
         node = self._node
-        return node.plots.watch(path, node.graph.info, node.parameters.trees) if node else Answer(False, STARTING)
+        if node is None or self._closed:
+            return Answer(False, self._why_not)
+        return node.plots.watch(path, node.graph.info, node.parameters.trees)
 
     def unwatch(self, path: str) -> None:
         """Stop collecting a series."""
-        if self._node:
+        if self._node and not self._closed:
             self._node.plots.unwatch(path)
 
     def samples(self, path: str, after: int = 0) -> Samples:
@@ -196,21 +207,21 @@ class RosConsole:
 
     def drive(self, linear: float, angular: float) -> None:
         """Send a velocity command."""
-        if self._node:
+        if self._node and not self._closed:
             self._node.drive.drive(linear, angular)
 
     def all_stop(self, hold: bool = True) -> None:
         """Zero velocity now and, while held, again and again."""
-        if self._node:
+        if self._node and not self._closed:
             self._node.drive.stop(hold)
 
     def call(self, service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:
         """Call any service."""
-        return self._node.call(service, type_name, fields) if self._node else _done(Answer(False, STARTING))
+        return self._node.call(service, type_name, fields) if self._node else _done(Answer(False, self._why_not))
 
     def set_logger_level(self, node: str, severity: Severity) -> Future[Answer]:
         """Set a node's logger level."""
-        return self._node.set_logger_level(node, severity) if self._node else _done(Answer(False, STARTING))
+        return self._node.set_logger_level(node, severity) if self._node else _done(Answer(False, self._why_not))
 
     def profile_differences(self, name: str) -> Sequence[ProfileDifference]:
         """What a profile would change."""
@@ -220,25 +231,34 @@ class RosConsole:
     def apply_profile(self, name: str, *, reset_world: bool = False) -> Future[tuple[SetOutcome, ...]]:
         """Set a profile's values live."""
         profile = self._profile(name)
-        if self._node is None or profile is None:
-            return _done(())
+        why_not = self._why_not if self._node is None or self._closed else ""
+        if not why_not:
+            why_not = profile.problem if profile else f"there is no profile {name}"
+        if self._node is None or profile is None or why_not:
+            failed: Future[tuple[SetOutcome, ...]] = Future()
+            failed.set_exception(ValueError(why_not))
+            return failed
         outcome = self._node.apply(profile, reset_world)
-        self._active_profile = name
+        outcome.add_done_callback(partial(self._applied, name))
         return outcome
+
+    def _applied(self, name: str, done: Future[tuple[SetOutcome, ...]]) -> None:
+        if done.exception() is None and all(each.accepted for each in done.result()):
+            self._active_profile = name
 
     def _profile(self, name: str) -> Profile | None:
         return next((each for each in self._profiles if each.name == name), None)
 
     def save_parameters(self, path: str, nodes: Sequence[str] = ()) -> Answer:
         """Write parameters to a file."""
-        return self._node.save(path, nodes) if self._node else Answer(False, STARTING)
+        return self._node.save(path, nodes) if self._node else Answer(False, self._why_not)
 
     def run_line(self, line: str) -> Future[str]:
         """Run a `ros2 ...` command line in a thread of its own."""
         outcome: Future[str] = Future()
         run = self._run_line
-        if run is None:
-            return _done("no ros2 command line is available here")
+        if run is None or self._closed:
+            return _done(CLOSED if self._closed else "no ros2 command line is available here")
 
         def work() -> None:
             try:
@@ -249,6 +269,11 @@ class RosConsole:
         threading.Thread(target=work, name="ros2", daemon=True).start()
         return outcome
 
+    @property
+    def _why_not(self) -> str:
+        """Why nothing can be asked."""
+        return CLOSED if self._closed else self._problem or STARTING
+
     def close(self) -> None:
         """Zero velocity, then leave the ROS system; a second call does nothing."""
         if self._closed:
@@ -257,7 +282,7 @@ class RosConsole:
         if self._node:
             self._node.drive.stop(hold=True)
             threading.Event().wait(LAST_WORD)
-            self._node.close()
+            self._node.close(CLOSED)
         if self._thread.is_alive():
             self._thread.join(2.0)
 

@@ -72,8 +72,6 @@ class RosLauncher:
         self._info = LaunchInfo()
         self._dirty = self._closed = False
 
-    # What is shown -------------------------------------------------------------------------------------------------
-
     def info(self) -> LaunchInfo:
         """What is known now; the same object until something changes."""
         with self._lock:
@@ -108,8 +106,6 @@ class RosLauncher:
     def files(self) -> Sequence[str]:
         """Launch files of the workspace."""
         return self._files_of_workspace()
-
-    # What is wanted ------------------------------------------------------------------------------------------------
 
     def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
         """Run one more launch file; the answer comes when its first process runs or it has failed or ended."""
@@ -223,8 +219,6 @@ class RosLauncher:
             return
         run = held.run = LaunchRun(held.run.title, self._listener)
         self._begin(run, lambda: run.run_action(make, failed))
-
-    # What is heard -------------------------------------------------------------------------------------------------
 
     def _started(self, run: LaunchRun, event: Any, context: Any) -> None:
         nodes = _node_names(event.action)

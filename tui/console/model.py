@@ -190,7 +190,7 @@ class SetOutcome:
     """What became of one value that somebody asked a node to take.
 
     `refused_by` is `console` (it could not even be sent), `descriptor` (range, type, read-only), `callback` (the node's
-    own rule), `node` (no answer) or empty when accepted.
+    own rule), `node` (no answer, or it has no such parameter) or empty when accepted.
     """
 
     node: str

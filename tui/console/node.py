@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import contextlib
 import importlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Future
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -73,8 +74,9 @@ class ConsoleNode:
         with contextlib.suppress(ExternalShutdownException):
             self.executor.spin()
 
-    def close(self) -> None:
-        """End `spin` and leave the graph."""
+    def close(self, why: str) -> None:
+        """End `spin` and leave the graph; what is or will be asked is answered with the reason."""
+        self.calls.close(why)
         self.executor.shutdown(timeout_sec=1.0)
         self.node.destroy_node()
         self.context.try_shutdown()
@@ -95,7 +97,7 @@ class ConsoleNode:
 
     def call(self, service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:
         """Call a service of any type."""
-        return self.calls.run(self._call(service, type_name, fields))
+        return self.calls.run(self._call(service, type_name, fields), _not_done)
 
     async def _call(self, service: str, type_name: str, fields: Mapping[str, object]) -> Answer:
         from rosidl_runtime_py import set_message_fields
@@ -114,7 +116,7 @@ class ConsoleNode:
 
     def set_logger_level(self, node: str, severity: Severity) -> Future[Answer]:
         """Set a node's logger level through its logger service, where it has one."""
-        return self.calls.run(self._set_logger_level(node, severity))
+        return self.calls.run(self._set_logger_level(node, severity), _not_done)
 
     async def _set_logger_level(self, node: str, severity: Severity) -> Answer:
         level = LoggerLevel(name=node.strip("/").replace("/", "."), level=int(severity))
@@ -127,17 +129,34 @@ class ConsoleNode:
         result = answer.results[0]
         return Answer(result.successful, result.reason or f"{node} logs {severity.name} and worse")
 
+    def set(
+        self, node: str, values: Mapping[str, Value], source: ChangeSource, *, atomically: bool
+    ) -> Future[tuple[SetOutcome, ...]]:
+        """Ask a node to take values."""
+        wanted = [(node, name, value) for name, value in values.items()]
+        return self.calls.run(self.setter.set(node, values, source, atomically=atomically), partial(refused, wanted))
+
+    def undo(self) -> Future[Answer]:
+        """Take the last change of this console back."""
+        return self.calls.run(self.setter.undo(), _not_done)
+
+    def redo(self) -> Future[Answer]:
+        """Make the last undone change again."""
+        return self.calls.run(self.setter.redo(), _not_done)
+
     def differences(self, profile: Profile) -> Sequence[ProfileDifference]:
         """What a profile would change now."""
         return differences(profile, self.parameters.trees)
 
     def apply(self, profile: Profile, reset_world: bool) -> Future[tuple[SetOutcome, ...]]:
         """Set what a profile changes, all or nothing per node, then reset the simulator when asked to."""
-        return self.calls.run(self._apply(profile, reset_world))
+        found = self.differences(profile)
+        wanted = [(each.node, each.name, each.then) for each in found]
+        return self.calls.run(self._apply(found, reset_world), partial(refused, wanted))
 
-    async def _apply(self, profile: Profile, reset_world: bool) -> tuple[SetOutcome, ...]:
+    async def _apply(self, found: Sequence[ProfileDifference], reset_world: bool) -> tuple[SetOutcome, ...]:
         by_node: dict[str, dict[str, Value]] = {}
-        for each in self.differences(profile):
+        for each in found:
             by_node.setdefault(each.node, {})[each.name] = each.then
         outcomes: list[SetOutcome] = []
         for node, values in by_node.items():
@@ -154,6 +173,15 @@ class ConsoleNode:
         except (OSError, ValueError) as error:
             return Answer(False, f"not saved: {error}")
         return Answer(True, f"{count} parameters saved to {place}")
+
+
+def refused(wanted: Iterable[tuple[str, str, Value]], why: str) -> tuple[SetOutcome, ...]:
+    """Outcomes of values (node, name, value) that could not even be sent."""
+    return tuple(SetOutcome(node, name, value, False, why, "console") for node, name, value in wanted)
+
+
+def _not_done(why: str) -> Answer:
+    return Answer(False, why)
 
 
 def _number(level: Any) -> int:

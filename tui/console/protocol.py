@@ -111,7 +111,10 @@ class Console(Protocol):
         ...
 
     def drive(self, linear: float, angular: float) -> None:
-        """Send a velocity command (m/s, rad/s) now; the pane repeats it. Refused silently while all-stop holds."""
+        """Send a velocity command (m/s, rad/s) now; the pane repeats it. Refused silently while all-stop holds.
+
+        Raises `ValueError` for NaN and infinity.
+        """
         ...
 
     def all_stop(self, hold: bool = True) -> None:
@@ -131,7 +134,10 @@ class Console(Protocol):
         ...
 
     def apply_profile(self, name: str, *, reset_world: bool = False) -> Future[tuple[SetOutcome, ...]]:
-        """Set a profile's values live; all or nothing per node."""
+        """Set a profile's values live; all or nothing per node. It is the active one when nothing was refused.
+
+        The future raises `ValueError`, with the reason, for a profile that is not there or cannot be used.
+        """
         ...
 
     def save_parameters(self, path: str, nodes: Sequence[str] = ()) -> Answer:
@@ -143,7 +149,10 @@ class Console(Protocol):
         ...
 
     def close(self) -> None:
-        """Send zero velocity, stop and join everything; a second call does nothing."""
+        """Send zero velocity, stop and join everything; a second call does nothing.
+
+        What is known stays readable. Whatever is or was asked for is refused, so no future is left without an answer.
+        """
         ...
 
 

@@ -98,7 +98,7 @@ def _range(ranges: Sequence[Any]) -> Range | None:
 def refusal(parameter: ParameterInfo | None, value: Value) -> tuple[str, str]:
     """Who would refuse this value and why, as far as the descriptor tells; two empty texts when it would pass."""
     if parameter is None:
-        return "console", "the node has no such parameter"
+        return "node", "the node has no such parameter"
     if parameter.read_only:
         return "descriptor", f"Trying to set a read-only parameter: {parameter.name}."
     try:

@@ -17,11 +17,23 @@ _domains = itertools.count(3000)
 TWIST = "geometry_msgs/msg/Twist"
 
 
+_made: list["Bench"] = []
+
+
+@pytest.fixture(autouse=True)
+def close_benches():
+    """A node that stays would keep `/rosout` of its name from later ones."""
+    yield
+    while _made:
+        _made.pop().close()
+
+
 class Bench:
     """A console's link, and a node in the place of the robot."""
 
     def __init__(self, *topics: str, arbiter: bool = False) -> None:
-        context = Context()
+        context = self.context = Context()
+        _made.append(self)
         context.init(["test"], domain_id=next(_domains))
         self.console, self.robot = Node("console", context=context), Node("robot", context=context)
         self.executor = SingleThreadedExecutor(context=context)
@@ -37,6 +49,11 @@ class Bench:
 
     def _listener(self, topic):
         return lambda message: self.got.append((topic, message.linear.x))
+
+    def close(self):
+        for each in (self.console, self.robot):
+            each.destroy_node()
+        self.context.try_shutdown()
 
     def settle(self):
         for _ in range(30):

@@ -1,0 +1,210 @@
+"""What `Console` promises of all that is no parameter: snapshots, logs, series, steering, commands, and its end."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import pytest
+from bot_console.tui.console.model import LogFilter, Severity
+from rigs import PATIENCE, ROBOT, Rig, until
+
+LEVEL = "/level/data"
+SEVERITIES = (Severity.INFO, Severity.WARN, Severity.ERROR, Severity.FATAL)
+
+
+def seqs(rig: Rig, which: LogFilter | None = None, after: int = 0, limit: int | None = None) -> list[int]:
+    """Numbers of the robot's records."""
+    return list(rig.console.matching_logs(which or LogFilter(words="node:robot"), after, limit))
+
+
+def say_all(rig: Rig) -> list[int]:
+    """Let the robot log one line of each severity; their numbers."""
+    for severity in SEVERITIES:
+        rig.say(severity, f"it is {severity.name}")
+    until(lambda: len(seqs(rig)) == len(SEVERITIES), "four records")
+    return seqs(rig)
+
+
+def test_what_has_not_changed_is_the_same_object(rig: Rig) -> None:
+    before = until(rig.console.snapshot, "a snapshot")
+    say_all(rig)
+    after = rig.console.snapshot()
+    assert after.logs is not before.logs and after.seq > before.seq
+    assert after.parameters is before.parameters and after.journal is before.journal
+    until(lambda: rig.console.snapshot() is rig.console.snapshot(), "an unchanged snapshot")
+
+
+def test_the_graph_has_nodes_topics_and_services_with_types(rig: Rig) -> None:
+    graph = rig.console.snapshot().graph
+    robot = next(each for each in graph.nodes if each.name == ROBOT)
+    assert not robot.hidden
+    assert "/level" in {each.name for each in robot.publishers}
+    assert {each.name: each.types for each in graph.topics}["/level"] == ("std_msgs/msg/Float64",)
+    assert {each.name: each.types for each in graph.services}["/greet"] == ("std_srvs/srv/Trigger",)
+
+
+def test_logs_have_number_severity_node_and_text(rig: Rig) -> None:
+    numbers = say_all(rig)
+    records = [rig.console.log(each) for each in numbers]
+    assert numbers == sorted(set(numbers))
+    assert [each and (each.severity, each.node, each.text) for each in records] == [
+        (severity, "robot", f"it is {severity.name}") for severity in SEVERITIES
+    ]
+    assert all(each and each.file and each.line for each in records)
+    counts = rig.console.snapshot().logs.counts
+    assert all(counts[severity] >= 1 for severity in SEVERITIES)
+    assert rig.console.log(numbers[-1] + 1000) is None
+
+
+@pytest.mark.parametrize(
+    ("which", "left"),
+    [
+        (LogFilter(words="node:robot sev:>=error"), SEVERITIES[2:]),
+        (LogFilter(Severity.FATAL, "node:robot"), SEVERITIES[3:]),
+        (LogFilter(words="node:robot re:(warn|info)$"), SEVERITIES[:2]),
+        (LogFilter(words="node:robot !warn"), (Severity.INFO, Severity.ERROR, Severity.FATAL)),
+        (LogFilter(words="node:robot", hidden_severities=frozenset({Severity.INFO})), SEVERITIES[1:]),
+        (LogFilter(hidden_nodes=frozenset({"robot"}), words="it is"), ()),
+    ],
+)
+def test_logs_are_filtered(rig: Rig, which: LogFilter, left: tuple[Severity, ...]) -> None:
+    say_all(rig)
+    found = [rig.console.log(each) for each in seqs(rig, which)]
+    assert [each and each.severity for each in found] == list(left)
+
+
+def test_logs_are_read_from_a_number_on_and_the_newest_when_limited(rig: Rig) -> None:
+    numbers = say_all(rig)
+    assert seqs(rig, after=numbers[2]) == numbers[2:]
+    assert seqs(rig, limit=1) == numbers[-1:]
+
+
+def test_a_pattern_that_does_not_compile_is_a_readable_error(rig: Rig) -> None:
+    with pytest.raises(ValueError, match="regular expression"):
+        seqs(rig, LogFilter(words="re:("))
+
+
+def test_cleared_logs_are_gone_and_numbers_go_on(rig: Rig) -> None:
+    numbers = say_all(rig)
+    rig.console.clear_logs()
+    assert seqs(rig) == [] and rig.console.log(numbers[0]) is None
+    rig.say(Severity.INFO, "later")
+    assert until(lambda: seqs(rig), "the next record")[0] > numbers[-1]
+
+
+def test_a_watched_series_is_read_by_cursor(rig: Rig) -> None:
+    assert LEVEL in rig.console.plottable()
+    assert rig.console.watch(LEVEL).ok
+    cursor = 0
+    for expected in (1.5, -2.0):
+        rig.publish(expected)
+        new = until(lambda cursor=cursor: _new(rig, LEVEL, cursor), "a sample")
+        assert list(new.values) == [expected] and len(new.times) == 1 and not new.problem
+        assert new.times[0] <= rig.console.plot_time() + 1e-6
+        cursor = new.cursor
+    assert len(rig.console.samples(LEVEL, cursor).values) == 0
+    assert list(rig.console.samples(LEVEL).values) == [1.5, -2.0]
+    rig.console.unwatch(LEVEL)
+    assert len(rig.console.samples(LEVEL).values) == 0
+
+
+def _new(rig: Rig, path: str, cursor: int) -> Any:
+    new = rig.console.samples(path, cursor)
+    return new if len(new.values) else None
+
+
+def test_a_parameter_is_a_series_too(rig: Rig) -> None:
+    path = f"{ROBOT}:speed"
+    assert rig.console.watch(path).ok
+    rig.console.set_parameters(ROBOT, {"speed": 0.5}).result(PATIENCE)
+    until(lambda: list(rig.console.samples(path).values) == [1.0, 0.5], "the new value")
+
+
+@pytest.mark.parametrize("path", ["/nowhere/data", f"{ROBOT}:nothing", "/nobody:speed"])
+def test_what_cannot_be_plotted_says_why(rig: Rig, path: str) -> None:
+    answer = rig.console.watch(path)
+    assert not answer.ok and answer.text
+    assert len(rig.console.samples(path).values) == 0
+
+
+def test_the_time_axis_is_that_of_the_stamps(rig: Rig) -> None:
+    say_all(rig)
+    record = rig.console.log(seqs(rig)[0])
+    assert record is not None
+    assert rig.console.plot_time(record.stamp + 10**9) - rig.console.plot_time(record.stamp) == pytest.approx(1.0)
+    assert rig.console.plot_time(record.stamp) <= rig.console.plot_time() + 1e-6
+
+
+def test_commands_reach_the_robot_and_the_all_stop_holds_it(rig: Rig) -> None:
+    rig.console.drive(0.5, -0.25)
+    until(lambda: list(rig.received) == [(0.5, -0.25)], "the command")
+    rig.console.all_stop(True)
+    until(lambda: rig.received[-1] == (0.0, 0.0), "the stop")
+    assert until(lambda: rig.console.snapshot().drive.stopped, "the stop in the snapshot")
+    rig.console.drive(1.0, 0.0)
+    rig.console.all_stop(False)
+    until(lambda: not rig.console.snapshot().drive.stopped, "the end of the stop")
+    rig.console.drive(0.1, 0.0)
+    until(lambda: rig.received[-1] == (0.1, 0.0), "a command after it")
+    assert (1.0, 0.0) not in rig.received
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
+def test_a_velocity_that_is_no_number_is_never_sent(rig: Rig, value: float) -> None:
+    with pytest.raises(ValueError, match="finite"):
+        rig.console.drive(value, 0.0)
+    with pytest.raises(ValueError, match="finite"):
+        rig.console.drive(0.0, value)
+    assert list(rig.received) == []
+
+
+def test_a_service_is_called_or_it_is_said_why_not(rig: Rig) -> None:
+    assert rig.console.call("/greet", "std_srvs/srv/Trigger", {}).result(PATIENCE).ok
+    for service, type_name in (("/nowhere", "std_srvs/srv/Trigger"), ("/greet", "nobody_srvs/srv/Nothing")):
+        answer = rig.console.call(service, type_name, {}).result(PATIENCE)
+        assert not answer.ok and answer.text
+
+
+def test_a_logger_level_is_set_where_the_node_offers_it(rig: Rig) -> None:
+    assert rig.console.set_logger_level(ROBOT, Severity.WARN).result(PATIENCE).ok
+    answer = rig.console.set_logger_level("/nobody", Severity.WARN).result(PATIENCE)
+    assert not answer.ok and "/nobody" in answer.text
+
+
+def test_a_ros2_line_gives_what_it_printed(rig: Rig) -> None:
+    assert "/robot" in rig.console.run_line("ros2 node list").result(PATIENCE)
+
+
+def test_the_last_word_of_a_console_is_zero_velocity(rig: Rig) -> None:
+    rig.console.drive(1.0, 0.5)
+    until(lambda: rig.received, "the command")
+    rig.console.close()
+    until(lambda: rig.received[-1] == (0.0, 0.0), "the stop")
+    rig.console.close()
+    rig.console.drive(1.0, 0.0)
+    rig.console.all_stop(False)
+    assert set(rig.received[1:]) == {(0.0, 0.0)}
+
+
+def test_a_closed_console_refuses_and_shows_what_it_knew(rig: Rig) -> None:
+    numbers = say_all(rig)
+    console = rig.console
+    console.close()
+    assert [console.log(each) is not None for each in numbers] == [True] * 4
+    assert ROBOT in console.snapshot().parameters
+    (outcome,) = console.set_parameters(ROBOT, {"speed": 0.5}).result(PATIENCE)
+    assert (outcome.accepted, outcome.refused_by) == (False, "console") and "closed" in outcome.reason
+    asked = (
+        console.undo(),
+        console.redo(),
+        console.call("/greet", "std_srvs/srv/Trigger", {}),
+        console.set_logger_level(ROBOT, Severity.WARN),
+    )
+    answers = [each.result(PATIENCE) for each in asked] + [console.watch(LEVEL)]
+    assert [each.ok for each in answers] == [False] * 5
+    assert all("closed" in each.text for each in answers)
+    with pytest.raises(ValueError, match="closed"):
+        console.apply_profile("slow").result(PATIENCE)
+    assert "closed" in console.run_line("ros2 node list").result(PATIENCE)
+    console.unwatch(LEVEL)

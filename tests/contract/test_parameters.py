@@ -1,0 +1,185 @@
+"""What `Console` promises of parameters: listed, described, set, refused with the reason, undone, in profiles."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from bot_console.tui.console.model import ChangeSource, Kind, ParameterInfo, Range, SetOutcome
+from rigs import DESCRIPTION, PATIENCE, ROBOT, TOO_FAST, Rig, until
+
+
+def parameter(rig: Rig, name: str) -> ParameterInfo:
+    """A parameter of the robot as the snapshot shows it."""
+    found = rig.console.snapshot().parameters[ROBOT].get(name)
+    assert found is not None
+    return found
+
+
+def setting(rig: Rig, values: dict[str, Any], node: str = ROBOT, *, atomically: bool = False) -> list[SetOutcome]:
+    """Set, and wait for the outcome."""
+    return list(rig.console.set_parameters(node, values, atomically=atomically).result(PATIENCE))
+
+
+def shown(rig: Rig, name: str, value: Any) -> None:
+    """Wait until the snapshot shows a value."""
+    until(lambda: parameter(rig, name).value == value, f"{name} = {value}")
+
+
+def test_they_are_listed_and_described(rig: Rig) -> None:
+    tree = rig.console.snapshot().parameters[ROBOT]
+    assert {"speed", "count", "mode", "frame", "gains"} <= {each.name for each in tree.parameters}
+    speed = parameter(rig, "speed")
+    assert (speed.node, speed.kind, speed.value, speed.default, speed.changed) == (ROBOT, Kind.DOUBLE, 1.0, 1.0, False)
+    assert (speed.range, speed.description, speed.unit) == (Range(0.0, 2.0), DESCRIPTION, "m/s")
+    assert parameter(rig, "frame").read_only
+    assert (parameter(rig, "gains").kind, parameter(rig, "gains").value) == (Kind.DOUBLE_ARRAY, (1.0, 2.0))
+
+
+@pytest.mark.parametrize(
+    ("name", "value"), [("speed", 1.5), ("speed", 2.0), ("count", -4), ("mode", "brave"), ("gains", (3.0,))]
+)
+def test_a_value_is_taken_shown_and_written_down(rig: Rig, name: str, value: Any) -> None:
+    before = parameter(rig, name).value
+    assert setting(rig, {name: value}) == [SetOutcome(ROBOT, name, value, True)]
+    shown(rig, name, value)
+    assert parameter(rig, name).changed
+    until(rig.console.changes, "the journal")
+    (change,) = rig.console.changes()
+    assert (change.node, change.name, change.old, change.new) == (ROBOT, name, before, value)
+    assert (change.source, change.accepted, change.reason) == (ChangeSource.EDIT, True, "")
+
+
+@pytest.mark.parametrize(
+    ("node", "name", "value", "who"),
+    [
+        (ROBOT, "speed", 2.5, "descriptor"),
+        (ROBOT, "speed", 1, "descriptor"),
+        (ROBOT, "count", 2.0, "descriptor"),
+        (ROBOT, "frame", "map", "descriptor"),
+        (ROBOT, "gains", (1.0, "x"), "console"),
+        (ROBOT, "nothing", 1.0, "node"),
+        ("/nobody", "speed", 1.0, "node"),
+    ],
+)
+def test_a_refusal_says_who_and_why_and_changes_nothing(rig: Rig, node: str, name: str, value: Any, who: str) -> None:
+    before = rig.console.snapshot().parameters[ROBOT]
+    (outcome,) = setting(rig, {name: value}, node)
+    assert (outcome.node, outcome.name, outcome.value, outcome.accepted) == (node, name, value, False)
+    assert outcome.refused_by == who
+    assert outcome.reason
+    (change,) = rig.console.changes()
+    assert (change.name, change.new, change.accepted, change.reason) == (name, value, False, outcome.reason)
+    assert rig.console.snapshot().parameters[ROBOT] == before
+    assert not rig.console.snapshot().journal.can_undo
+
+
+def test_the_reason_of_the_nodes_own_rule_is_told_in_its_words(rig: Rig) -> None:
+    rig.forbid_speed()
+    (outcome,) = setting(rig, {"speed": 1.5})
+    assert (outcome.accepted, outcome.reason, outcome.refused_by) == (False, TOO_FAST, "callback")
+
+
+def test_each_of_several_values_has_its_outcome(rig: Rig) -> None:
+    outcomes = setting(rig, {"speed": 9.0, "count": 5})
+    assert [(each.name, each.accepted) for each in outcomes] == [("speed", False), ("count", True)]
+    shown(rig, "count", 5)
+    assert parameter(rig, "speed").value == 1.0
+
+
+def test_atomically_means_all_or_nothing(rig: Rig) -> None:
+    outcomes = setting(rig, {"speed": 9.0, "count": 5}, atomically=True)
+    assert [each.accepted for each in outcomes] == [False, False]
+    assert all(each.reason for each in outcomes)
+    assert parameter(rig, "count").value == 3
+
+
+def test_undo_and_redo(rig: Rig) -> None:
+    setting(rig, {"speed": 1.5})
+    shown(rig, "speed", 1.5)
+    for ask, value, source in (("undo", 1.0, ChangeSource.UNDO), ("redo", 1.5, ChangeSource.REDO)):
+        answer = getattr(rig.console, ask)().result(PATIENCE)
+        assert answer.ok and "speed" in answer.text
+        shown(rig, "speed", value)
+        until(lambda source=source: rig.console.changes()[-1].source is source, "the journal")
+        journal = rig.console.snapshot().journal
+        assert (journal.can_undo, journal.can_redo) == (ask == "redo", ask == "undo")
+
+
+def test_a_new_change_ends_what_could_be_redone(rig: Rig) -> None:
+    setting(rig, {"speed": 1.5})
+    assert rig.console.undo().result(PATIENCE).ok
+    setting(rig, {"count": 9})
+    assert not rig.console.snapshot().journal.can_redo
+    assert not rig.console.redo().result(PATIENCE).ok
+
+
+@pytest.mark.parametrize("ask", ["undo", "redo"])
+def test_nothing_to_undo_is_said(rig: Rig, ask: str) -> None:
+    answer = getattr(rig.console, ask)().result(PATIENCE)
+    assert not answer.ok and f"nothing to {ask}" in answer.text
+
+
+def test_a_change_made_elsewhere_is_seen_and_not_ours_to_undo(rig: Rig) -> None:
+    rig.set_elsewhere("mode", "brave")
+    shown(rig, "mode", "brave")
+    until(rig.console.changes, "the journal")
+    assert rig.console.changes()[-1].source is ChangeSource.OTHER
+    assert not rig.console.snapshot().journal.can_undo
+
+
+def test_the_journal_is_read_from_a_number_on(rig: Rig) -> None:
+    for value in (1, 2, 4):
+        setting(rig, {"count": value})
+    until(lambda: len(rig.console.changes()) == 3, "three entries")
+    assert [each.seq for each in rig.console.changes()] == [0, 1, 2]
+    assert [each.new for each in rig.console.changes(2)] == [4]
+    assert (rig.console.snapshot().journal.first, rig.console.snapshot().journal.end) == (0, 3)
+
+
+def test_a_profile_says_what_it_would_change(rig: Rig) -> None:
+    profiles = {each.name: each for each in rig.console.snapshot().profiles}
+    assert list(profiles) == ["broken", "slow", "wild"]
+    assert "two underscores" in profiles["broken"].problem
+    assert profiles["slow"].title == "Slow: for crowded rooms."
+    found = {each.name: each for each in rig.console.profile_differences("slow")}
+    assert (found["speed"].now, found["speed"].then, found["speed"].refusal) == (1.0, 0.2, "")
+    assert {each.name: bool(each.refusal) for each in rig.console.profile_differences("wild")} == {
+        "speed": True,
+        "count": False,
+    }
+    assert not rig.console.profile_differences("nobody")
+
+
+def test_a_profile_is_applied_and_can_be_undone(rig: Rig) -> None:
+    outcomes = rig.console.apply_profile("slow").result(PATIENCE)
+    assert {each.name: each.accepted for each in outcomes} == {"speed": True, "count": True}
+    shown(rig, "speed", 0.2)
+    until(lambda: rig.console.snapshot().active_profile == "slow", "the active profile")
+    assert not rig.console.profile_differences("slow")
+    assert {each.source for each in rig.console.changes()} == {ChangeSource.PROFILE}
+    assert rig.console.undo().result(PATIENCE).ok
+    shown(rig, "speed", 1.0)
+    shown(rig, "count", 3)
+
+
+def test_a_profile_that_is_refused_changes_nothing_and_is_not_the_active_one(rig: Rig) -> None:
+    outcomes = rig.console.apply_profile("wild").result(PATIENCE)
+    assert not any(each.accepted for each in outcomes)
+    assert parameter(rig, "count").value == 3
+    assert rig.console.snapshot().active_profile == ""
+
+
+@pytest.mark.parametrize(("name", "why"), [("nobody", "no profile nobody"), ("broken", "two underscores")])
+def test_a_profile_that_cannot_be_used_says_why(rig: Rig, name: str, why: str) -> None:
+    with pytest.raises(ValueError, match=why):
+        rig.console.apply_profile(name).result(PATIENCE)
+
+
+def test_they_are_saved_or_it_is_said_why_not(rig: Rig, tmp_path: Path) -> None:
+    answer = rig.console.save_parameters(str(tmp_path / "saved.yaml"), [ROBOT])
+    assert answer.ok and "saved" in answer.text
+    assert "speed: 1.0" in (tmp_path / "saved.yaml").read_text()
+    answer = rig.console.save_parameters(str(tmp_path / "saved.yaml" / "below.yaml"))
+    assert not answer.ok and answer.text

@@ -1,0 +1,255 @@
+"""The same small ROS system twice: scripted behind a `FakeConsole`, and real nodes behind a `RosConsole`.
+
+It has one robot, `/robot`: parameters of each sort, a velocity topic, a topic `/level` of numbers, a logger service.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import itertools
+import threading
+import time
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, Protocol, TypeVar
+
+import pytest
+import rclpy
+from bot_console.tui.console.connection import RosConsole
+from bot_console.tui.console.model import (
+    ChangeSource,
+    ConsoleSnapshot,
+    Endpoint,
+    GraphInfo,
+    Kind,
+    NodeInfo,
+    ParameterInfo,
+    ParameterTree,
+    Profile,
+    Range,
+    Severity,
+    Value,
+)
+from bot_console.tui.console.protocol import Console
+from fakes import FakeConsole
+from geometry_msgs.msg import Twist
+from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
+from rclpy.context import Context
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.logging import LoggingSeverity, set_logger_level
+from rclpy.parameter import Parameter
+from std_msgs.msg import Float64, String
+from std_srvs.srv import Trigger
+
+ROBOT = "/robot"
+PATIENCE = 10.0
+"""Seconds after which a test gives up; nothing is measured by it."""
+TOO_FAST = "too fast for indoors"
+DESCRIPTION = "Highest speed (m/s)"
+PROFILES = {
+    "slow": ("# Slow: for crowded rooms.", {"speed": 0.2, "count": 1}),
+    "wild": ("# Wild: faster than this robot is.", {"speed": 99.0, "count": 2}),
+    "broken": ("# Broken.", None),
+}
+
+T = TypeVar("T")
+_domains = itertools.count(7000)
+
+
+def until(condition: Callable[[], T], what: str = "it") -> T:
+    """Wait until something is so."""
+    deadline, pause = time.monotonic() + PATIENCE, threading.Event()
+    while not (found := condition()):
+        assert time.monotonic() < deadline, f"waited in vain for {what}"
+        pause.wait(0.002)
+    return found
+
+
+def write_profiles(folder: Path) -> None:
+    """Two that can be used and one that cannot."""
+    for name, (title, values) in PROFILES.items():
+        lines = [f"    {key}: {value}" for key, value in (values or {}).items()]
+        word = "ros_parameters" if values is None else "ros__parameters"
+        (folder / f"{name}.yaml").write_text("\n".join([title, "robot:", f"  {word}:", *lines, ""]))
+
+
+class Rig(Protocol):
+    """A system, its console, and what can be done to the system from its own side."""
+
+    console: Console
+    received: Sequence[tuple[float, float]]
+    """The velocities that have reached the robot."""
+
+    def say(self, severity: Severity, text: str) -> None:
+        """Let the robot log."""
+        ...
+
+    def forbid_speed(self) -> None:
+        """Let the robot's own rule refuse every speed."""
+        ...
+
+    def set_elsewhere(self, name: str, value: Value) -> None:
+        """Set a parameter from elsewhere."""
+        ...
+
+    def publish(self, number: float) -> None:
+        """Let the robot publish a level."""
+        ...
+
+    def close(self) -> None:
+        """End it."""
+        ...
+
+
+class FakeRig:
+    """The scripted system."""
+
+    def __init__(self, folder: Path) -> None:
+        def parameter(name: str, value: Value, kind: Kind, description: str = "", **more: Any) -> ParameterInfo:
+            return ParameterInfo(ROBOT, name, kind, value, description, default=value, **more)
+
+        parameters = (
+            parameter("speed", 1.0, Kind.DOUBLE, DESCRIPTION, range=Range(0.0, 2.0)),
+            parameter("count", 3, Kind.INTEGER),
+            parameter("mode", "calm", Kind.STRING),
+            parameter("frame", "base", Kind.STRING, read_only=True),
+            parameter("gains", (1.0, 2.0), Kind.DOUBLE_ARRAY),
+        )
+        graph = GraphInfo(
+            (NodeInfo(ROBOT, (Endpoint("/level", ("std_msgs/msg/Float64",)),)),),
+            (
+                Endpoint("/cmd_vel_teleop", ("geometry_msgs/msg/Twist",)),
+                Endpoint("/level", ("std_msgs/msg/Float64",)),
+                Endpoint("/words", ("std_msgs/msg/String",)),
+            ),
+            (
+                Endpoint("/greet", ("std_srvs/srv/Trigger",)),
+                Endpoint("/robot/set_logger_levels", ("rcl_interfaces/srv/SetLoggerLevels",)),
+            ),
+        )
+        profiles = (
+            Profile("broken", "", problem="'ros_parameters' should be 'ros__parameters', with two underscores"),
+            *(
+                Profile(name, "", title[2:], {(ROBOT, key): value for key, value in (values or {}).items()})
+                for name, (title, values) in sorted(PROFILES.items())
+                if values
+            ),
+        )
+        self.console = FakeConsole(
+            ConsoleSnapshot(graph=graph, parameters={ROBOT: ParameterTree(ROBOT, parameters)}, profiles=profiles)
+        )
+        self.console.series["/level/data"] = ([], [])
+
+    def say(self, severity: Severity, text: str) -> None:
+        """Let the robot log."""
+        self.console.say(severity, "robot", text)
+
+    def forbid_speed(self) -> None:
+        """Let the robot's own rule refuse every speed."""
+        self.console.refusals[ROBOT, "speed"] = TOO_FAST
+
+    def set_elsewhere(self, name: str, value: Value) -> None:
+        """Set a parameter from elsewhere."""
+        self.console.take(ROBOT, {name: value}, ChangeSource.OTHER)
+
+    def publish(self, number: float) -> None:
+        """Let the robot publish a level."""
+        times, values = self.console.series["/level/data"]
+        self.console.now += 0.1
+        times.append(self.console.now)
+        values.append(number)
+
+    @property
+    def received(self) -> list[tuple[float, float]]:
+        """The velocities that have reached the robot."""
+        return self.console.sent
+
+    def close(self) -> None:
+        """End it."""
+        self.console.close()
+
+
+class RosRig:
+    """Real nodes on the embedded runtime."""
+
+    def __init__(self, folder: Path) -> None:
+        domain = next(_domains)
+        self.received: list[tuple[float, float]] = []
+        self._speed_rule = ""
+        self._context = Context()
+        rclpy.init(args=[], context=self._context, domain_id=domain)
+        self._node = rclpy.create_node("robot", context=self._context, enable_logger_service=True)
+        self._declare()
+        self._level = self._node.create_publisher(Float64, "level", 10)
+        self._node.create_publisher(String, "words", 10)
+        self._node.create_subscription(Twist, "cmd_vel_teleop", self._heard, 100)
+        self._node.create_service(Trigger, "greet", self._greet)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self._node)
+        self._thread = threading.Thread(target=self._spin, daemon=True)
+        self._thread.start()
+        write_profiles(folder)
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setenv("ROS_DOMAIN_ID", str(domain))
+            self.console = RosConsole(profile_folders=[folder], run_line=lambda line: "/robot\n")
+            self.console.start()
+            assert self.console.wait_ready(PATIENCE)
+        until(lambda: ROBOT in self.console.snapshot().parameters, "the robot's parameters")
+        until(lambda: self.console.snapshot().drive.topic, "the robot's velocity topic")
+
+    def _declare(self) -> None:
+        limits = [FloatingPointRange(from_value=0.0, to_value=2.0)]
+        descriptor = ParameterDescriptor(description=DESCRIPTION, floating_point_range=limits)
+        self._node.declare_parameter("speed", 1.0, descriptor)
+        self._node.declare_parameter("count", 3)
+        self._node.declare_parameter("mode", "calm")
+        self._node.declare_parameter("frame", "base", ParameterDescriptor(read_only=True))
+        self._node.declare_parameter("gains", [1.0, 2.0])
+        self._node.add_on_set_parameters_callback(self._rule)
+
+    def _rule(self, parameters: list[Parameter]) -> SetParametersResult:
+        refused = self._speed_rule and any(each.name == "speed" for each in parameters)
+        return SetParametersResult(successful=not refused, reason=self._speed_rule if refused else "")
+
+    def _heard(self, message: Twist) -> None:
+        self.received.append((message.linear.x, message.angular.z))
+
+    def _greet(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        response.success, response.message = True, "hello"
+        return response
+
+    def _spin(self) -> None:
+        with contextlib.suppress(ExternalShutdownException):
+            self._executor.spin()
+
+    def say(self, severity: Severity, text: str) -> None:
+        """Let the robot log."""
+        logger = self._node.get_logger()
+        by_severity = {  # one call site each, as rclpy wants it
+            Severity.INFO: lambda: logger.info(text),
+            Severity.WARN: lambda: logger.warning(text),
+            Severity.ERROR: lambda: logger.error(text),
+            Severity.FATAL: lambda: logger.fatal(text),
+        }
+        by_severity[severity]()
+
+    def forbid_speed(self) -> None:
+        """Let the robot's own rule refuse every speed."""
+        self._speed_rule = TOO_FAST
+
+    def set_elsewhere(self, name: str, value: Value) -> None:
+        """Set a parameter from elsewhere."""
+        self._node.set_parameters([Parameter(name, value=value)])
+
+    def publish(self, number: float) -> None:
+        """Let the robot publish a level."""
+        self._level.publish(Float64(data=number))
+
+    def close(self) -> None:
+        """End it."""
+        self.console.close()
+        self._executor.shutdown(timeout_sec=1.0)
+        self._node.destroy_node()
+        self._context.try_shutdown()
+        self._thread.join(PATIENCE)
+        set_logger_level("robot", LoggingSeverity.UNSET)  # which is one for all nodes of this process

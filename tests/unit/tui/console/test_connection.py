@@ -1,0 +1,86 @@
+"""The console's link to ROS: before it stands, when it breaks, and when it is closed while somebody waits."""
+
+import itertools
+
+import pytest
+import rclpy
+from bot_console.tui.console import connection
+from bot_console.tui.console.connection import RosConsole
+from bot_console.tui.console.graph_watch import GraphWatch
+from rclpy.context import Context
+from rigs import PATIENCE, until
+from std_srvs.srv import Trigger
+
+_domains = itertools.count(8000)
+
+
+@pytest.fixture
+def domain(monkeypatch):
+    number = next(_domains)
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
+    monkeypatch.setattr(connection, "LAST_WORD", 0.0)
+    return number
+
+
+@pytest.fixture
+def idle(domain):
+    """A node that offers a service and never serves it."""
+    context = Context()
+    rclpy.init(args=[], context=context, domain_id=domain)
+    node = rclpy.create_node("idle", context=context, start_parameter_services=False)
+    node.create_service(Trigger, "wait", lambda request, response: response)
+    yield node
+    node.destroy_node()
+    context.shutdown()
+
+
+@pytest.fixture
+def console(domain):
+    made = RosConsole()
+    yield made
+    made.close()
+
+
+def test_before_it_has_begun_everything_is_refused_and_nothing_is_known(console):
+    assert console.snapshot().graph.nodes == ()
+    assert console.snapshot() is console.snapshot()
+    assert "still connecting" in console.undo().result(PATIENCE).text
+    assert "still connecting" in console.set_parameters("/n", {"a": 1}).result(PATIENCE)[0].reason
+    assert not console.watch("/t/data").ok
+    console.drive(1.0, 0.0)
+    console.all_stop()
+    assert list(console.changes()) == list(console.plottable()) == []
+
+
+def test_whoever_waits_when_it_is_closed_gets_an_answer(console, idle):
+    console.start()
+    assert console.wait_ready(PATIENCE)
+    waiting = console.call("/wait", "std_srvs/srv/Trigger", {})
+    console.close()
+    answer = waiting.result(PATIENCE)
+    assert (answer.ok, answer.text) == (False, "the console has closed")
+
+
+def test_a_link_that_breaks_says_where_and_refuses_from_then_on(console, idle, monkeypatch):
+    console.start()
+    assert console.wait_ready(PATIENCE)
+    waiting = console.call("/wait", "std_srvs/srv/Trigger", {})
+    assert not console.call("/nowhere", "std_srvs/srv/Trigger", {}).result(PATIENCE).ok, "so the one before is sent"
+
+    def broken(self):
+        raise RuntimeError("the graph is gone")
+
+    monkeypatch.setattr(GraphWatch, "look", broken)
+    console._node.node.create_timer(0.0, lambda: GraphWatch.look(None))
+    until(lambda: console.snapshot().problem, "the problem")
+    assert "the graph is gone" in console.snapshot().problem
+    assert "test_connection.py" in console.snapshot().problem
+    assert "the graph is gone" in waiting.result(PATIENCE).text
+    assert "the graph is gone" in console.undo().result(PATIENCE).text
+
+
+def test_closing_before_it_has_connected_leaves_no_thread(console):
+    console._closed = True  # as if `close` came while the thread is still importing
+    console.start()
+    console._thread.join(PATIENCE)
+    assert not console._thread.is_alive()
