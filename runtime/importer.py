@@ -15,6 +15,8 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.interface_finder import InterfaceFinder, interface_folders
+from bot_console.runtime.missing_packages import explain_missing_package
+from bot_console.runtime.process.crashes import explain_with
 from bot_console.runtime.rosidl.sources import EXAMPLES, add_source
 
 if TYPE_CHECKING:
@@ -119,6 +121,7 @@ def install() -> None:
     place = sys.meta_path.index(PathFinder) if PathFinder in sys.meta_path else len(sys.meta_path)
     sys.meta_path.insert(place, _interfaces)
     add_source(interface_folders)
+    explain_with(explain_missing_package)
 
 
 def uninstall() -> None:
