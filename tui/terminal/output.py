@@ -150,6 +150,8 @@ class HoldingScreen(Screen[None]):
     """A screen that composes nothing while nothing may be drawn; what is dirty stays so."""
 
     def _compositor_refresh(self) -> None:
+        # Textual forgets here which widgets are dirty, though those that came after its last look are not drawn.
+        self._compositor.update_widgets(self._dirty_widgets)
         app = self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
         if isinstance(app, SparingApp) and self is app.screen and not app.may_draw():
             self._dirty_widgets.clear()

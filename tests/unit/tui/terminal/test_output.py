@@ -193,3 +193,20 @@ def test_a_layout_while_the_terminal_is_busy_is_not_lost() -> None:
         assert "green" not in "".join(app.terminal.lines())
 
     run(script)
+
+
+def test_what_changes_just_before_a_held_frame_is_drawn_is_not_lost() -> None:
+    async def script(app: Panes, pilot: Pilot[None]) -> None:
+        app.gate.closed = True
+        app.write("left", "held")
+        await pilot.pause()
+        app.write("right", "late")
+        for _ in range(100):  # Textual has noticed, and not looked yet
+            if app.query_one("#right") not in app.screen._dirty_widgets:
+                await asyncio.sleep(0)
+        app.gate.closed = False
+        app._draw_held()
+        await pilot.pause()
+        assert "held" in app.terminal.lines()[1] and "late" in app.terminal.lines()[1]
+
+    run(script)
