@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import random
 from collections.abc import Awaitable, Callable
 from typing import Any
 
@@ -208,5 +209,44 @@ def test_what_changes_just_before_a_held_frame_is_drawn_is_not_lost() -> None:
         app._draw_held()
         await pilot.pause()
         assert "held" in app.terminal.lines()[1] and "late" in app.terminal.lines()[1]
+
+    run(script)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_whatever_happens_while_frames_are_held_and_drawn(seed: int) -> None:
+    draw = random.Random(seed)
+
+    async def change(app: Panes) -> None:
+        side = draw.choice(("left", "right"))
+        what = draw.choice(("text", "text", "text", "layout", "part", "over", "redraw"))
+        if what == "text":
+            app.screen_stack[0].query_one(f"#{side}", Static).update(
+                str(draw.random()) * draw.randint(1, 5), layout=False
+            )
+        elif what == "layout":
+            app.screen_stack[0].query_one(f"#{side}").styles.height = draw.randint(1, 5)
+        elif what == "part":
+            app.screen_stack[0].query_one(f"#{side}").refresh(Region(1, 1, 3, 1))
+        elif what == "over":
+            await (app.pop_screen() if len(app.screen_stack) > 1 else app.push_screen(Over()))
+        else:
+            app.redraw()
+
+    async def script(app: Panes, pilot: Pilot[None]) -> None:
+        for _ in range(40):
+            await change(app)
+            app.gate.closed = draw.random() < 0.5
+            for _ in range(draw.randrange(4)):
+                await asyncio.sleep(0)
+            if draw.random() < 0.3:
+                await pilot.pause()
+            if not app.gate.closed:
+                app._draw_held()
+        app.gate.closed = False
+        app._draw_held()
+        await pilot.pause()
+        app._draw_held()
+        assert app.terminal.lines() == app.composed()
 
     run(script)
