@@ -2,7 +2,28 @@
 
 from __future__ import annotations
 
+import os
+import re
+import shlex
 from collections.abc import Callable, Sequence
+
+NEEDS_SHELL = re.compile(r"[;&|<>()`$*?#~\n]|\[[^\]]*\]")
+"""What a shell would do something with, outside of quotes."""
+QUOTED = re.compile(r"'[^']*'|\"[^\"`$\\]*\"")
+
+
+def ros2_words(command: Sequence[str], shell: bool) -> list[str] | None:
+    """The words behind `ros2` of a command that is nothing but a `ros2` command line; None for all others."""
+    words = list(command)
+    if shell:
+        line = " ".join(command)
+        if NEEDS_SHELL.search(QUOTED.sub("", line)):
+            return None
+        try:
+            words = shlex.split(line)
+        except ValueError:  # the shell says better what is wrong with it
+            return None
+    return words[1:] if words and os.path.basename(words[0]) == "ros2" else None
 
 
 def ros2_program(words: Sequence[str]) -> Callable[[], object]:

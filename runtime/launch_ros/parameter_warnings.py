@@ -12,6 +12,7 @@ from bot_console.runtime.rmw.parameter_scalars import INT64_MAX, INT64_MIN, scal
 from bot_console.runtime.rmw.parameter_yaml import key_matches
 from launch.utilities import perform_substitutions
 from launch.utilities.type_utils import is_normalized_substitution
+from launch_ros.descriptions.parameter_value import ParameterValue
 
 PARAMETERS_KEY = "ros__parameters"
 
@@ -52,7 +53,8 @@ def _node_keys(node: Any, prefix: str) -> Iterator[tuple[str, int]]:
 
 def warn_of_values(context: Any, given: Mapping[Any, Any], evaluated: Mapping[str, Any], origin: str) -> None:
     """Warn of values of a dict whose type changes on the way to the node."""
-    for (_, value), (name, found) in zip(given.items(), evaluated.items(), strict=False):
+    for (_, entry), (name, found) in zip(given.items(), evaluated.items(), strict=False):
+        value = entry.given if isinstance(entry, ParameterValue) and entry.value_type is None else entry
         if is_normalized_substitution(value):
             text = perform_substitutions(context, value)
             if changes_in_yaml(text, found):

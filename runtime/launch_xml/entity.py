@@ -8,7 +8,7 @@ from xml.etree.ElementTree import Element
 
 from launch.frontend import Entity as BaseEntity
 from launch.frontend.entity import wants_entities
-from launch.utilities.type_utils import get_typed_value, is_typing_list
+from launch.utilities.type_utils import get_typed_value
 
 
 class Entity(BaseEntity):
@@ -67,22 +67,16 @@ class Entity(BaseEntity):
         if separator in self.__element.attrib:
             self.__read_attributes.add(separator)
             text = text.split(self.__element.attrib[separator])
-        return text if data_type is str else self.__typed(name, text, data_type, can_be_str)
+        return self.__typed(name, text, data_type, can_be_str)
 
     def __missing(self, name: str, data_type: Any, optional: bool) -> None:
         if not optional:
             raise AttributeError(f"Attribute '{name}' of type '{data_type}' not found in Entity '{self.type_name}'")
 
     def __typed(self, name: str, text: Any, data_type: Any, can_be_str: bool) -> Any:
-        if can_be_str and any("$(" in each for each in ([text] if isinstance(text, str) else text)):
-            return text
         try:
             return get_typed_value(text, data_type, can_be_str=can_be_str)
-        except (ValueError, TypeError) as error:
-            if data_type is None and isinstance(error, ValueError):
-                raise
-            if can_be_str and data_type is not None and not is_typing_list(data_type):
-                return text
+        except ValueError as error:
             raise TypeError(
                 f"Attribute '{name}' of Entity '{self.type_name}' expected to be of type '{data_type}'."
                 f"'{text}' can not be converted to one of those types"

@@ -170,11 +170,10 @@ class ExecuteLocal(Action):
 
     def in_process_program(self, command: list[str]) -> Program | None:
         """What to run as a node process of this process; None: the command is a process of the system."""
-        if command and os.path.basename(command[0]) == "ros2" and not self.__shell:
-            from launch.ros2_commands import ros2_program
+        from launch.ros2_commands import ros2_program, ros2_words
 
-            return ros2_program(command[1:])
-        return None
+        words = ros2_words(command, self.__shell)
+        return None if words is None else ros2_program(words)
 
     def os_command(self, command: list[str]) -> list[str]:
         """The command as the system is given it."""

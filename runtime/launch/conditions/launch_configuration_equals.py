@@ -23,8 +23,8 @@ class LaunchConfigurationEquals(Condition):
         )
         self.__name = launch_configuration_name
         self.__expected = None if expected_value is None else normalize_to_list_of_substitutions(expected_value)
-        super().__init__(predicate=self._holds)
+        super().__init__(predicate=self._predicate_func)
 
-    def _holds(self, context: Any) -> bool:
+    def _predicate_func(self, context: Any) -> bool:
         expected = None if self.__expected is None else perform_substitutions(context, self.__expected)
         return context.launch_configurations.get(self.__name) == expected

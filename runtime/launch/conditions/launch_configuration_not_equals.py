@@ -10,5 +10,5 @@ from launch.conditions.launch_configuration_equals import LaunchConfigurationEqu
 class LaunchConfigurationNotEquals(LaunchConfigurationEquals):
     """Holds when a launch configuration does not have a value."""
 
-    def _holds(self, context: Any) -> bool:
-        return not super()._holds(context)
+    def _predicate_func(self, context: Any) -> bool:
+        return not super()._predicate_func(context)

@@ -14,7 +14,11 @@ class UnlessCondition(Condition):
 
     def __init__(self, predicate_expression: Any) -> None:
         self.__expression = normalize_to_list_of_substitutions(predicate_expression)
-        super().__init__(predicate=lambda context: not evaluate_condition_expression(context, self.__expression))
+        super().__init__(predicate=self._predicate_func)
+
+    def _predicate_func(self, context: Any) -> bool:
+        """Whether the text says false now; public launch files call it by this name."""
+        return not evaluate_condition_expression(context, self.__expression)
 
     def describe(self) -> str:
         """A short text for people."""

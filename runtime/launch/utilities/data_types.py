@@ -13,32 +13,31 @@ def is_typing_list(data_type: Any) -> bool:
 
 
 def extract_type(data_type: Any) -> tuple[Any, bool]:
-    """The scalar type, None for any, and whether it is a list of them; raises `ValueError` for other types."""
-    is_list = is_typing_list(data_type)
-    scalar = data_type
-    if is_list:
-        arguments = get_args(data_type)
-        scalar = arguments[0] if arguments and isinstance(arguments[0], type) else None
-    if scalar is not None and scalar not in SCALARS:
+    """The scalar type, and whether it is a list of them; raises `ValueError` for other types."""
+    scalar, is_list = data_type, False
+    arguments = get_args(data_type) if is_typing_list(data_type) else ()
+    if arguments:
+        scalar, is_list = arguments[0], True
+    if scalar not in SCALARS:
         raise ValueError(f"Unrecognized data type: {data_type}")
     return scalar, is_list
 
 
-def is_scalar(value: object, scalar: Any, *, can_be_str: bool = False) -> bool:
-    """Whether a value is exactly of a scalar type, or of any where the type is None."""
-    if can_be_str and isinstance(value, str):
-        return True
-    return type(value) in SCALARS if scalar is None else type(value) is scalar
+def is_instance_of_valid_type(value: Any, *, can_be_str: bool = False) -> bool:
+    """Whether a value is a scalar or a list of one type; texts may stand between others where that is allowed."""
+    if not isinstance(value, list):
+        return isinstance(value, SCALARS)
+    kind = next((type(each) for each in value if type(each) is not str), str)
+    allowed = (kind, str) if can_be_str else (kind,)
+    return kind in SCALARS and all(isinstance(each, allowed) for each in value)
 
 
 def is_instance_of(value: Any, data_type: Any, *, can_be_str: bool = False) -> bool:
-    """Whether a value is of a type; an int is no float, and a bool no int."""
+    """Whether a value is of a type; an int is no float, but a bool is an int. Raises `ValueError` for other types."""
     if data_type is None:
-        if isinstance(value, list):
-            kinds = {type(each) for each in value}
-            return len(kinds) <= 1 and all(is_scalar(each, None) for each in value)
-        return is_scalar(value, None)
+        return is_instance_of_valid_type(value, can_be_str=can_be_str)
     scalar, is_list = extract_type(data_type)
+    allowed = (scalar, str) if can_be_str else (scalar,)
     if not is_list:
-        return is_scalar(value, scalar, can_be_str=can_be_str)
-    return isinstance(value, list) and all(is_scalar(each, scalar, can_be_str=can_be_str) for each in value)
+        return isinstance(value, allowed)
+    return isinstance(value, list) and all(isinstance(each, allowed) for each in value)

@@ -6,7 +6,13 @@ from collections.abc import Iterable
 from typing import Any
 
 from launch.substitution import Substitution
-from launch.utilities.data_types import extract_type, is_instance_of, is_typing_list
+from launch.utilities.data_types import (
+    extract_type,
+    is_instance_of,
+    is_instance_of_valid_type,
+    is_typing_list,
+)
+from launch.utilities.ensure_argument_type_impl import ensure_argument_type
 from launch.utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
 from launch.utilities.perform_substitutions_impl import perform_substitutions
 
@@ -45,77 +51,85 @@ __all__ = [
 ]
 
 
-def coerce_to_type(value: str, data_type: Any = None, *, can_be_str: bool = True) -> Any:
-    """A scalar or list from a text; raises `ValueError` or `TypeError` where the text is none of the type."""
+def coerce_to_type(value: str, data_type: Any = None, *, can_be_str: bool = False) -> Any:
+    """A scalar or list from a text, which may stay a text where that is allowed.
+
+    Raises `ValueError` for a text that is none of the type, `TypeError` for what is no text.
+    """
+    ensure_argument_type(value, str, "value", "coerce_to_type")
     if data_type is None:
-        return _any_from(value)
+        return _by_yaml(value, f"Failed to convert '{value}' using yaml rules", can_be_str)
     scalar, is_list = extract_type(data_type)
     if is_list:
-        return _list_from(value, scalar)
+        return _list_from(value, scalar, can_be_str)
     if scalar is str:
         return value
     if scalar is bool:
-        return _bool_from(value)
-    return scalar(value)
+        return _bool_from(value, can_be_str)
+    try:
+        return scalar(value)
+    except ValueError:
+        if can_be_str:
+            return value
+        raise
 
 
-def coerce_list(value: Iterable[str], data_type: Any = None, *, can_be_str: bool = False) -> list[Any]:
-    """A list from texts."""
+def coerce_list(value: list[str], data_type: Any = None, *, can_be_str: bool = False) -> list[Any]:
+    """A list from texts; raises `ValueError` where they are not of one type, `TypeError` for what is no list."""
+    ensure_argument_type(value, list, "value", "coerce_list")
     found = [coerce_to_type(each, data_type, can_be_str=can_be_str) for each in value]
-    if not is_instance_of(found, None):
-        raise ValueError("The result is a non-uniform list")
+    if not is_instance_of_valid_type(found, can_be_str=can_be_str):
+        raise ValueError(f"cannot convert value to {data_type}. Got value=`{value}`")
     return found
 
 
-def get_typed_value(value: Any, data_type: Any, *, can_be_str: bool = True) -> Any:
-    """A value of a type from a text or a list of texts; raises `ValueError`."""
-    if isinstance(value, list):
-        if data_type is None:
-            return coerce_list(value)
-        scalar, is_list = extract_type(data_type)
-        if not is_list:
-            raise TypeError(f"Cannot convert input '{value}' of type '{type(value)}' to '{data_type}'")
-        return coerce_list(value, scalar, can_be_str=can_be_str)
-    return coerce_to_type(value, data_type, can_be_str=can_be_str)
+def get_typed_value(value: Any, data_type: Any, *, can_be_str: bool = False) -> Any:
+    """A value of a type from a text or a list of texts; raises `ValueError`, and `TypeError` for a list as a scalar."""
+    if not isinstance(value, list):
+        return coerce_to_type(value, data_type, can_be_str=can_be_str)
+    if data_type is None:
+        return coerce_list(value, can_be_str=can_be_str)
+    scalar, is_list = extract_type(data_type)
+    if not is_list:
+        raise TypeError(f"Cannot convert input '{value}' of type '{type(value)}' to '{scalar}'")
+    return coerce_list(value, scalar, can_be_str=can_be_str)
 
 
-def _bool_from(value: str) -> bool:
-    found = {"1": True, "0": False}.get(value, _yaml(value))
-    if not isinstance(found, bool):
-        raise ValueError(f"Cannot convert value '{value}' to '{bool}'")
-    return found
-
-
-def _list_from(value: str, scalar: Any) -> list[Any]:
-    found = _yaml(value)
-    if not isinstance(found, list):
-        raise ValueError(f"Cannot convert value '{value}' to a list")
-    if not is_instance_of(found, None if scalar is None else list[scalar]):
-        raise ValueError(f"Cannot convert value '{value}' to a list of '{scalar}', got {found}")
-    return found
-
-
-def _any_from(value: str) -> Any:
-    found = _yaml(value)
-    if is_instance_of(found, None):
+def _bool_from(value: str, can_be_str: bool) -> bool | str:
+    if value in ("0", "1"):
+        return value == "1"
+    found = _by_yaml(value, f"Failed to convert '{value}' to '{bool}'", can_be_str)
+    if isinstance(found, (bool, str) if can_be_str else bool):
         return found
-    if isinstance(found, list):
-        raise ValueError("The result is a non-uniform list")
-    raise TypeError(f"'{value}' is neither a scalar nor a list")
+    raise ValueError(f"Cannot convert value '{value}' to '{bool}'")
 
 
-def _yaml(value: str) -> Any:
+def _list_from(value: str, scalar: Any, can_be_str: bool) -> list[Any]:
+    wanted = (str, scalar) if can_be_str else scalar
+    problem = f"Cannot convert value '{value}' to a list of '{wanted}'"
+    found = _by_yaml(value, problem, can_be_str)
+    if not isinstance(found, list):
+        raise ValueError(problem)
+    if not all(isinstance(each, wanted) for each in found):
+        raise ValueError(f"{problem}, got {found}")
+    return found
+
+
+def _by_yaml(value: str, problem: str, can_be_str: bool) -> Any:
+    """What YAML makes of a text; an empty one stays, and one that is no YAML may."""
     import yaml
 
-    try:
-        return yaml.safe_load(value)
-    except yaml.YAMLError:
+    if not value:
         return value
-
-
-def is_instance_of_valid_type(value: Any, *, can_be_str: bool = False) -> bool:
-    """Whether a value is of any type that values in launch files may have."""
-    return is_instance_of(value, None, can_be_str=can_be_str)
+    try:
+        found = yaml.safe_load(value)
+    except yaml.YAMLError as error:
+        if can_be_str:
+            return value
+        raise ValueError(f"{problem}: yaml.safe_load() failed\n{error}") from error
+    if not is_instance_of_valid_type(found, can_be_str=can_be_str):
+        raise ValueError(f"{problem}: output type is not allowed, got {type(found)}")
+    return found
 
 
 def is_valid_scalar_type(data_type: Any) -> bool:
@@ -141,24 +155,84 @@ def is_normalized_substitution(value: Any) -> bool:
 
 
 def normalize_typed_substitution(value: Any, data_type: Any = None) -> Any:
-    """A value as it is, or a list of substitutions, or a list of either; raises `TypeError` for the wrong type."""
-    if isinstance(value, (list, tuple)) and not is_substitution(value):
-        return [normalize_typed_substitution(each, None) for each in value]
+    """A scalar as it is, substitutions as a list, and a list as a list of either; `TypeError` for any other type."""
+    if isinstance(value, ScalarTypesTuple):
+        if not is_instance_of(value, data_type):
+            raise TypeError(f"value='{value}' is not an instance of {data_type}")
+        return value
     if is_substitution(value):
         return normalize_to_list_of_substitutions(value)
-    if not is_instance_of(value, data_type):
-        raise TypeError(f"value='{value}' is not an instance of {data_type}")
-    return value
+    if not isinstance(value, Iterable):
+        raise TypeError(
+            "value should be either a scalar, a substitutions, or a mixed list of scalars and substitutions. "
+            f"Got `value={value}` of type `{type(value)}`. "
+        )
+    items = list(value)
+    wanted = _type_of_items(value, data_type)
+    given = _common_type(value, items)
+    if given is not None and wanted not in (None, given):
+        raise TypeError(f"Got a list of '{given}', expected a list of '{wanted}'. value='{value}'")
+    return [
+        normalize_to_list_of_substitutions(each) if is_substitution(each) else (float(each) if given is float else each)
+        for each in items
+    ]
+
+
+def _type_of_items(value: Any, data_type: Any) -> Any:
+    scalar, is_list = (None, True) if data_type is None else extract_type(data_type)
+    if not is_list:
+        raise TypeError(
+            "The provided value resolves to a list, though the required type is a scalar. "
+            f"Got value='{value}', data_type='{scalar}'."
+        )
+    return scalar
+
+
+def _common_type(value: Any, items: list[Any]) -> type | None:
+    """The type of the items that are no substitutions, None where all are; ints between floats are floats."""
+    kinds: set[type] = set()
+    for each in items:
+        if isinstance(each, ScalarTypesTuple):
+            kinds.add(type(each))
+        elif not is_substitution(each):
+            raise TypeError(
+                "value is a list, and one of the items is not a scalar, a Substitution or a list of substitutions. "
+                f"Got value='{value}'"
+            )
+    if not kinds:
+        return None if items else str
+    for kind in (str, bool, int):
+        if kinds == {kind}:
+            return kind
+    if kinds <= {int, float}:
+        return float
+    raise TypeError(f"Input value is not an acceptable 'SomeValueType'.Got value='{value}'")
 
 
 def perform_typed_substitution(context: Any, value: Any, data_type: Any = None) -> Any:
     """The value of what `normalize_typed_substitution` gave; raises `ValueError` for a text not of the type."""
+    if isinstance(value, ScalarTypesTuple):
+        if data_type is not None and not is_instance_of(value, data_type):
+            raise TypeError(f"value=`{value}` is a scalar and not an instance of `{data_type}`")
+        return value
     if is_normalized_substitution(value):
-        return get_typed_value(perform_substitutions(context, value), data_type)
-    if isinstance(value, list):
-        scalar = None if data_type is None else extract_type(data_type)[0]
-        found = [perform_typed_substitution(context, each, scalar) for each in value]
-        if not is_instance_of(found, data_type):
-            raise ValueError(f"Cannot convert value '{value}' to '{data_type}'")
-        return found
-    return value
+        return coerce_to_type(perform_substitutions(context, value), data_type)
+    if not isinstance(value, list):
+        raise TypeError(f"Input value is not an acceptable 'NormalizedValueType'.Got value='{value}'")
+    scalar, is_list = (None, True) if data_type is None else extract_type(data_type)
+    if not is_list:
+        raise ValueError(
+            f"The input value is a list, cannot convert it to a scalar. Got value='{value}', expected type {scalar}."
+        )
+    found = [
+        coerce_to_type(perform_substitutions(context, each), scalar) if is_normalized_substitution(each) else each
+        for each in value
+    ]
+    if not is_instance_of(found, data_type):
+        expected = f"Got value='{value}', expected type {scalar}."
+        raise ValueError(
+            "The output list is not uniform"
+            if scalar is None
+            else f"The output list does not match the expected type {expected}"
+        )
+    return found

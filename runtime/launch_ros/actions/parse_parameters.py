@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from typing import Any, List
 
-from launch.substitutions import TextSubstitution
 from launch_ros.descriptions.parameter_file import ParameterFile
 from launch_ros.descriptions.parameter_value import ParameterValue
 
@@ -47,40 +46,22 @@ def _parameter(entity: Any, parser: Any) -> Any:
 
 def _named(entity: Any, parser: Any) -> dict[Any, Any]:
     name = tuple(parser.parse_substitution(entity.get_attr("name")))
-    kind_name = entity.get_attr("type", optional=True)
+    kind = _kind(entity.get_attr("type", optional=True))
+    value = entity.get_attr("value", data_type=kind, optional=True)
     nested = entity.get_attr("param", data_type=list, optional=True)
-    value = entity.get_attr("value", data_type=_kind(kind_name), optional=True)
+    entity.assert_entity_completely_parsed()
     if value is not None and nested:
         raise RuntimeError("nested parameters and value attributes are mutually exclusive")
+    if kind is not None and nested:
+        raise RuntimeError("nested parameters and type attributes are mutually exclusive")
     if value is not None:
-        result = _value(value, kind_name, parser)
-        entity.assert_entity_completely_parsed()
-        return {name: result}
+        return {name: ParameterValue(parser.parse_if_substitutions(value), value_type=kind)}
     if not nested:
         raise RuntimeError("either a value attribute or nested params are needed")
     found: dict[Any, Any] = {}
     for each in nested:
         found.update(_named(each, parser))
-    entity.assert_entity_completely_parsed()
     return {name: found}
-
-
-def _value(value: Any, kind_name: str | None, parser: Any) -> Any:
-    """A literal, or substitutions; typed where a type is named."""
-    literal = _literal(value, parser)
-    return literal if kind_name is None else ParameterValue(literal, value_type=_kind(kind_name))
-
-
-def _literal(value: Any, parser: Any) -> Any:
-    """A text without substitutions stays a text, whatever it looks like."""
-    if isinstance(value, list):
-        return [_literal(each, parser) for each in value]
-    if not isinstance(value, str):
-        return value
-    pieces = parser.parse_substitution(value)
-    if all(isinstance(each, TextSubstitution) for each in pieces):
-        return "".join(each.text for each in pieces)
-    return pieces
 
 
 def _kind(name: str | None) -> Any:

@@ -35,6 +35,7 @@ class Parameter:
         return f"launch_ros.description.Parameter(name={self.name}, value={self.value}, value_type={self.value_type})"
 
     def evaluate(self, context: Any) -> tuple[str, Any]:
-        """Name and value."""
-        self.__evaluated_name = perform_substitutions(context, self.__name)
+        """Name and value, of the first time."""
+        if self.__evaluated_name is None:
+            self.__evaluated_name = perform_substitutions(context, self.__name)
         return self.__evaluated_name, self.__value.evaluate(context)

@@ -34,31 +34,34 @@ class ParameterFile:
         return f"launch_ros.description.ParameterFile(param_file={self.param_file}, allow_substs={self.allow_substs})"
 
     def evaluate(self, context: Any) -> Path:
-        """The path; of a file with substitutions, that of a copy in which they are evaluated."""
-        path = Path(perform_substitutions(context, self.__param_file))
-        self.__allow_substs = perform_typed_substitution(context, self.__allow_substs, data_type=bool)
-        self.__evaluated = self._substituted(context, path) if self.__allow_substs else path
+        """The path; of a file with substitutions, that of a copy in which they are evaluated. The first time counts.
+
+        Raises `OSError` for a file with substitutions that cannot be read, `SubstitutionFailure` for one that is no
+        YAML any more.
+        """
+        if self.__evaluated is None:
+            path = Path(perform_substitutions(context, self.__param_file))
+            self.__allow_substs = perform_typed_substitution(context, self.__allow_substs, data_type=bool)
+            self.__evaluated = _substituted(context, path) if self.__allow_substs else path
         return self.__evaluated
 
     def cleanup(self) -> None:
         """Delete the copy, if one was made."""
         if self.__allow_substs is True and self.__evaluated is not None:
             self.__evaluated.unlink(missing_ok=True)
+            self.__evaluated = None
 
-    def _substituted(self, context: Any, path: Path) -> Path:
-        import yaml
-        from launch.frontend.parse_substitution import parse_substitution
-        from launch.substitutions import SubstitutionFailure
 
-        if not path.is_file():
-            return path
-        text = perform_substitutions(context, parse_substitution(path.read_text(encoding="utf-8")))
-        try:
-            yaml.safe_load(text)
-        except yaml.YAMLError as error:
-            raise SubstitutionFailure("The substituted parameter file is not a valid yaml file") from error
-        with tempfile.NamedTemporaryFile(
-            mode="w", prefix=PREFIX, suffix=path.name, delete=False, encoding="utf-8"
-        ) as copy:
-            copy.write(text)
-        return Path(copy.name)
+def _substituted(context: Any, path: Path) -> Path:
+    import yaml
+    from launch.frontend.parse_substitution import parse_substitution
+    from launch.substitutions import SubstitutionFailure
+
+    text = perform_substitutions(context, parse_substitution(path.read_text(encoding="utf-8")))
+    try:
+        yaml.safe_load(text)
+    except yaml.YAMLError as error:
+        raise SubstitutionFailure("The substituted parameter file is not a valid yaml file") from error
+    with tempfile.NamedTemporaryFile(mode="w", prefix=PREFIX, delete=False, encoding="utf-8") as copy:
+        copy.write(text)
+    return Path(copy.name)

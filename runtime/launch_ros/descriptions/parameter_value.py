@@ -21,6 +21,11 @@ class ParameterValue:
         return self.__value if self.__evaluated is None else self.__evaluated
 
     @property
+    def given(self) -> Any:
+        """The value as it was given, in normal form (not upstream)."""
+        return self.__value
+
+    @property
     def value_type(self) -> Any:
         """The type."""
         return self.__value_type
@@ -29,6 +34,6 @@ class ParameterValue:
         return f"launch_ros.description.ParameterValue(value={self.value}, value_type={self.value_type})"
 
     def evaluate(self, context: Any) -> Any:
-        """The value; raises `ValueError` for a text that is none of the type."""
-        self.__evaluated = perform_typed_substitution(context, self.__value, self.__value_type)
+        """The value, of the first time; raises `ValueError` for a text that is none of the type."""
+        self.__evaluated = perform_typed_substitution(context, self.value, self.__value_type)
         return self.__evaluated

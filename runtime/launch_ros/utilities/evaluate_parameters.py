@@ -32,13 +32,14 @@ def evaluate_parameter_dict(context: Any, parameters: Mapping[Any, Any]) -> dict
     found: dict[str, Any] = {}
     for key, value in parameters.items():
         name = perform_substitutions(context, key)
-        found[name] = check_value(name, _evaluate(context, name, value))
+        if isinstance(value, ParameterValue):
+            found[name] = value.evaluate(context)
+        else:
+            found[name] = check_value(name, _evaluate(context, name, value))
     return found
 
 
 def _evaluate(context: Any, name: str, value: Any) -> Any:
-    if isinstance(value, ParameterValue):
-        return value.evaluate(context)
     if is_normalized_substitution(value):
         return yaml_value(name, perform_substitutions(context, value))
     if isinstance(value, tuple) and any(isinstance(each, list) for each in value):

@@ -72,3 +72,9 @@ def test_a_bad_condition_ends_the_launch(run: Launch) -> None:
     outcome = run([LogInfo(msg="a", condition=IfCondition("yes"))])
     assert outcome.code == 1
     assert outcome.caught.startswith("invalid condition expression")
+
+
+def test_public_launch_files_ask_a_condition_directly() -> None:
+    context = LaunchContext()
+    assert IfCondition("1")._predicate_func(context)
+    assert UnlessCondition("0")._predicate_func(context)

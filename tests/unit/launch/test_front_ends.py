@@ -159,7 +159,7 @@ def test_a_node_with_everything() -> None:
     for each in node.parameters:
         values += [each] if isinstance(each, ParameterFile) else list(each.values())
     integer, quoted, text, items, split, nested, file = values
-    assert (integer, quoted, items, split, nested) == (7, "7", (1, 2), (1, 2), True)
+    assert [each.value for each in (integer, quoted, items, split, nested)] == [7, "7", [1, 2], [1, 2], True]
     assert isinstance(text, ParameterValue)
     assert text.value_type is str
     assert isinstance(file, ParameterFile)

@@ -73,8 +73,8 @@ FORMS: list[tuple[str, Any, Any]] = [
     ("typed as int", ParameterValue(LC("i"), value_type=int), 1),
     ("typed as float", ParameterValue(LC("i"), value_type=float), 1.0),
     ("typed as bool", ParameterValue(LC("i"), value_type=bool), True),
-    ("typed as list", ParameterValue(LC("l"), value_type=list[int]), (1, 2)),
-    ("not typed", ParameterValue(LC("l")), (1, 2)),
+    ("typed as list", ParameterValue(LC("l"), value_type=list[int]), [1, 2]),
+    ("not typed", ParameterValue(LC("l")), [1, 2]),
 ]
 
 
@@ -200,3 +200,22 @@ def test_substitutions_in_a_file(tmp_path: Path) -> None:
     path = copy.param_file
     copy.cleanup()
     assert not path.exists()
+
+
+def test_a_file_description_is_evaluated_once(tmp_path: Path) -> None:
+    file = tmp_path / "p.yaml"
+    file.write_text("/**: {ros__parameters: {a: $(var i)}}")
+    context = LaunchContext()
+    context.launch_configurations["i"] = "1"
+    described = ParameterFile(str(file), allow_substs=True)
+    first = described.evaluate(context)
+    context.launch_configurations["i"] = "2"
+    assert described.evaluate(context) == first
+    assert "a: 1" in first.read_text()
+    described.cleanup()
+    assert not first.exists()
+
+
+def test_a_file_with_substitutions_must_be_there(tmp_path: Path) -> None:
+    with pytest.raises(FileNotFoundError):
+        ParameterFile(str(tmp_path / "none.yaml"), allow_substs=True).evaluate(LaunchContext())

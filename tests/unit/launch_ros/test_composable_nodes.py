@@ -1,0 +1,109 @@
+"""What a container is asked for when a launch file loads nodes into it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from launch.actions import GroupAction
+from launch.conditions import IfCondition
+from launch.substitutions import TextSubstitution
+from launch_ros.actions import (
+    LoadComposableNodes,
+    PushROSNamespace,
+    SetParameter,
+    SetParametersFromFile,
+    SetRemap,
+)
+from launch_ros.actions.load_composable_nodes import get_composable_node_load_request
+from launch_ros.descriptions import ComposableNode
+from launching import Launch
+
+from launch import LaunchContext
+
+Found = dict[str, Any]
+
+
+def request(tmp_path: Path, file: str = "", *before: Any, **options: Any) -> Any:
+    context = LaunchContext()
+    for each in before:
+        each.execute(context)
+    if file:
+        path = tmp_path / "p.yaml"
+        path.write_text(file)
+        options["parameters"] = [path]
+    described = ComposableNode(package="p", plugin="p::C", name="n", namespace="ns", **options)
+    return get_composable_node_load_request(described, context)
+
+
+def values(request: Any) -> Found:
+    return {each.name: each.value.integer_value for each in request.parameters}
+
+
+FILES: list[tuple[str, str, Found]] = [
+    ("no keys of nodes", "a: 1\nb: 2\n", {"a": 1, "b": 2}),
+    ("a full name", "/ns/n:\n  ros__parameters: {a: 1}\n", {"a": 1}),
+    ("a namespace above", "/ns:\n  n:\n    ros__parameters: {a: 1, b.c: 2}\n", {"a": 1, "b.c": 2}),
+    ("a name alone is of the root", "n:\n  ros__parameters: {a: 1}\n", {}),
+    ("any node", "/**:\n  ros__parameters: {a: 1}\n", {"a": 1}),
+    ("one level", "/*/n:\n  ros__parameters: {a: 1}\n", {"a": 1}),
+    ("one level is not two", "/*/*/n:\n  ros__parameters: {a: 1}\n", {}),
+    (
+        "the last that means the node wins",
+        "/**:\n  ros__parameters: {a: 1, b: 2}\n/ns/n:\n  ros__parameters: {a: 3}\n/x:\n  ros__parameters: {a: 9}\n",
+        {"a": 3, "b": 2},
+    ),
+]
+
+
+@pytest.mark.filterwarnings("ignore:node name not provided")
+@pytest.mark.parametrize(("file", "found"), [row[1:] for row in FILES], ids=[row[0] for row in FILES])
+def test_parameter_files(tmp_path: Path, file: str, found: Found) -> None:
+    assert values(request(tmp_path, file)) == found
+
+
+def test_a_file_with_nothing_for_the_node_is_told(tmp_path: Path) -> None:
+    with pytest.warns(UserWarning, match="parameter files will not apply"):
+        request(tmp_path, "/x:\n  ros__parameters: {a: 1}\n")
+
+
+def test_what_is_set_for_all_nodes_comes_first(tmp_path: Path) -> None:
+    file = tmp_path / "all.yaml"
+    file.write_text("/**:\n  ros__parameters: {a: 1, b: 2}\n")
+    found = request(
+        tmp_path, "", SetParametersFromFile(str(file)), SetParameter("b", 3), SetRemap("x", "y"), parameters=[{"a": 5}]
+    )
+    assert [(each.name, each.value.integer_value) for each in found.parameters] == [
+        ("a", 1),
+        ("b", 2),
+        ("b", 3),
+        ("a", 5),
+    ]
+    assert list(found.remap_rules) == ["x:=y"]
+
+
+def test_a_condition_that_does_not_hold_asks_for_nothing(tmp_path: Path) -> None:
+    assert request(tmp_path, condition=IfCondition("false")) is None
+
+
+def test_a_pushed_namespace_is_not_put_before_the_container(run: Launch, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[str] = []
+
+    class Node:
+        def create_client(self, _kind: Any, name: str) -> None:
+            asked.append(name)
+            raise RuntimeError("enough")
+
+    monkeypatch.setattr("launch_ros.actions.load_composable_nodes.get_ros_node", lambda _context: Node())
+    load = LoadComposableNodes(
+        target_container=["ns", TextSubstitution(text="/box")],
+        composable_node_descriptions=[ComposableNode(package="p", plugin="p::C")],
+    )
+    run([GroupAction([PushROSNamespace("ns"), load])])
+    assert asked == ["ns/box/_container/load_node"]
+
+
+def test_a_container_is_a_text_or_an_action() -> None:
+    with pytest.raises(TypeError, match="'LoadComposableNodes' expected 'target_container' to be one of"):
+        LoadComposableNodes(target_container=5, composable_node_descriptions=[])
