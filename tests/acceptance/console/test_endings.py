@@ -18,11 +18,19 @@ from rclpy.executors import ExternalShutdownException
 rclpy.init()
 node = rclpy.create_node("wheels")
 file = open("{folder}/received", "a", buffering=1)
-node.create_subscription(Twist, "cmd_vel", lambda message: file.write(f"{{message.linear.x}}\\n"), 10)
 drive = node.create_publisher(Twist, "cmd_vel", 10)
 command = Twist()
 command.linear.x = 1.0
-node.create_timer(0.2, lambda: drive.publish(command))
+timer = node.create_timer(0.2, lambda: drive.publish(command))
+
+
+def turn(message):
+    file.write(f"{{message.linear.x}}\\n")
+    if message.linear.x == 0.0:
+        timer.cancel()
+
+
+node.create_subscription(Twist, "cmd_vel", turn, 10)
 try:
     rclpy.spin(node)
 except (KeyboardInterrupt, ExternalShutdownException):
