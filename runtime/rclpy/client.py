@@ -79,7 +79,7 @@ class Client(Entity):
             future: Future[Any] = Future()
             self._pending_requests[number] = future
         future._when_settled(partial(self._pending_requests.pop, number, None))
-        self._node._bus.request(self.endpoint, number, request)
+        self._node._ros_bus.request(self.endpoint, number, request)
         if self.events is not None:
             self.events.tell(0, self.endpoint, number, request=request)
         return future
@@ -117,14 +117,14 @@ class Client(Entity):
     def service_is_ready(self) -> bool:
         """Whether a server is there."""
         self.use()
-        return self._node._bus.has_server(self.endpoint)
+        return self._node._ros_bus.has_server(self.endpoint)
 
     def wait_for_service(self, timeout_sec: float | None = None) -> bool:
         """Block until a server is there; False when time (s) is over or the context was shut down."""
         clock = current().clock
         deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * NANO)
         wakeup = clock.wakeup()
-        forget = self._node._bus.on_graph_change(wakeup.set)
+        forget = self._node._ros_bus.on_graph_change(wakeup.set)
         try:
             while self.context.ok() and not self.service_is_ready():
                 now = clock.steady_ns()
@@ -147,7 +147,7 @@ class Client(Entity):
     def destroy(self) -> None:
         """Ask no more."""
         self.destroyed = True
-        self._node._bus.remove(self.endpoint)
+        self._node._ros_bus.remove(self.endpoint)
         self.detach()
 
     def __enter__(self) -> Client:

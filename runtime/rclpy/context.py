@@ -168,7 +168,7 @@ class Context:
         for endpoint in list(self.lingering):
             self.bus.remove(endpoint)
         for node in list(self._nodes):
-            node._leave_graph()
+            node._ros_leave_graph()
 
     def destroy(self) -> None:
         """Free what the context holds."""

@@ -133,14 +133,14 @@ class Executor(ReadyCallbacks):
         node.executor = self
         if self._is_shutdown:
             raise AttributeError("this executor was shut down: it serves no more nodes")
-        node._attach(self, self._nodes[node])
+        node._ros_attach(self, self._nodes[node])
         self.wake()
         return True
 
     def remove_node(self, node: Any) -> None:
         """Serve a node no more; its `executor` goes on pointing here, as upstream leaves it."""
         if self._nodes.pop(node, None) is not None:
-            node._detach()
+            node._ros_detach()
 
     def get_nodes(self) -> list[Any]:
         """The nodes that are served."""

@@ -29,7 +29,11 @@ LOGGER_SEPARATOR = "."
 
 
 class Node(NodeEntities, NodeParameters, NodeGraph):
-    """A node of the ROS graph: it has parameters, and makes publishers, subscriptions, services, clients and timers."""
+    """A node of the ROS graph: it has parameters, and makes publishers, subscriptions, services, clients and timers.
+
+    Programs inherit from it and name attributes of their own as they like, `_name` or `_bus` as well; therefore what is
+    inside begins with `_ros_`, apart from what has the same name upstream.
+    """
 
     PARAM_REL_TOL = 1e-6
     """Relative tolerance of the range checks of doubles."""
@@ -49,27 +53,27 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         automatically_declare_parameters_from_overrides: bool = False,
         enable_logger_service: bool = False,
     ) -> None:
-        self.context = get_default_context() if context is None else context
-        self._entities: dict[Any, None] = {}
-        self._publishers: dict[Any, None] = {}
-        self._waitables: dict[Any, None] = {}
-        self._rates: dict[Any, Any] = {}
-        self._sink: Any = None
-        self._order = 0
-        self._executor: Any = None
-        self._id: Any = None
-        self.destroyed = False
+        self._ros_context = get_default_context() if context is None else context
+        self._ros_entities: dict[Any, None] = {}
+        self._ros_publishers: dict[Any, None] = {}
+        self._ros_waitables: dict[Any, None] = {}
+        self._ros_rates: dict[Any, Any] = {}
+        self._ros_sink: Any = None
+        self._ros_order = 0
+        self._ros_executor: Any = None
+        self._ros_id: Any = None
+        self._ros_destroyed = False
         self._default_callback_group = MutuallyExclusiveCallbackGroup()
         if not self.context.ok():
             raise NotInitializedException("cannot create node")
-        self._bus = self.context.bus
-        arguments = self._read_arguments(cli_args, use_global_arguments)
-        self._choose_name(node_name, namespace or "", arguments)
-        self._logger = get_logger(_logger_name(self._namespace, self._name))
-        self._id = self._bus.add_node(self._name, self._namespace, "/")
+        self._ros_bus = self.context.bus
+        arguments = self._ros_read_arguments(cli_args, use_global_arguments)
+        self._ros_choose_name(node_name, namespace or "", arguments)
+        self._logger = get_logger(_logger_name(self._ros_namespace, self._ros_name))
+        self._ros_id = self._ros_bus.add_node(self._ros_name, self._ros_namespace, "/")
         self.context.track_node(self)
-        self._rosout = Rosout(self) if enable_rosout and self.context.arguments.rosout_enabled else None
-        self._make_parameters(
+        self._ros_rosout = Rosout(self) if enable_rosout and self.context.arguments.rosout_enabled else None
+        self._ros_make_parameters(
             arguments, parameter_overrides, allow_undeclared_parameters, automatically_declare_parameters_from_overrides
         )
         if start_parameter_services:
@@ -82,7 +86,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
 
         self._type_description_service = TypeDescriptionService(self)
 
-    def _read_arguments(self, cli_args: Sequence[str] | None, use_global: bool) -> list[Any]:
+    def _ros_read_arguments(self, cli_args: Sequence[str] | None, use_global: bool) -> list[Any]:
         """The command lines that concern this node, the context's first."""
         found = [self.context.arguments] if use_global else []
         if cli_args is not None:
@@ -91,7 +95,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
             found.append(parse_local(cli_args))
         return found
 
-    def _choose_name(self, name: str, namespace: str, arguments: list[Any]) -> None:
+    def _ros_choose_name(self, name: str, namespace: str, arguments: list[Any]) -> None:
         """Check and remap name and namespace; rules of the node's own command line come first."""
         if not isinstance(name, str):
             raise TypeError(f"node name must be a string, not {type(name).__name__}")
@@ -102,17 +106,17 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         problem = names.validate_namespace(namespace)
         if problem:
             raise InvalidNamespaceException(namespace, *problem)
-        self._remap_rules = tuple(rule for each in reversed(arguments) for rule in each.remap_rules)
-        self._name = remapping.remap_node_name(self._remap_rules, name) or name
-        problem = names.validate_node_name(self._name)
+        self._ros_remap_rules = tuple(rule for each in reversed(arguments) for rule in each.remap_rules)
+        self._ros_name = remapping.remap_node_name(self._ros_remap_rules, name) or name
+        problem = names.validate_node_name(self._ros_name)
         if problem:
             raise RCLError(f"error creating node: invalid node name: {problem[0]}")
-        self._namespace = remapping.remap_namespace(self._remap_rules, name) or namespace
-        problem = names.validate_namespace(self._namespace)
+        self._ros_namespace = remapping.remap_namespace(self._ros_remap_rules, name) or namespace
+        problem = names.validate_namespace(self._ros_namespace)
         if problem:
             raise RCLError(f"error creating node: invalid node namespace: {names.in_words_for_node_names(problem[0])}")
 
-    def _make_parameters(
+    def _ros_make_parameters(
         self, arguments: list[Any], overrides: Sequence[Parameter] | None, undeclared: bool, automatic: bool
     ) -> None:
         from rcl_interfaces.msg import ParameterEvent
@@ -121,14 +125,14 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
             ParameterEvent, "/parameter_events", qos_profile_parameter_events
         )
         self._clock = ROSClock()
-        self._init_parameters(arguments, overrides, undeclared, automatic)
+        self._ros_init_parameters(arguments, overrides, undeclared, automatic)
         self._time_source = TimeSource(node=self)
         self._time_source.attach_clock(self._clock)
 
     @property
     def executor(self) -> Any:
         """The executor that the node was added to last, or None."""
-        return self._executor() if self._executor is not None else None
+        return self._ros_executor() if self._ros_executor is not None else None
 
     @executor.setter
     def executor(self, new: Any) -> None:
@@ -140,10 +144,15 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         if before is not None:
             before.remove_node(self)
         if new is None:
-            self._executor = None
+            self._ros_executor = None
         else:
-            self._executor = weakref.ref(new)
+            self._ros_executor = weakref.ref(new)
             new.add_node(self)
+
+    @property
+    def context(self) -> Any:
+        """The context that the node belongs to."""
+        return self._ros_context
 
     @property
     def default_callback_group(self) -> MutuallyExclusiveCallbackGroup:
@@ -155,24 +164,24 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         """What upstream's node wraps: here the node itself."""
         return self
 
-    def _use(self) -> None:
-        if self.destroyed:
+    def _ros_use(self) -> None:
+        if self._ros_destroyed:
             raise InvalidHandle(DESTROYED)
 
     def get_name(self) -> str:
         """The name, remapped."""
-        self._use()
-        return self._name
+        self._ros_use()
+        return self._ros_name
 
     def get_namespace(self) -> str:
         """The namespace, remapped."""
-        self._use()
-        return self._namespace
+        self._ros_use()
+        return self._ros_namespace
 
     def get_fully_qualified_name(self) -> str:
         """Namespace and name."""
-        self._use()
-        return f"{self._namespace.rstrip('/')}/{self._name}"
+        self._ros_use()
+        return f"{self._ros_namespace.rstrip('/')}/{self._ros_name}"
 
     def get_clock(self) -> Clock:
         """The node's clock, of ROS time."""
@@ -184,28 +193,28 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
 
     def destroy_node(self) -> None:
         """Destroy all that the node has, and let it leave the graph; a second call does nothing."""
-        if self.destroyed:
+        if self._ros_destroyed:
             return
         executor = self.executor
         self._type_description_service.outlive_destroy()
-        for rate in list(self._rates):
+        for rate in list(self._ros_rates):
             self.destroy_rate(rate)
-        for publisher in list(self._publishers):
+        for publisher in list(self._ros_publishers):
             self.destroy_publisher(publisher)
-        for entity in list(self._entities):
-            self._destroy(entity, object)
-        self._leave_graph()
+        for entity in list(self._ros_entities):
+            self._ros_destroy(entity, object)
+        self._ros_leave_graph()
         self.context.untrack_node(self)
-        self.destroyed = True
+        self._ros_destroyed = True
         if executor is not None:
             executor.wake()
 
-    def _leave_graph(self) -> None:
+    def _ros_leave_graph(self) -> None:
         """Vanish from the graph and be heard no more, whatever this node's code goes on to do."""
-        if self._rosout is not None:
-            self._rosout.close()
-        if self._id is not None:
-            self._bus.remove_node(self._id)
+        if self._ros_rosout is not None:
+            self._ros_rosout.close()
+        if self._ros_id is not None:
+            self._ros_bus.remove_node(self._ros_id)
 
     def __enter__(self) -> Node:
         return self

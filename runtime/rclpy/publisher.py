@@ -113,7 +113,7 @@ class Publisher:
         for handler in self.event_handlers:
             handler.destroy()
         self.destroyed = True
-        self._node._bus.remove(self._endpoint)
+        self._node._ros_bus.remove(self._endpoint)
 
     def __enter__(self) -> Publisher:
         return self

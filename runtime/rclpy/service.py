@@ -76,7 +76,7 @@ class Service(Entity):
         if not isinstance(response, self.srv_type.Response):
             raise TypeError
         self.use()
-        self._node._bus.respond(header[0], header[1], response)
+        self._node._ros_bus.respond(header[0], header[1], response)
         if self.events is not None:
             self.events.tell(2, header[0], header[1], response=response)
 
@@ -89,7 +89,7 @@ class Service(Entity):
     def destroy(self) -> None:
         """Answer no more."""
         self.destroyed = True
-        self._node._bus.remove(self.endpoint)
+        self._node._ros_bus.remove(self.endpoint)
         self.detach()
 
     def __enter__(self) -> Service:

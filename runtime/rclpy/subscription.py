@@ -133,7 +133,7 @@ class Subscription(Entity):
         for handler in self.event_handlers:
             handler.destroy()
         self.destroyed = True
-        self._node._bus.remove(self.endpoint)
+        self._node._ros_bus.remove(self.endpoint)
         self._queue.clear()
         self.detach()
 

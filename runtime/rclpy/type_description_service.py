@@ -42,14 +42,14 @@ class TypeDescriptionService:
         if service is None:
             return
         endpoint = service.endpoint
-        node._entities.pop(service, None)
+        node._ros_entities.pop(service, None)
         service.destroyed = True
         service.detach()
         endpoint.queue = deque(maxlen=0)
         endpoint.notify = _nothing
-        node._bus.disown(endpoint)
+        node._ros_bus.disown(endpoint)
         node.context.lingering.add(endpoint)
-        weakref.finalize(node, _vanish, node._bus, node.context.lingering, endpoint).atexit = False
+        weakref.finalize(node, _vanish, node._ros_bus, node.context.lingering, endpoint).atexit = False
 
     def _answer(self, request: Any, response: Any) -> Any:
         """Describe a type that an entity of this node has, found by its hash; words as rcl's."""

@@ -50,9 +50,9 @@ class ActionClient(ActionEntity):
         self._lock = threading.Lock()
         self._goal_handles: dict[bytes, weakref.ref[ClientGoalHandle]] = {}
         self._feedback_callbacks: dict[bytes, Callable[..., Any]] = {}
-        self._goals = PendingRequests(self._node._bus)
-        self._cancels = PendingRequests(self._node._bus)
-        self._results = PendingRequests(self._node._bus)
+        self._goals = PendingRequests(self._node._ros_bus)
+        self._cancels = PendingRequests(self._node._ros_bus)
+        self._results = PendingRequests(self._node._ros_bus)
         feedback_qos = feedback_sub_qos_profile or QoSProfile(depth=10)
         self._endpoints = ClientEndpoints(
             node, action_type.Impl, names, self.notify, feedback_qos, status_sub_qos_profile
@@ -178,7 +178,7 @@ class ActionClient(ActionEntity):
         clock = current().clock
         deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * NANO)
         wakeup = clock.wakeup()
-        forget = self._node._bus.on_graph_change(wakeup.set)
+        forget = self._node._ros_bus.on_graph_change(wakeup.set)
         try:
             while self._node.context.ok() and not self.server_is_ready():
                 now = clock.steady_ns()

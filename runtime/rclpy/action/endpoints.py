@@ -50,7 +50,7 @@ class ServerEndpoints:
     def __init__(
         self, node: Any, impl: Any, names: ActionNames, notify: Notify, feedback_qos: Any, status_qos: Any
     ) -> None:
-        self._bus = node._bus
+        self._bus = node._ros_bus
         self.goal = self._service(node, names.goal, impl.SendGoalService, notify)
         self.cancel = self._service(node, names.cancel, impl.CancelGoalService, notify)
         self.result = self._service(node, names.result, impl.GetResultService, notify)
@@ -58,12 +58,12 @@ class ServerEndpoints:
         self.status = self._publisher(node, names.status, impl.GoalStatusMessage, status_qos)
 
     def _service(self, node: Any, name: str, kind: Any, notify: Notify) -> ServiceEndpoint:
-        endpoint = ServiceEndpoint(node._id, name, type_name(kind), notify)
+        endpoint = ServiceEndpoint(node._ros_id, name, type_name(kind), notify)
         self._bus.create_service(endpoint)
         return endpoint
 
     def _publisher(self, node: Any, name: str, kind: Any, qos: Any) -> Any:
-        endpoint = Endpoint(node._id, name, type_name(kind), qos, new_gid(), kind)
+        endpoint = Endpoint(node._ros_id, name, type_name(kind), qos, new_gid(), kind)
         return self._bus.create_publisher(endpoint, lambda kind, what: None)
 
     def pending(self) -> bool:
@@ -82,7 +82,7 @@ class ClientEndpoints:
     def __init__(
         self, node: Any, impl: Any, names: ActionNames, notify: Notify, feedback_qos: Any, status_qos: Any
     ) -> None:
-        self._bus = node._bus
+        self._bus = node._ros_bus
         self.goal = self._client(node, names.goal, impl.SendGoalService, notify)
         self.cancel = self._client(node, names.cancel, impl.CancelGoalService, notify)
         self.result = self._client(node, names.result, impl.GetResultService, notify)
@@ -90,12 +90,12 @@ class ClientEndpoints:
         self.status = self._subscription(node, names.status, impl.GoalStatusMessage, status_qos, notify)
 
     def _client(self, node: Any, name: str, kind: Any, notify: Notify) -> ClientEndpoint:
-        endpoint = ClientEndpoint(node._id, name, type_name(kind), notify)
+        endpoint = ClientEndpoint(node._ros_id, name, type_name(kind), notify)
         self._bus.create_client(endpoint)
         return endpoint
 
     def _subscription(self, node: Any, name: str, kind: Any, qos: Any, notify: Notify) -> SubscriptionEndpoint:
-        endpoint = Endpoint(node._id, name, type_name(kind), qos, new_gid(), kind)
+        endpoint = Endpoint(node._ros_id, name, type_name(kind), qos, new_gid(), kind)
         subscription = SubscriptionEndpoint(endpoint, False, queue_for(qos), notify)
         self._bus.create_subscription(subscription)
         return subscription

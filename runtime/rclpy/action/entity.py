@@ -29,14 +29,14 @@ class ActionEntity(Entity, Waitable):
     def _check(self, side: str) -> None:
         """Whether the node can have a new action server or client; raises `ValueError` where its context has ended."""
         check_is_valid_action_type(self._action_type)
-        if self._node.destroyed:
+        if self._node._ros_destroyed:
             raise InvalidHandle(DESTROYED)
         if not self._node.context.ok():
             raise ValueError(f"Failed to create action {side}: rcl node's context is invalid")
 
     def _join(self) -> None:
         self._node.add_waitable(self)
-        self._node._enter(self, self.callback_group)
+        self._node._ros_enter(self, self.callback_group)
 
     def pending(self) -> bool:
         """Whether something has come."""
@@ -49,7 +49,7 @@ class ActionEntity(Entity, Waitable):
         self.destroyed = True
         self._endpoints.remove()
         self._node.remove_waitable(self)
-        self._node._entities.pop(self, None)
+        self._node._ros_entities.pop(self, None)
         self.detach()
 
 

@@ -153,7 +153,7 @@ class ActionServer(ActionEntity):
         response.accepted = handle is not None
         if handle is not None:
             response.stamp = handle._goal_info.stamp
-        self._node._bus.respond(client, number, response)
+        self._node._ros_bus.respond(client, number, response)
         if handle is None:
             self._debug("New goal rejected: {}", request.goal_id.uuid)
             return
@@ -196,7 +196,7 @@ class ActionServer(ActionEntity):
         response = self._action_type.Impl.CancelGoalService.Response()
         response.return_code = code
         response.goals_canceling = canceling
-        self._node._bus.respond(client, number, response)
+        self._node._ros_bus.respond(client, number, response)
 
     def _serve_result(self, client: Any, number: int, request: Any) -> None:
         self._debug("Result request received for goal with ID: {}", request.goal_id.uuid)
@@ -205,13 +205,13 @@ class ActionServer(ActionEntity):
             self._debug("Sending result response for unknown goal ID: {}", request.goal_id.uuid)
             response = self._action_type.Impl.GetResultService.Response()
             response.status = GoalStatus.STATUS_UNKNOWN
-            self._node._bus.respond(client, number, response)
+            self._node._ros_bus.respond(client, number, response)
             return
         handle._result_future._set_executor(self.sink)
         handle._result_future.add_done_callback(functools.partial(self._send_result, client, number))
 
     def _send_result(self, client: Any, number: int, future: Any) -> None:
-        self._node._bus.respond(client, number, future.result())
+        self._node._ros_bus.respond(client, number, future.result())
 
     def notify_execute(self, goal_handle: ServerGoalHandle, execute_callback: Callable[..., Any] | None) -> None:
         """Let the node's executor run a callback, the server's own by default, for a goal."""

@@ -29,47 +29,47 @@ SERVICE_QUEUE_LIMIT = 1000
 class NodeEntities:
     """Factories of `Node`."""
 
-    _bus: Any
-    _id: Any
-    _sink: Any
-    _order: int
-    _entities: dict[Any, None]
-    _publishers: dict[Any, None]
-    _waitables: dict[Any, None]
-    _rates: dict[Any, Any]
-    _use: Callable[[], None]
+    _ros_bus: Any
+    _ros_id: Any
+    _ros_sink: Any
+    _ros_order: int
+    _ros_entities: dict[Any, None]
+    _ros_publishers: dict[Any, None]
+    _ros_waitables: dict[Any, None]
+    _ros_rates: dict[Any, Any]
+    _ros_use: Callable[[], None]
     context: Any
     default_callback_group: Any
     get_clock: Callable[[], Any]
     get_logger: Callable[[], Any]
 
-    def _attach(self, executor: Any, order: int) -> None:
-        self._sink, self._order = executor, order
-        for entity in [*self._entities]:
+    def _ros_attach(self, executor: Any, order: int) -> None:
+        self._ros_sink, self._ros_order = executor, order
+        for entity in [*self._ros_entities]:
             entity.attach(executor, order)
 
-    def _detach(self) -> None:
-        self._sink = None
-        for entity in [*self._entities]:
+    def _ros_detach(self) -> None:
+        self._ros_sink = None
+        for entity in [*self._ros_entities]:
             entity.detach()
 
-    def _enter(self, entity: Any, group: Any) -> None:
+    def _ros_enter(self, entity: Any, group: Any) -> None:
         """Let a new entity belong to this node, to its group, and to the executor that serves the node."""
-        self._entities[entity] = None
+        self._ros_entities[entity] = None
         group.add_entity(entity)
-        if self._sink is not None:
-            entity.attach(self._sink, self._order)
+        if self._ros_sink is not None:
+            entity.attach(self._ros_sink, self._ros_order)
 
-    def _group(self, group: Any) -> Any:
+    def _ros_group(self, group: Any) -> Any:
         return self.default_callback_group if group is None else group
 
-    def _may_create(self, what: str) -> None:
-        self._use()
+    def _ros_may_create(self, what: str) -> None:
+        self._ros_use()
         if not self.context.ok():
             raise RCLError(f"Failed to create {what}: rcl node's context is invalid")
 
     @staticmethod
-    def _profile(qos: Any) -> QoSProfile:
+    def _ros_profile(qos: Any) -> QoSProfile:
         if isinstance(qos, QoSProfile):
             return qos
         if isinstance(qos, int):
@@ -90,21 +90,21 @@ class NodeEntities:
         publisher_class: type[Publisher] = Publisher,
     ) -> Publisher:
         """Make a publisher; a number as QoS is a history depth."""
-        qos = self._profile(qos_profile)
-        group = self._group(callback_group)
-        self._may_create("publisher")
+        qos = self._ros_profile(qos_profile)
+        group = self._ros_group(callback_group)
+        self._ros_may_create("publisher")
         name = checked(self, topic)
         check_is_valid_msg_type(msg_type)
-        qos = self._overridden(qos, name, qos_overriding_options, publisher=True)
+        qos = self._ros_overridden(qos, name, qos_overriding_options, publisher=True)
         callbacks = event_callbacks or PublisherEventCallbacks()
         handlers = callbacks.create_event_handlers(group, self.get_logger, topic, qos)
-        endpoint = Endpoint(self._id, name, type_name(msg_type), qos, new_gid(), msg_type)
-        made = self._bus.create_publisher(endpoint, _teller(handlers))
+        endpoint = Endpoint(self._ros_id, name, type_name(msg_type), qos, new_gid(), msg_type)
+        made = self._ros_bus.create_publisher(endpoint, _teller(handlers))
         made.on_publish = _listener(handlers)
         publisher = publisher_class(self, made, msg_type, topic, qos, handlers, group)
-        self._publishers[publisher] = None
+        self._ros_publishers[publisher] = None
         for handler in handlers:
-            self._enter(handler, group)
+            self._ros_enter(handler, group)
         return publisher
 
     def create_subscription(
@@ -120,26 +120,26 @@ class NodeEntities:
         raw: bool = False,
     ) -> Subscription:
         """Make a subscription; the callback takes (message) or (message, info), bytes with `raw`."""
-        qos = self._profile(qos_profile)
-        group = self._group(callback_group)
-        self._may_create("subscription")
+        qos = self._ros_profile(qos_profile)
+        group = self._ros_group(callback_group)
+        self._ros_may_create("subscription")
         name = checked(self, topic)
         check_is_valid_msg_type(msg_type)
-        qos = self._overridden(qos, name, qos_overriding_options, publisher=False)
+        qos = self._ros_overridden(qos, name, qos_overriding_options, publisher=False)
         callbacks = event_callbacks or SubscriptionEventCallbacks()
         handlers = callbacks.create_event_handlers(group, self.get_logger, topic, qos)
         subscription = Subscription(self, msg_type, topic, callback, group, qos, raw, handlers)
-        endpoint = Endpoint(self._id, name, type_name(msg_type), qos, new_gid(), msg_type)
+        endpoint = Endpoint(self._ros_id, name, type_name(msg_type), qos, new_gid(), msg_type)
         subscription._join(
             SubscriptionEndpoint(endpoint, raw, queue_for(qos), _notifier(subscription, handlers), _teller(handlers))
         )
         for handler in handlers:
-            self._enter(handler, group)
-        self._enter(subscription, group)
-        self._bus.create_subscription(subscription.endpoint)
+            self._ros_enter(handler, group)
+        self._ros_enter(subscription, group)
+        self._ros_bus.create_subscription(subscription.endpoint)
         return subscription
 
-    def _overridden(self, qos: QoSProfile, name: str, options: Any, *, publisher: bool) -> QoSProfile:
+    def _ros_overridden(self, qos: QoSProfile, name: str, options: Any, *, publisher: bool) -> QoSProfile:
         if options is None:
             return qos
         from copy import copy
@@ -160,14 +160,14 @@ class NodeEntities:
         callback_group: Any = None,
     ) -> Service:
         """Make a service server; the callback takes (request, response) and returns a response."""
-        group = self._group(callback_group)
-        self._may_create("service")
+        group = self._ros_group(callback_group)
+        self._ros_may_create("service")
         check_is_valid_srv_type(srv_type)
         name = checked(self, srv_name, service=True)
         service = Service(self, srv_type, srv_name, callback, group, qos_profile)
-        service.endpoint = ServiceEndpoint(self._id, name, type_name(srv_type), service.notify)
-        self._enter(service, group)
-        self._bus.create_service(service.endpoint)
+        service.endpoint = ServiceEndpoint(self._ros_id, name, type_name(srv_type), service.notify)
+        self._ros_enter(service, group)
+        self._ros_bus.create_service(service.endpoint)
         return service
 
     def create_client(
@@ -179,14 +179,14 @@ class NodeEntities:
         callback_group: Any = None,
     ) -> Client:
         """Make a service client."""
-        group = self._group(callback_group)
-        self._may_create("client")
+        group = self._ros_group(callback_group)
+        self._ros_may_create("client")
         check_is_valid_srv_type(srv_type)
         name = checked(self, srv_name, service=True)
         client = Client(self, srv_type, srv_name, qos_profile, group)
-        client.endpoint = ClientEndpoint(self._id, name, type_name(srv_type), client.notify)
-        self._enter(client, group)
-        self._bus.create_client(client.endpoint)
+        client.endpoint = ClientEndpoint(self._ros_id, name, type_name(srv_type), client.notify)
+        self._ros_enter(client, group)
+        self._ros_bus.create_client(client.endpoint)
         return client
 
     def create_timer(
@@ -199,18 +199,18 @@ class NodeEntities:
     ) -> Timer:
         """Make a timer (s) on a clock, the node's own by default."""
         period = int(float(timer_period_sec) * NANO)
-        group = self._group(callback_group)
+        group = self._ros_group(callback_group)
         self.context.require_running("timer")
         timer = Timer(callback, group, period, clock or self.get_clock(), context=self.context, autostart=autostart)
-        self._enter(timer, group)
+        self._ros_enter(timer, group)
         return timer
 
     def create_guard_condition(self, callback: Callable[[], Any] | None, callback_group: Any = None) -> GuardCondition:
         """Make a guard condition."""
-        group = self._group(callback_group)
+        group = self._ros_group(callback_group)
         self.context.require_running("guard_condition")
         guard = GuardCondition(callback, group, context=self.context)
-        self._enter(guard, group)
+        self._ros_enter(guard, group)
         return guard
 
     def create_rate(self, frequency: float, clock: Any = None) -> Rate:
@@ -219,101 +219,101 @@ class NodeEntities:
             raise ValueError("frequency must be > 0")
         timer = self.create_timer(1.0 / frequency, None, ReentrantCallbackGroup(), clock)
         rate = Rate(timer, context=self.context)
-        self._rates[rate] = timer
+        self._ros_rates[rate] = timer
         return rate
 
     def add_waitable(self, waitable: Any) -> None:
         """Let executors serve a waitable."""
-        self._waitables[waitable] = None
+        self._ros_waitables[waitable] = None
 
     def remove_waitable(self, waitable: Any) -> None:
         """Let executors serve a waitable no more."""
-        self._waitables.pop(waitable, None)
+        self._ros_waitables.pop(waitable, None)
 
     def destroy_publisher(self, publisher: Publisher) -> bool:
         """Destroy a publisher; whether it was one of this node."""
-        if publisher not in self._publishers:
+        if publisher not in self._ros_publishers:
             return False
-        del self._publishers[publisher]
+        del self._ros_publishers[publisher]
         for handler in publisher.event_handlers:
-            self._entities.pop(handler, None)
+            self._ros_entities.pop(handler, None)
         publisher.destroy()
         return True
 
-    def _destroy(self, entity: Any, kind: type) -> bool:
-        if entity not in self._entities or not isinstance(entity, kind):
+    def _ros_destroy(self, entity: Any, kind: type) -> bool:
+        if entity not in self._ros_entities or not isinstance(entity, kind):
             return False
-        del self._entities[entity]
+        del self._ros_entities[entity]
         for handler in getattr(entity, "event_handlers", ()):
-            self._entities.pop(handler, None)
+            self._ros_entities.pop(handler, None)
         entity.destroy()
         return True
 
     def destroy_subscription(self, subscription: Subscription) -> bool:
         """Destroy a subscription; whether it was one of this node."""
-        return self._destroy(subscription, Subscription)
+        return self._ros_destroy(subscription, Subscription)
 
     def destroy_client(self, client: Client) -> bool:
         """Destroy a client; whether it was one of this node."""
-        return self._destroy(client, Client)
+        return self._ros_destroy(client, Client)
 
     def destroy_service(self, service: Service) -> bool:
         """Destroy a service; whether it was one of this node."""
-        return self._destroy(service, Service)
+        return self._ros_destroy(service, Service)
 
     def destroy_timer(self, timer: Timer) -> bool:
         """Destroy a timer; whether it was one of this node."""
-        return self._destroy(timer, Timer)
+        return self._ros_destroy(timer, Timer)
 
     def destroy_guard_condition(self, guard: GuardCondition) -> bool:
         """Destroy a guard condition; whether it was one of this node."""
-        return self._destroy(guard, GuardCondition)
+        return self._ros_destroy(guard, GuardCondition)
 
     def destroy_rate(self, rate: Rate) -> bool:
         """Destroy a rate; whether it was one of this node."""
-        timer = self._rates.pop(rate, None)
+        timer = self._ros_rates.pop(rate, None)
         if timer is None:
             return False
         rate.destroy()
         return self.destroy_timer(timer)
 
-    def _of(self, kind: type) -> list[Any]:
-        return [each for each in self._entities if isinstance(each, kind)]
+    def _ros_of(self, kind: type) -> list[Any]:
+        return [each for each in self._ros_entities if isinstance(each, kind)]
 
     @property
     def publishers(self) -> Any:
         """The node's publishers."""
-        yield from list(self._publishers)
+        yield from list(self._ros_publishers)
 
     @property
     def subscriptions(self) -> Any:
         """The node's subscriptions."""
-        yield from self._of(Subscription)
+        yield from self._ros_of(Subscription)
 
     @property
     def clients(self) -> Any:
         """The node's service clients."""
-        yield from self._of(Client)
+        yield from self._ros_of(Client)
 
     @property
     def services(self) -> Any:
         """The node's service servers."""
-        yield from self._of(Service)
+        yield from self._ros_of(Service)
 
     @property
     def timers(self) -> Any:
         """The node's timers."""
-        yield from self._of(Timer)
+        yield from self._ros_of(Timer)
 
     @property
     def guards(self) -> Any:
         """The node's guard conditions."""
-        yield from self._of(GuardCondition)
+        yield from self._ros_of(GuardCondition)
 
     @property
     def waitables(self) -> Any:
         """The node's waitables."""
-        yield from list(self._waitables)
+        yield from list(self._ros_waitables)
 
 
 def _teller(handlers: list[Any]) -> Callable[[str, Any], None]:

@@ -24,23 +24,23 @@ def _collect(pairs: Iterable[tuple[str, str]]) -> NamesAndTypes:
 class NodeGraph:
     """Graph queries of `Node`."""
 
-    _bus: Any
+    _ros_bus: Any
 
     def get_topic_names_and_types(self, no_demangle: bool = False) -> NamesAndTypes:
         """All topics with their types, by name."""
-        self._use()
-        endpoints = [*self._bus.publishers(), *self._bus.subscriptions()]
+        self._ros_use()
+        endpoints = [*self._ros_bus.publishers(), *self._ros_bus.subscriptions()]
         return _collect((each.topic, each.type_name) for each in endpoints)
 
     def get_service_names_and_types(self) -> NamesAndTypes:
         """All services with their types, by name."""
-        self._use()
-        return _collect((each.name, each.type_name) for each in self._bus.servers())
+        self._ros_use()
+        return _collect((each.name, each.type_name) for each in self._ros_bus.servers())
 
     def get_node_names(self) -> list[str]:
         """The names of all nodes, without namespaces."""
-        self._use()
-        return [each.name for each in self._bus.nodes()]
+        self._ros_use()
+        return [each.name for each in self._ros_bus.nodes()]
 
     def get_fully_qualified_node_names(self) -> list[str]:
         """The full names of all nodes."""
@@ -48,36 +48,36 @@ class NodeGraph:
 
     def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
         """Name and namespace of all nodes."""
-        self._use()
-        return [(each.name, each.namespace) for each in self._bus.nodes()]
+        self._ros_use()
+        return [(each.name, each.namespace) for each in self._ros_bus.nodes()]
 
     def get_node_names_and_namespaces_with_enclaves(self) -> list[tuple[str, str, str]]:
         """Name, namespace and enclave of all nodes."""
-        self._use()
-        return [(each.name, each.namespace, each.enclave) for each in self._bus.nodes()]
+        self._ros_use()
+        return [(each.name, each.namespace, each.enclave) for each in self._ros_bus.nodes()]
 
     def get_publisher_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
         """What a node publishes; raises `NodeNameNonExistentError`."""
-        return self._endpoints_of("publisher", self._bus.publishers(), node_name, node_namespace)
+        return self._ros_endpoints_of("publisher", self._ros_bus.publishers(), node_name, node_namespace)
 
     def get_subscriber_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
         """What a node subscribes to; raises `NodeNameNonExistentError`."""
-        return self._endpoints_of("subscriber", self._bus.subscriptions(), node_name, node_namespace)
+        return self._ros_endpoints_of("subscriber", self._ros_bus.subscriptions(), node_name, node_namespace)
 
     def get_service_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
         """What services a node offers; raises `NodeNameNonExistentError`."""
-        return self._services_of("service", self._bus.servers(), node_name, node_namespace)
+        return self._ros_services_of("service", self._ros_bus.servers(), node_name, node_namespace)
 
     def get_client_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
         """What services a node asks; raises `NodeNameNonExistentError`."""
-        return self._services_of("client", self._bus.clients(), node_name, node_namespace)
+        return self._ros_services_of("client", self._ros_bus.clients(), node_name, node_namespace)
 
-    def _who(self, what: str, name: str, namespace: str) -> set[Any]:
-        self._use()
+    def _ros_who(self, what: str, name: str, namespace: str) -> set[Any]:
+        self._ros_use()
         namespace = namespace or "/"
         for argument, problem in (
             ("node_name", names.validate_node_name(name)),
@@ -85,48 +85,48 @@ class NodeGraph:
         ):
             if problem:
                 raise RCLError(f"failed to get {what} names and types: {argument} argument is invalid: {problem[0]}")
-        found = {each for each in self._bus.nodes() if each.name == name and each.namespace == namespace}
+        found = {each for each in self._ros_bus.nodes() if each.name == name and each.namespace == namespace}
         if not found:
             raise NodeNameNonExistentError(f"cannot get {what} names and types for nonexistent node: error not set")
         return found
 
-    def _endpoints_of(self, what: str, endpoints: Sequence[Any], name: str, namespace: str) -> NamesAndTypes:
-        who = self._who(what, name, namespace)
+    def _ros_endpoints_of(self, what: str, endpoints: Sequence[Any], name: str, namespace: str) -> NamesAndTypes:
+        who = self._ros_who(what, name, namespace)
         return _collect((each.topic, each.type_name) for each in endpoints if each.node in who)
 
-    def _services_of(self, what: str, services: Sequence[Any], name: str, namespace: str) -> NamesAndTypes:
-        who = self._who(what, name, namespace)
+    def _ros_services_of(self, what: str, services: Sequence[Any], name: str, namespace: str) -> NamesAndTypes:
+        who = self._ros_who(what, name, namespace)
         return _collect((each.name, each.type_name) for each in services if each.node in who)
 
     def count_publishers(self, topic_name: str) -> int:
         """How many publishers a topic has; the name is expanded but not remapped."""
         name = expand_name(self, topic_name)
-        return sum(each.topic == name for each in self._bus.publishers())
+        return sum(each.topic == name for each in self._ros_bus.publishers())
 
     def count_subscribers(self, topic_name: str) -> int:
         """How many subscriptions a topic has; the name is expanded but not remapped."""
         name = expand_name(self, topic_name)
-        return sum(each.topic == name for each in self._bus.subscriptions())
+        return sum(each.topic == name for each in self._ros_bus.subscriptions())
 
     def count_clients(self, service_name: str) -> int:
         """How many clients a service has; the name is expanded but not remapped."""
         name = expand_name(self, service_name, service=True)
-        return sum(each.name == name for each in self._bus.clients())
+        return sum(each.name == name for each in self._ros_bus.clients())
 
     def count_services(self, service_name: str) -> int:
         """How many servers a service has; the name is expanded but not remapped."""
         name = expand_name(self, service_name, service=True)
-        return sum(each.name == name for each in self._bus.servers())
+        return sum(each.name == name for each in self._ros_bus.servers())
 
     def get_publishers_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[Any]:
         """The publishers of a topic; the name is remapped."""
-        return self._infos(self._bus.publishers(), topic_name, no_mangle, publisher=True)
+        return self._ros_infos(self._ros_bus.publishers(), topic_name, no_mangle, publisher=True)
 
     def get_subscriptions_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[Any]:
         """The subscriptions of a topic; the name is remapped."""
-        return self._infos(self._bus.subscriptions(), topic_name, no_mangle, publisher=False)
+        return self._ros_infos(self._ros_bus.subscriptions(), topic_name, no_mangle, publisher=False)
 
-    def _infos(self, endpoints: Sequence[Any], topic: str, no_mangle: bool, *, publisher: bool) -> list[Any]:
+    def _ros_infos(self, endpoints: Sequence[Any], topic: str, no_mangle: bool, *, publisher: bool) -> list[Any]:
         from rclpy.impl.qos_in_effect import in_effect
         from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 
@@ -151,7 +151,7 @@ class NodeGraph:
         clock = current().clock
         deadline = clock.steady_ns() + int(timeout * NANO)
         wakeup = clock.wakeup()
-        forget = self._bus.on_graph_change(wakeup.set)
+        forget = self._ros_bus.on_graph_change(wakeup.set)
         try:
             while fully_qualified_node_name not in self.get_fully_qualified_node_names():
                 if clock.steady_ns() >= deadline:
@@ -174,7 +174,7 @@ class NodeGraph:
 
         return resolve(self, service, only_expand=only_expand, service=True)
 
-    def _use(self) -> None:
+    def _ros_use(self) -> None:
         raise NotImplementedError
 
 

@@ -33,7 +33,7 @@ class NodeParameters(ParameterSetting):
             """What `Node` itself has."""
             ...
 
-    def _init_parameters(
+    def _ros_init_parameters(
         self,
         arguments: Sequence[Any],
         parameter_overrides: Sequence[Parameter] | None,
@@ -47,7 +47,7 @@ class NodeParameters(ParameterSetting):
         self._pre_set_parameters_callbacks = []
         self._on_set_parameters_callbacks = []
         self._post_set_parameters_callbacks = []
-        self._event_node_name = name = self.get_fully_qualified_name()
+        self._ros_event_node_name = name = self.get_fully_qualified_name()
         self._parameter_overrides: dict[str, Parameter] = {}
         for each in arguments:
             for key, value in each.parameters.for_node(name).items():
@@ -95,11 +95,11 @@ class NodeParameters(ParameterSetting):
         if taken:
             raise ParameterAlreadyDeclaredException(taken)
         for parameter in found:
-            self._declare(parameter, descriptors)
+            self._ros_declare(parameter, descriptors)
         return [self._parameters[each.name] for each in found]
 
-    def _declare(self, parameter: Parameter, descriptors: dict[str, ParameterDescriptor]) -> None:
-        result = self._commit([parameter], descriptors, keep_not_set=True)
+    def _ros_declare(self, parameter: Parameter, descriptors: dict[str, ParameterDescriptor]) -> None:
+        result = self._ros_commit([parameter], descriptors, keep_not_set=True)
         if result.successful:
             return
         if result.reason.startswith("Wrong parameter type"):
@@ -207,17 +207,17 @@ class NodeParameters(ParameterSetting):
         if self._descriptors[name].read_only:
             raise ParameterImmutableException(name)
         kept = self.get_parameter(name)
-        if self._misfit(kept, descriptor) is not None:
+        if self._ros_misfit(kept, descriptor) is not None:
             if alternative_value is not None:
                 kept = _from_value(name, alternative_value)
-            reason = self._misfit(kept, descriptor)
+            reason = self._ros_misfit(kept, descriptor)
             if reason is not None:
                 raise InvalidParameterValueException(name, kept.value, reason)
         self._parameters[name] = kept
         self._descriptors[name] = descriptor
         return self.get_parameter(name).get_parameter_value()
 
-    def _misfit(self, parameter: Parameter, descriptor: ParameterDescriptor) -> str | None:
+    def _ros_misfit(self, parameter: Parameter, descriptor: ParameterDescriptor) -> str | None:
         return refusal(parameter, descriptor, check_read_only=False, declared=True, tolerance=self.PARAM_REL_TOL)
 
 

@@ -37,8 +37,8 @@ class ParameterSetting:
     _post_set_parameters_callbacks: list[Setter]
     _parameter_event_publisher: Any
     _clock: Any
-    _event_node_name: str
-    _use: Callable[[], None]
+    _ros_event_node_name: str
+    _ros_use: Callable[[], None]
 
     def set_parameters(self, parameter_list: Sequence[Parameter]) -> list[SetParametersResult]:
         """Set parameters one after the other; returns one result for each.
@@ -56,10 +56,10 @@ class ParameterSetting:
             parameters = [each for callback in self._pre_set_parameters_callbacks for each in callback(parameters)]
             if not parameters:
                 return _refused(EMPTIED)
-        self._check_declared(parameters)
-        return self._commit(parameters)
+        self._ros_check_declared(parameters)
+        return self._ros_commit(parameters)
 
-    def _check_declared(self, parameters: Sequence[Parameter]) -> None:
+    def _ros_check_declared(self, parameters: Sequence[Parameter]) -> None:
         for parameter in parameters:
             if not isinstance(parameter, Parameter):
                 raise TypeError(f"parameter must be instance of type '{Parameter!r}'")
@@ -71,7 +71,7 @@ class ParameterSetting:
         if any(undeclared):
             raise ParameterNotDeclaredException(list(undeclared))
 
-    def _commit(
+    def _ros_commit(
         self,
         parameters: Sequence[Parameter],
         descriptors: dict[str, ParameterDescriptor] | None = None,
@@ -82,21 +82,21 @@ class ParameterSetting:
 
         A NOT_SET parameter is deleted unless `keep_not_set`.
         """
-        reason = self._refusal(parameters, descriptors)
+        reason = self._ros_refusal(parameters, descriptors)
         if reason is not None:
             return _refused(reason)
         for callback in self._on_set_parameters_callbacks:
             result = callback(parameters)
             if not result.successful:
                 return result
-        self._use()  # the event names the node, and a destroyed one refuses that before anything is stored
-        event = self._store(parameters, descriptors, keep_not_set)
+        self._ros_use()  # the event names the node, and a destroyed one refuses that before anything is stored
+        event = self._ros_store(parameters, descriptors, keep_not_set)
         self._parameter_event_publisher.publish(event)
         for callback in self._post_set_parameters_callbacks:
             callback(parameters)
         return SetParametersResult(successful=True, check_fields=False)
 
-    def _refusal(
+    def _ros_refusal(
         self, parameters: Sequence[Parameter], descriptors: dict[str, ParameterDescriptor] | None
     ) -> str | None:
         known = self._descriptors if descriptors is None else descriptors
@@ -114,7 +114,7 @@ class ParameterSetting:
                     return reason
         return None
 
-    def _store(
+    def _ros_store(
         self,
         parameters: Sequence[Parameter],
         descriptors: dict[str, ParameterDescriptor] | None,
@@ -139,7 +139,7 @@ class ParameterSetting:
             before = stored.get(name)
             (new if before is None or before._type_ is NOT_SET else changed).append(event_parameter(parameter))
             stored[name] = parameter
-        return parameter_event(self._event_node_name, self._clock._now_ns(), new, changed, deleted)
+        return parameter_event(self._ros_event_node_name, self._clock._now_ns(), new, changed, deleted)
 
     def add_pre_set_parameters_callback(self, callback: Callable[[list[Parameter]], list[Parameter]]) -> None:
         """Call back with the parameters to be set, before any check; what it returns is set instead."""

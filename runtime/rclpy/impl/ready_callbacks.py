@@ -61,7 +61,7 @@ class ReadyCallbacks:
     def _origin(self, item: Any) -> tuple[Any, Any]:
         """Whose callback it is: entity and node, None for a task that somebody created."""
         entity = self._tasks.get(item) if isinstance(item, Task) else item
-        return entity, next((node for node in self._nodes if entity in node._entities), None)
+        return entity, next((node for node in self._nodes if entity in node._ros_entities), None)
 
     def _give_back(self, item: Any) -> None:
         if isinstance(item, Task):

@@ -66,7 +66,7 @@ def resolve(node: Any, name: str, *, only_expand: bool, service: bool = False) -
 
 def remapped(node: Any, full: str, service: bool = False) -> str:
     """A full name after the node's remap rules."""
-    rules = node._remap_rules
+    rules = node._ros_remap_rules
     if not rules:
         return full
     remap = remapping.remap_service if service else remapping.remap_topic

@@ -30,8 +30,8 @@ class LifecycleStateMachine:
         if enable_com_interface:
             topic = checked(node, "~/transition_event")
             kind = type_name(TransitionEvent)
-            endpoint = Endpoint(node._id, topic, kind, QoSProfile(depth=10), new_gid(), TransitionEvent)
-            self._publish = node._bus.create_publisher(endpoint, lambda kind, what: None).publish
+            endpoint = Endpoint(node._ros_id, topic, kind, QoSProfile(depth=10), new_gid(), TransitionEvent)
+            self._publish = node._ros_bus.create_publisher(endpoint, lambda kind, what: None).publish
 
     @property
     def initialized(self) -> bool:

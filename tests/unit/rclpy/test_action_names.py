@@ -91,7 +91,7 @@ def test_bad_names(ros: Any, name: str, words: str) -> None:
 def test_a_server_counts_only_with_all_its_parts(ros: Any) -> None:
     pair = Pair(ros)
     assert pair.client.server_is_ready()
-    pair.server_node._bus.remove(pair.server._endpoints.status)
+    pair.server_node._ros_bus.remove(pair.server._endpoints.status)
     assert not pair.client.server_is_ready()
 
 
