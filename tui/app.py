@@ -64,6 +64,8 @@ class BotConsoleApp(SparingApp):
         on_first_frame: Callable[[], None] | None = None,
     ) -> None:
         super().__init__()
+        self.register_theme(DARK)
+        self.theme = DARK.name
         self.console_of_robot = console
         self.launcher = launcher
         self._refresh_hz = refresh_hz
@@ -86,8 +88,6 @@ class BotConsoleApp(SparingApp):
     def on_mount(self) -> None:
         """Choose the theme, lay out, and begin to pull."""
         self.ask()
-        self.register_theme(DARK)
-        self.theme = DARK.name
         self._extent = self.size
         self._lay_out()
         self.pull()

@@ -68,6 +68,9 @@ class Timeline:
 
     def marks_of(self, changes: Sequence[Change]) -> None:
         """Mark parameter changes and refusals."""
+        if not changes:
+            self.marks = []
+            return
         from bot_console.tui.panes.plot_view import Mark
 
         self.marks = [Mark(self._console.plot_time(each.stamp), not each.accepted) for each in changes]

@@ -46,6 +46,9 @@ class WorldMap(Picture):
         width, height = self.size
         if width < 4 or height < 2:
             return
+        if self._world == WorldInfo():
+            self.set_lines(())
+            return
         # NumPy is imported after the first frame: it is a third of the start-up time.
         from bot_console.tui.panes.world_view import WorldDrawing, following, scale_text
 
