@@ -1,4 +1,4 @@
-"""A source package: what its `package.xml`, `setup.py` and `setup.cfg` say it installs."""
+"""A source package: what its `package.xml`, `setup.py`, `setup.cfg` and `CMakeLists.txt` say it installs."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from pathlib import Path
 from types import MappingProxyType
 from xml.etree import ElementTree
 
+from bot_console.runtime.workspace.cmake_lists import read_cmake_lists
 from bot_console.runtime.workspace.setup_cfg import read_setup_cfg
 from bot_console.runtime.workspace.setup_py import SetupFile, read_setup_py
 
@@ -56,6 +57,8 @@ def read_package(folder: Path) -> Package:
     try:
         setup = read_setup_py(folder) if (folder / "setup.py").exists() else setup
         setup = setup.merged(read_setup_cfg(folder))
+        if build_type == "ament_cmake" and (folder / "CMakeLists.txt").exists():
+            setup = setup.merged(read_cmake_lists(folder))
     except ValueError as error:
         problem = str(error)
     return Package(
