@@ -76,6 +76,8 @@ class ExecuteLocal(Action):
         self.__cache: dict[int, list[bytes]] = {1: [], 2: []}
         self.__lines: dict[int, OutputLines] = {}
         self.__executed = False
+        self.__registered: list[Any] = []
+        self.__exits_to_tell = 0
         self.__completed: asyncio.Future[None] | None = None
         self.__shutdown: asyncio.Future[None] | None = None
         self.__child: Child | None = None
@@ -115,7 +117,7 @@ class ExecuteLocal(Action):
 
     @property
     def process_details(self) -> dict[str, Any] | None:
-        """Name, command, directory, environment and pid, since it was started."""
+        """Name, command, directory and environment, since it was prepared; and pid, since it was started."""
         return self.__details
 
     @property
@@ -167,6 +169,16 @@ class ExecuteLocal(Action):
     def prepare(self, context: Any) -> None:
         """Evaluate the description."""
         self.__process_description.prepare(context, self)
+        self.__details = self.__new_details()
+
+    def __new_details(self) -> dict[str, Any]:
+        description = self.__process_description
+        return {
+            "name": description.final_name,
+            "cmd": description.final_cmd or [],
+            "cwd": description.final_cwd,
+            "env": description.final_env,
+        }
 
     def in_process_program(self, command: list[str]) -> Program | None:
         """What to run as a node process of this process; None: the command is a process of the system."""
@@ -198,13 +210,15 @@ class ExecuteLocal(Action):
         self.__respawn.evaluate(context)
         self.__completed = create_future(context.asyncio_loop)
         self.__shutdown = create_future(context.asyncio_loop)
-        for handler in self.__handlers():
+        self.__registered = self.__handlers()
+        for handler in self.__registered:
             context.register_event_handler(handler)
         context.asyncio_loop.create_task(self.__run(context))
         return None
 
     def __handlers(self) -> list[Any]:
         return [
+            OnProcessExit(target_action=self, on_exit=self.__told),  # the first to be registered hears last
             OnTargetedProcess(ShutdownProcess, self, lambda event, context: self._shutdown_process(context, True)),
             OnTargetedProcess(SignalProcess, self, self.__on_signal),
             OnProcessIO(
@@ -228,6 +242,18 @@ class ExecuteLocal(Action):
     def __flush(self, event: Any, context: Any) -> None:
         for lines in self.__lines.values():
             lines.flush()
+
+    def __told(self, event: Any, context: Any) -> None:
+        self.__exits_to_tell -= 1
+        self.__retire(context)
+
+    def __retire(self, context: Any) -> None:
+        """Listen no more: it has ended for good, and its last exit is told. A long launch would keep every process."""
+        if self.__exits_to_tell or self.__completed is None or not self.__completed.done():
+            return
+        for handler in self.__registered:
+            context.unregister_event_handler(handler)
+        self.__registered = []
 
     def __on_signal(self, event: Any, context: Any) -> None:
         name = self.__process_description.final_name
@@ -272,6 +298,7 @@ class ExecuteLocal(Action):
                 break
         if self.__completed is not None and not self.__completed.done():
             self.__completed.set_result(None)
+        self.__retire(context)
 
     @property
     def __over(self) -> bool:
@@ -280,12 +307,7 @@ class ExecuteLocal(Action):
     async def __run_once(self, context: Any) -> int | None:
         description = self.__process_description
         command = description.final_cmd or []
-        details = {
-            "name": description.final_name,
-            "cmd": command,
-            "cwd": description.final_cwd,
-            "env": description.final_env,
-        }
+        details = self.__new_details()
         if self.__log_cmd:
             words = " ".join(each for each in command if each.strip())
             custom = description.final_env is not None
@@ -303,6 +325,7 @@ class ExecuteLocal(Action):
         else:
             words = " ".join(each for each in command if each.strip())
             self.__logger.error(f"process has died [pid {child.pid}, exit code {code}, cmd '{words}'].")
+        self.__exits_to_tell += 1
         context.emit_event_sync(ProcessExited(returncode=code, action=self, **(self.__details or {})))
         return code
 

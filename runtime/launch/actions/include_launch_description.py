@@ -104,4 +104,5 @@ class IncludeLaunchDescription(Action):
     def _set_locals(self, context: Any) -> None:
         path = os.path.abspath(self.__source.location)
         context.extend_locals({"current_launch_file_path": path})
-        context.extend_locals({"current_launch_file_directory": os.path.dirname(path)})
+        folder = os.path.dirname(path) if os.path.exists(path) else self.__source.location
+        context.extend_locals({"current_launch_file_directory": folder})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from launch.logging import handlers
 from launch.logging.config import LaunchConfig, launch_config
 from launch.logging.launch_logger import LaunchLogger, get_logger, reset_loggers
 from launch.logging.log_directory import get_logging_directory
@@ -22,6 +23,7 @@ __all__ = [
     "get_logger",
     "get_logging_directory",
     "get_output_loggers",
+    "handlers",
     "launch_config",
     "reset",
 ]

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import TextIO
 
 from launch.logging import formats
+from launch.logging.formats import Format
 from launch.logging.log_directory import new_run_directory
 
 SCREEN_FORMAT = "OVERRIDE_LAUNCH_SCREEN_FORMAT"
@@ -48,8 +49,8 @@ class LaunchConfig:
         self._log_dir: str | None = None
         self._files: dict[str, logging.Handler] = {}
         self._screen: logging.Handler | None = None
-        self._screen_format: str | None = None
-        self._log_format: str | None = None
+        self._screen_format = Format("default")
+        self._log_format = Format("default")
         self.log_handler_factory: Callable[..., logging.Handler] = logging.FileHandler
         """Makes the handler of a log file, from its path and `encoding=`."""
 
@@ -73,10 +74,9 @@ class LaunchConfig:
         return self._log_dir
 
     @log_dir.setter
-    def log_dir(self, value: str) -> None:
-        if self._files:
-            raise RuntimeError("Cannot set logging directory after a logger has been configured")
-        os.makedirs(value, exist_ok=True)
+    def log_dir(self, value: str | None) -> None:
+        if value is not None and not os.path.isdir(value):
+            raise ValueError(f"'{value}' is not a directory")
         self._log_dir = value
 
     def get_log_file_path(self, file_name: str = "launch.log") -> str:
@@ -84,13 +84,16 @@ class LaunchConfig:
         return os.path.join(self.log_dir, file_name)
 
     def set_screen_format(self, screen_format: str, *, screen_style: str | None = None) -> None:
-        """Choose how records look on the screen: a name such as `default_with_timestamp`, or a format."""
-        self._screen_format = screen_format
+        """Choose how records look on the screen: a name such as `default_with_timestamp`, or a format.
+
+        Raises `ValueError` for a style that there is not, and for the style of a name.
+        """
+        self._screen_format = Format.checked(screen_format, screen_style, formats.SCREEN)
         self._screen = None if self._screen is None else self._with_screen_format(self._screen)
 
     def set_log_format(self, log_format: str, *, log_style: str | None = None) -> None:
-        """Choose how records look in the main log file."""
-        self._log_format = log_format
+        """Choose how records look in the main log file; raises `ValueError` for the style of a name or none at all."""
+        self._log_format = Format.checked(log_format, log_style, formats.LOG)
 
     def get_screen_handler(self) -> logging.Handler:
         """What writes to the screen."""
@@ -119,16 +122,14 @@ class LaunchConfig:
                 handler: logging.Handler = logging.FileHandler(path, delay=True, encoding="utf-8")
             else:
                 handler = self.log_handler_factory(path, encoding="utf-8")
-            chosen = os.environ.get(LOG_FORMAT) or self._log_format or "default"
-            launch_format = formats.LOG.get(chosen, chosen)
-            handler.setFormatter(formats.OutputAwareFormatter(launch_format, formats.OUTPUT_IN_LOG))
+            chosen = Format.overridden(LOG_FORMAT, self._log_format)
+            handler.setFormatter(chosen.formatter(formats.LOG, formats.OUTPUT_IN_LOG))
             self._files[file_name] = handler
         return self._files[file_name]
 
     def _with_screen_format(self, handler: logging.Handler) -> logging.Handler:
-        chosen = os.environ.get(SCREEN_FORMAT) or self._screen_format or "default"
-        launch_format = formats.SCREEN.get(chosen, chosen)
-        handler.setFormatter(formats.OutputAwareFormatter(launch_format, formats.OUTPUT_ON_SCREEN))
+        chosen = Format.overridden(SCREEN_FORMAT, self._screen_format)
+        handler.setFormatter(chosen.formatter(formats.SCREEN, formats.OUTPUT_ON_SCREEN))
         return handler
 
 

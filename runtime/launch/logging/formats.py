@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import logging
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
 
 SCREEN = {
     "default": "[{levelname}] [{name}]: {message}",
@@ -13,11 +16,40 @@ OUTPUT_ON_SCREEN = "{message}"
 OUTPUT_IN_LOG = "{created:.7f} {message}"
 
 
+@dataclass(frozen=True)
+class Format:
+    """A format of records by its text or a name, with the style of its fields (`{`, `%` or `$`)."""
+
+    text: str
+    style: str = "{"
+
+    @classmethod
+    def checked(cls, text: str, style: str | None, names: Mapping[str, str]) -> Format:
+        """A format; raises `ValueError` for the style of a named one, and for a style that there is not."""
+        if style is None:
+            return cls(text)
+        if text in names:
+            raise ValueError("Cannot set a custom format style for a format alias")
+        if style not in ("{", "%", "$"):
+            raise ValueError(f"'{style}' is no style of a format, i.e. one of {{ % $")
+        return cls(text, style)
+
+    @classmethod
+    def overridden(cls, variable: str, own: Format) -> Format:
+        """The format that an environment variable gives, else the own one."""
+        given = os.environ.get(variable)
+        return cls(given) if given else own
+
+    def formatter(self, names: Mapping[str, str], output_format: str) -> logging.Formatter:
+        """What writes records in this format, and lines of processes in another."""
+        return OutputAwareFormatter(names.get(self.text, self.text), output_format, self.style)
+
+
 class OutputAwareFormatter(logging.Formatter):
     """Writes records of launch in one format, and lines that a process has printed in another."""
 
-    def __init__(self, launch_format: str, output_format: str) -> None:
-        super().__init__(launch_format.replace("{msg}", "{message}"), style="{", validate=False)
+    def __init__(self, launch_format: str, output_format: str, style: str = "{") -> None:
+        super().__init__(launch_format.replace("{msg}", "{message}"), style=style, validate=False)  # type: ignore
         self._output = logging.Formatter(output_format, style="{")
 
     def format(self, record: logging.LogRecord) -> str:

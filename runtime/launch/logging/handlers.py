@@ -1,5 +1,6 @@
 """Handlers of the records of a launch, and those of the standard library by the same names."""
 
+from logging import FileHandler, Handler, StreamHandler
 from logging.handlers import (
     RotatingFileHandler,
     SysLogHandler,
@@ -9,4 +10,13 @@ from logging.handlers import (
 
 from launch.logging.config import ScreenHandler
 
-__all__ = ["RotatingFileHandler", "ScreenHandler", "SysLogHandler", "TimedRotatingFileHandler", "WatchedFileHandler"]
+__all__ = [
+    "FileHandler",
+    "Handler",
+    "RotatingFileHandler",
+    "ScreenHandler",
+    "StreamHandler",
+    "SysLogHandler",
+    "TimedRotatingFileHandler",
+    "WatchedFileHandler",
+]

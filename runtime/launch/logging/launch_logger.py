@@ -17,7 +17,7 @@ class LaunchLogger(logging.Logger):
                 handler.handle(record)
         if self.propagate:
             for handler in (launch_config.get_screen_handler(), launch_config.get_log_file_handler()):
-                if record.levelno >= handler.level:
+                if record.levelno >= handler.level and handler not in self.handlers:
                     handler.handle(record)
 
     def hasHandlers(self) -> bool:

@@ -28,7 +28,7 @@ from launch.actions import (
 from launch.substitutions import EnvironmentVariable, LaunchConfiguration
 from launching import Launch
 
-from launch import LaunchDescription, LaunchDescriptionSource
+from launch import LaunchContext, LaunchDescription, LaunchDescriptionSource
 
 X = LaunchConfiguration("x", default="unset")
 
@@ -321,3 +321,9 @@ def test_a_deprecated_description(run: Launch) -> None:
     outcome = run([LaunchDescription([], deprecated_reason="use the other")])
     assert outcome.lines[-1].endswith("is deprecated: use the other")
     assert outcome.lines[-1].startswith("[WARNING] [root]: ")
+
+
+def test_the_folder_of_a_description_without_a_file_is_its_location() -> None:
+    context = LaunchContext()
+    IncludeLaunchDescription(LaunchDescriptionSource(LaunchDescription(), "<script>")).visit(context)
+    assert context.locals.current_launch_file_directory == "<script>"

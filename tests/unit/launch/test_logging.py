@@ -1,0 +1,69 @@
+"""`launch.logging`: folders, formats and handlers that a launch file may set."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Iterator
+from pathlib import Path
+
+import launch.logging
+import pytest
+
+config = launch.logging.launch_config
+
+
+@pytest.fixture(autouse=True)
+def fresh() -> Iterator[None]:
+    launch.logging.reset()
+    yield
+    launch.logging.reset()
+
+
+def test_a_log_folder_must_be_there(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="is not a directory"):
+        config.log_dir = str(tmp_path / "none")
+    config.log_dir = str(tmp_path)
+    assert config.log_dir == str(tmp_path)
+    config.log_dir = None
+    assert config.log_dir != str(tmp_path)
+
+
+def test_a_named_format_has_its_style() -> None:
+    with pytest.raises(ValueError):
+        config.set_screen_format("default", screen_style="%")
+    with pytest.raises(ValueError):
+        config.set_log_format(log_format="default", log_style="%")
+
+
+def test_a_format_of_another_style(capsys: pytest.CaptureFixture[str]) -> None:
+    config.set_screen_format("%(name)s: %(message)s", screen_style="%")
+    launch.logging.get_logger("n").info("x")
+    assert capsys.readouterr().out == "n: x\n"
+
+
+def test_a_handler_that_is_added_again_writes_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    config.log_dir = str(tmp_path)
+    logger = launch.logging.get_logger("n")
+    logger.addHandler(config.get_screen_handler())
+    logger.addHandler(config.get_log_file_handler())
+    logger.info("x")
+    assert capsys.readouterr().out == "[INFO] [n]: x\n"
+    assert len((tmp_path / "launch.log").read_text().splitlines()) == 1
+
+
+def test_log_files_are_made_by_a_factory(tmp_path: Path) -> None:
+    made: dict[str, list[str]] = {}
+
+    class Memory(launch.logging.handlers.Handler):
+        def __init__(self, path: str) -> None:
+            super().__init__()
+            self.lines = made.setdefault(path, [])
+
+        def emit(self, record: logging.LogRecord) -> None:
+            self.lines.append(self.format(record))
+
+    config.log_dir = str(tmp_path)
+    config.log_handler_factory = lambda path, encoding=None: Memory(path)
+    launch.logging.get_logger("n").error("x")
+    [line] = made[config.get_log_file_path()]
+    assert line.endswith("[ERROR] [n]: x")
