@@ -15,10 +15,12 @@ from typing import Any, cast
 from bot_console.tui.terminal.closing import let_go
 from bot_console.tui.terminal.difference import ShownScreen
 from bot_console.tui.terminal.gate import AnswerGate
+from bot_console.tui.terminal.gone import LastingFile
 from rich.color import ColorSystem
 from textual import events
 from textual._compositor import ChopsUpdate, LayoutUpdate
 from textual.app import App
+from textual.driver import Driver
 from textual.geometry import Region
 from textual.screen import Screen
 from textual.strip import Strip
@@ -80,6 +82,12 @@ class SparingApp(App[None]):
             self._held = True
             self._look_again()
         return False
+
+    def _build_driver(self, *args: Any, **kwargs: Any) -> Driver:
+        driver: Any = super()._build_driver(*args, **kwargs)
+        if hasattr(driver, "_file"):
+            driver._file = LastingFile(driver._file)
+        return driver
 
     def _driver_or_none(self) -> Any:
         return self._driver
