@@ -62,6 +62,7 @@ OVERLAYS = {
     "profile_question": ["7", "down", "a"],
     "profile_applied": ["7", "down", "a", "y"],
     "launch_picker": ["8", "o"],
+    "launch_arguments": ["8", "o", "enter"],
     "launch_kill": ["8", "down", "K"],
     "launch_process": ["8", "down", "down", "down", "down", "enter"],
     "all_stop": ["exclamation_mark"],
@@ -70,16 +71,12 @@ OVERLAYS = {
 
 @pytest.mark.parametrize("keys", OVERLAYS.values(), ids=OVERLAYS.keys())
 def test_in_use(keys: list[str], snap_compare: Any) -> None:
-    assert snap_compare(app_of(live), terminal_size=(100, 30), press=keys)
-
-
-def test_launch_arguments(snap_compare: Any) -> None:
-    async def fill(pilot: Any) -> None:
-        await pilot.press("8", "o", "enter")
-        await pilot.app.workers.wait_for_complete()
+    async def use(pilot: Any) -> None:
+        await pilot.press(*keys)
+        await pilot.app.workers.wait_for_complete()  # what is completed or read beside
         await pilot.pause()
 
-    assert snap_compare(app_of(live), terminal_size=(100, 30), run_before=fill)
+    assert snap_compare(app_of(live), terminal_size=(100, 30), run_before=use)
 
 
 @pytest.mark.parametrize("size", [(80, 24), (120, 40)], ids=["small", "medium"])

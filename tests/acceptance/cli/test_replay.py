@@ -75,7 +75,7 @@ def normal(text: str, folder: Path) -> str:
 def without_library_frames(text: str) -> str:
     """Tracebacks with the frames of the course's files alone, and without what newer interpreters add to them.
 
-    These mark the place, and show all lines of a statement.
+    These mark the place, show all lines of a statement, and the text of a `-c`.
     """
     kept: list[str] = []
     inside = False
@@ -83,7 +83,8 @@ def without_library_frames(text: str) -> str:
     for line in text.splitlines(keepends=True):
         if inside and line.startswith("  "):
             if line.startswith("  File "):
-                lines_left = 2 if USERS_FRAME.match(line) else 0
+                shown = 1 if '"<string>"' in line else 2
+                lines_left = shown if USERS_FRAME.match(line) else 0
             if lines_left and not MARKS.fullmatch(line):
                 kept.append(line)
                 lines_left -= 1

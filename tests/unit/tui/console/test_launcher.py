@@ -305,11 +305,16 @@ def test_what_a_process_uses_of_a_processor(bench, waiter, monkeypatch):
 STUBBORN = """
 import os
 
+
+def compute():
+    while not os.path.exists({stop!r}):
+        sum(range(1000))
+
+
 print("up", flush=True)
 while not os.path.exists({stop!r}):
     try:
-        while not os.path.exists({stop!r}):
-            sum(range(1000))
+        compute()
     except BaseException:
         pass
 """
