@@ -140,10 +140,7 @@ class BotConsoleApp(SparingApp):
         small = width < SMALLEST[0] or height < SMALLEST[1]
         self.screen.set_class(small, "small")
         if small:
-            need = f"{SMALLEST[0]}x{SMALLEST[1]}"
-            self.query_one("#too-small", Static).update(
-                f"{width}x{height} is too small\nthe console needs {need}\n\nthe robot goes on; ! stops it, q quits"
-            )
+            self.query_one("#too-small", Static).update(too_small(width, height))
         overview = self._overview_size() if self._wanted == "overview" else 0
         self.screen.set_class(overview > 0, "overview")
         self.screen.set_class(overview > 1, "wide")
@@ -259,6 +256,14 @@ class BotConsoleApp(SparingApp):
     def _show_output(self, line: str, done: Future[str]) -> None:
         error = done.exception()
         self.push_screen(OutputScreen(line, str(error) if error else done.result()))
+
+
+def too_small(width: int, height: int) -> str:
+    """What is said in a terminal in which nothing fits but, if need be, four short lines."""
+    need = f"{SMALLEST[0]}x{SMALLEST[1]}"
+    if width < 40 or height < 6:
+        return f"{width}x{height} is too small\n{need} is needed\n! stops the robot\nq quits"
+    return f"{width}x{height} is too small\nthe console needs {need}\n\nthe robot goes on; ! stops it, q quits"
 
 
 def tabs_text(marks: Sequence[tuple[str, str, str, bool]], width: int) -> Text:

@@ -84,6 +84,19 @@ def test_a_terminal_that_is_too_small_gets_a_polite_word_and_recovers() -> None:
     run(live(), play)
 
 
+def test_even_a_tiny_terminal_tells_how_to_stop_the_robot_and_how_to_quit() -> None:
+    async def play(session: Session) -> None:
+        await session.pilot.resize_terminal(20, 5)
+        await session.settle()
+        for words in ("20x5 is too small", "60x20", "! stops the robot", "q quits"):
+            assert words in session.text()
+        await session.pilot.resize_terminal(1, 1)
+        await session.settle()
+        assert session.app.is_running
+
+    run(live(), play)
+
+
 def test_help_names_every_key_of_the_pane() -> None:
     async def play(session: Session) -> None:
         for entry in PANES:
