@@ -7,6 +7,7 @@ from functools import partial
 from typing import Any
 
 from bot_console.runtime.process import current
+from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.entity import CLIENT, Entity
 from rclpy.impl.reexports import reexporting
 from rclpy.task import Future
@@ -35,9 +36,9 @@ class Client(Entity):
         self._lock = threading.Lock()
 
     @property
-    def handle(self) -> Client:
-        """What upstream's client wraps: here the client itself."""
-        return self
+    def handle(self) -> Destroyable:
+        """What upstream's client wraps."""
+        return Destroyable(self, self.use)
 
     @property
     def service_name(self) -> str:

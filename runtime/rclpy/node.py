@@ -11,6 +11,7 @@ from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.clock import Clock, ROSClock
 from rclpy.exceptions import InvalidNamespaceException, InvalidNodeNameException, NotInitializedException
+from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.entity import DESTROYED
 from rclpy.impl.node_entities import NodeEntities
 from rclpy.impl.node_graph import NodeGraph
@@ -160,9 +161,9 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         return self._default_callback_group
 
     @property
-    def handle(self) -> Node:
-        """What upstream's node wraps: here the node itself."""
-        return self
+    def handle(self) -> Destroyable:
+        """What upstream's node wraps."""
+        return Destroyable(self, self._ros_use)
 
     def _ros_use(self) -> None:
         if self._ros_destroyed:

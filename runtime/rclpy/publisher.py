@@ -8,6 +8,7 @@ from typing import Any
 from bot_console.runtime.rosidl.conversion import FieldTypeError
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.duration import Duration
+from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.entity import DESTROYED
 from rclpy.impl.reexports import reexporting
 
@@ -36,9 +37,9 @@ class Publisher:
         self.destroyed = False
 
     @property
-    def handle(self) -> Publisher:
-        """What upstream's publisher wraps: here the publisher itself."""
-        return self
+    def handle(self) -> Destroyable:
+        """What upstream's publisher wraps."""
+        return Destroyable(self, self._use)
 
     @property
     def topic_name(self) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.entity import SERVICE, Entity
 from rclpy.impl.reexports import reexporting
 
@@ -34,9 +35,9 @@ class Service(Entity):
         self.endpoint: Any = None
 
     @property
-    def handle(self) -> Service:
-        """What upstream's service wraps: here the service itself."""
-        return self
+    def handle(self) -> Destroyable:
+        """What upstream's service wraps."""
+        return Destroyable(self, self.use)
 
     @property
     def service_name(self) -> str:

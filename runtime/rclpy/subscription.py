@@ -9,6 +9,7 @@ from enum import Enum
 from typing import Any
 
 from bot_console.runtime.process import current
+from rclpy.impl.destroyable import SubscriptionHandle
 from rclpy.impl.entity import SUBSCRIPTION, Entity
 from rclpy.impl.reexports import reexporting
 
@@ -53,9 +54,9 @@ class Subscription(Entity):
         self._queue = endpoint.queue
 
     @property
-    def handle(self) -> Subscription:
-        """What upstream's subscription wraps: here the subscription itself."""
-        return self
+    def handle(self) -> SubscriptionHandle:
+        """What upstream's subscription wraps."""
+        return SubscriptionHandle(self, self.use)
 
     @property
     def callback(self) -> Callable[..., Any]:
@@ -106,6 +107,14 @@ class Subscription(Entity):
     def pending(self) -> bool:
         """Whether a message is there."""
         return bool(self._queue)
+
+    def take(self) -> tuple[Any, dict[str, int | None]] | None:
+        """The next message that is still valid with what is known of it, past every executor; None without one."""
+        while self._queue:
+            message, stamp, number, expires = self._queue.popleft()
+            if expires is None or current().clock.system_ns() <= expires:
+                return message, self._info(stamp, number)
+        return None
 
     def run(self) -> Any:
         """Take one message and call back."""

@@ -9,6 +9,7 @@ from typing import Any
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.callback_groups import CallbackGroup
 from rclpy.exceptions import ROSInterruptException
+from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.entity import DESTROYED, TIMER, Entity
 from rclpy.impl.reexports import reexporting
 
@@ -43,9 +44,9 @@ class Timer(Entity):
         clock._add_timer(self)
 
     @property
-    def handle(self) -> Timer:
-        """What upstream's timer wraps: here the timer itself."""
-        return self
+    def handle(self) -> Destroyable:
+        """What upstream's timer wraps."""
+        return Destroyable(self, self.use)
 
     @property
     def clock(self) -> Any:
