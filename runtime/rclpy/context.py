@@ -13,6 +13,7 @@ from typing import Any
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.local import local_bus
 from rclpy._rclpy_pybind11 import RCLError
+from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.reexports import reexporting
 from rclpy.signals import remember_context
 
@@ -78,9 +79,9 @@ class Context:
             )
 
     @property
-    def handle(self) -> Context:
-        """What upstream's context wraps: here the context itself."""
-        return self
+    def handle(self) -> Destroyable:
+        """What upstream's context wraps."""
+        return Destroyable(self, lambda: None)
 
     def get_domain_id(self) -> int:
         """The ROS domain."""

@@ -33,11 +33,13 @@ def test_an_entity_outlives_a_with_block(ros: Any, kind: str) -> None:
         pass
 
 
-def test_a_node_outlives_a_with_block(ros: Any) -> None:
+def test_a_node_and_its_context_outlive_a_with_block(ros: Any) -> None:
     node = ros.node("lives")
     with node.handle:
         pass
-    assert node.get_name() == "lives"
+    with node.context.handle:
+        pass
+    assert (node.get_name(), node.context.ok()) == ("lives", True)
 
 
 def test_messages_are_taken_by_hand(ros: Any) -> None:
