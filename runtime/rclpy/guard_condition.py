@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.entity import GUARD, Entity
 
 
@@ -17,6 +18,11 @@ class GuardCondition(Entity):
         super().__init__(callback_group)
         self.callback = callback
         self._triggered = False
+
+    @property
+    def handle(self) -> Destroyable:
+        """What upstream's guard condition wraps."""
+        return Destroyable(self, self.use)
 
     def trigger(self) -> None:
         """Let the callback run; from any thread."""

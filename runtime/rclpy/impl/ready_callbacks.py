@@ -6,7 +6,7 @@ import inspect
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from rclpy.task import Task
+from rclpy.task import Future, Task
 
 
 class TimeoutObject:
@@ -57,6 +57,14 @@ class ReadyCallbacks:
         finally:
             for item in others:
                 self._give_back(item)
+
+    def create_future(self) -> Future[Any]:
+        """A future whose done callbacks run in this executor."""
+        return Future(executor=self)
+
+    def can_execute(self, entity: Any) -> bool:
+        """Whether the group of an entity lets its callback begin now."""
+        return entity.callback_group.can_execute(entity)
 
     def _origin(self, item: Any) -> tuple[Any, Any]:
         """Whose callback it is: entity and node, None for a task that somebody created."""

@@ -113,3 +113,20 @@ def test_a_group_of_one_s_own_is_asked_again_at_each_wake(ros: Any) -> None:
     node.create_guard_condition(lambda: setattr(group, "count", 2)).trigger()
     ros.spin(lambda: len(got) == 3)
     assert got == [0, 1, 2]
+
+
+def test_a_future_of_the_executor_tells_in_the_executor(executor: OneAtATime) -> None:
+    future, got = executor.create_future(), []
+    future.add_done_callback(lambda done: got.append(done.result()))
+    future.set_result(3)
+    assert got == []
+    executor.spin_once(timeout_sec=5)
+    assert got == [3]
+
+
+def test_whether_an_entity_may_begin(ros: Any, executor: OneAtATime) -> None:
+    group = Tickets(1)
+    guard = ros.node("own").create_guard_condition(lambda: None, callback_group=group)
+    assert executor.can_execute(guard)
+    group.count = 0
+    assert not executor.can_execute(guard)

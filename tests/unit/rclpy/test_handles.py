@@ -15,6 +15,7 @@ MAKERS = {
     "subscription": lambda node: node.create_subscription(Int32, "t", lambda message: None, 10),
     "service": lambda node: node.create_service(Trigger, "s", lambda request, response: response),
     "client": lambda node: node.create_client(Trigger, "s"),
+    "guard_condition": lambda node: node.create_guard_condition(lambda: None),
     "timer": lambda node: node.create_timer(1.0, lambda: None),
 }
 
