@@ -73,6 +73,7 @@ class BotConsoleApp(SparingApp):
         self._focused_pane = "parameters"
         self._on_first_frame = on_first_frame
         self._snapshot = ConsoleSnapshot()
+        self._panes: list[Pane] = []
         self._extent = Size(80, 24)
 
     def compose(self) -> ComposeResult:
@@ -116,7 +117,8 @@ class BotConsoleApp(SparingApp):
 
     def panes(self) -> list[Pane]:
         """All panes, in the order in which they stand on the screen."""
-        return list(self.query(Pane))
+        self._panes = self._panes or list(self.query(Pane))
+        return self._panes
 
     def visible_panes(self) -> list[Pane]:
         """The panes that are drawn now."""
