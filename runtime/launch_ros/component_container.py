@@ -107,9 +107,9 @@ def make_component(request: Any) -> Any:
 
 def _with_options(component: type[Any], options: dict[str, Any]) -> type[Any]:
     """A class whose nodes get options that the component itself does not know of."""
-    from rclpy.node import Node
+    base: Any = next((each for each in component.__mro__ if each.__module__.split(".")[0] == "rclpy"), object)
 
-    class Configured(Node):
+    class Configured(base):
         def __init__(self, *args: Any, **kwargs: Any) -> None:
             super().__init__(*args, **{**kwargs, **options})
 

@@ -18,8 +18,10 @@ from launch.utilities import (
     normalize_to_list_of_substitutions,
     perform_substitutions,
 )
+from launch.utilities.type_utils import perform_typed_substitution
+from launch_ros.actions.lifecycle_node import make_active
 from launch_ros.actions.node import Node
-from launch_ros.descriptions import ComposableNode, ParameterFile
+from launch_ros.descriptions import ComposableLifecycleNode, ComposableNode, ParameterFile
 from launch_ros.ros_adapters import get_ros_node
 from launch_ros.utilities import (
     add_node_name,
@@ -60,18 +62,33 @@ class LoadComposableNodes(Action):
         """Done when all were loaded, or cannot be."""
         return self.__done
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: Any) -> list[Any] | None:
         """Ask the container for each node whose condition holds."""
         from composition_interfaces.srv import LoadNode
 
         target = self._container_name(context)
-        requests = [request_for(each, context) for each in self.__descriptions if holds(each, context)]
+        wanted = [each for each in self.__descriptions if holds(each, context)]
+        requests = [request_for(each, context) for each in wanted]
         if not requests:
-            return
+            return None
         self.__done = create_future(context.asyncio_loop)
         client = get_ros_node(context).create_client(LoadNode, f"{target}/_container/load_node")
         worker = threading.Thread(target=self._load, args=(requests, client, target, context), daemon=True)
         worker.start()
+        started = [self._autostart(each, request, context) for each, request in zip(wanted, requests, strict=True)]
+        return [each for each in started if each is not None] or None
+
+    def _autostart(self, description: Any, request: Any, context: Any) -> Action | None:
+        """What makes a loaded lifecycle node active, where it shall be."""
+        if not isinstance(description, ComposableLifecycleNode):
+            return None
+        namespace = request.node_namespace.strip("/")
+        name = f"/{namespace}/{request.node_name}" if namespace else f"/{request.node_name}"
+        description.init_lifecycle_event_manager(context, name)
+        if not perform_typed_substitution(context, description.node_autostart, bool):
+            return None
+        self.__logger.info(f"Autostart enabled for requested lifecycle node {name}")
+        return make_active(name)
 
     def _container_name(self, context: Any) -> str:
         """The container's full name, or the text as it is: no pushed namespace goes before it."""

@@ -13,7 +13,7 @@ from launch.event_handlers import OnProcessExit, OnProcessIO
 from launch.events import matches_action
 from launch.events.process import ShutdownProcess, SignalProcess
 from launch_ros.actions import ComposableNodeContainer, LifecycleNode, LoadComposableNodes, Node
-from launch_ros.descriptions import ComposableNode
+from launch_ros.descriptions import ComposableLifecycleNode, ComposableNode
 from launch_ros.event_handlers import OnStateTransition
 from launching import Launch
 
@@ -215,6 +215,49 @@ def test_components_in_python(run: Launch, tmp_path: Path, monkeypatch: pytest.M
     text = run([container, loading, RegisterEventHandler(OnProcessIO(target_action=container, on_stdout=loaded))]).text
     assert "] /s/t 2" in text
     assert "Failed to load node '' of type 'bc_components::Cpp' in container '/c':" in text
+
+
+def test_a_lifecycle_component_becomes_active_by_itself(
+    run: Launch, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "bc_lifecycle_component.py").write_text(
+        textwrap.dedent(
+            """
+            from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
+
+            class Driver(LifecycleNode):
+                def __init__(self):
+                    super().__init__("driver")
+
+                def on_activate(self, state):
+                    print("active", flush=True)
+                    return TransitionCallbackReturn.SUCCESS
+            """
+        )
+    )
+    monkeypatch.syspath_prepend(str(tmp_path))
+    container = ComposableNodeContainer(
+        name="c",
+        namespace="",
+        package="rclcpp_components",
+        executable="component_container",
+        composable_node_descriptions=[
+            ComposableLifecycleNode(
+                package="bc_lifecycle_component",
+                plugin="bc_lifecycle_component::Driver",
+                name="d",
+                namespace="/",
+                autostart=True,
+            )
+        ],
+    )
+
+    def heard(event: Any) -> Any:
+        return Shutdown() if b"active" in event.text else None
+
+    text = run([container, RegisterEventHandler(OnProcessIO(target_action=container, on_stdout=heard))]).text
+    assert "Autostart enabled for requested lifecycle node /d" in text
+    assert "Loaded node '/d' in container '/c'" in text
 
 
 def test_two_hundred_nodes_start_and_stop(run: Launch, script: Any) -> None:

@@ -1,0 +1,34 @@
+"""A lifecycle node that a container loads: newer than Jazzy's first release, but public launch files have it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.utilities.type_utils import normalize_typed_substitution
+from launch_ros.descriptions.composable_node import ComposableNode
+
+
+class ComposableLifecycleNode(ComposableNode):
+    """A node as a class that a running container loads, and whose state the launch sees and steers."""
+
+    def __init__(self, *, autostart: Any = False, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__autostart = normalize_typed_substitution(autostart, bool)
+        self.__full_name: str | None = None
+
+    @property
+    def node_autostart(self) -> Any:
+        """Whether the node is made active as soon as it is loaded."""
+        return self.__autostart
+
+    @property
+    def node_name(self) -> Any:
+        """The node's name; its full name once the launch knows it."""
+        return super().node_name if self.__full_name is None else self.__full_name
+
+    def init_lifecycle_event_manager(self, context: Any, full_name: str) -> None:
+        """Hear and steer the node of this full name."""
+        from launch_ros.utilities.lifecycle_event_manager import LifecycleEventManager
+
+        self.__full_name = full_name
+        LifecycleEventManager(self).setup_lifecycle_manager(context)
