@@ -183,9 +183,16 @@ class NodeProcess:
     def on_abandon(self, callback: Callable[[], Any]) -> Callable[[], None]:
         """Call `callback()` once it is over, however: leave the graph, because code of it may still be running.
 
+        At once where it is over: a killed thread may come this far.
+
         All these come before the first `on_exit`. Returns what takes the callback away.
         """
-        self._abandon_callbacks.append(callback)
+        with self._exit_lock:
+            over = self.exit_code is not None
+            if not over:
+                self._abandon_callbacks.append(callback)
+        if over:
+            callback()
         return partial(_discard, self._abandon_callbacks, callback)
 
     def line(self) -> str | None:

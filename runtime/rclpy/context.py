@@ -32,6 +32,7 @@ class Context:
         self.ended = False
         """Whether it was shut down."""
         self.ended_by_signal = False
+        self._abandoned = False
         self.arguments: Any = None
         self._domain = 0
         self.bus: Any = None
@@ -158,6 +159,8 @@ class Context:
     def track_node(self, node: Any) -> None:
         """A node was made in this context."""
         self._nodes.add(node)
+        if self._abandoned:
+            node._ros_leave_graph()
 
     def untrack_node(self, node: Any) -> None:
         """A node was destroyed."""
@@ -165,7 +168,7 @@ class Context:
 
     def _abandon(self) -> None:
         """The process was killed while its code may go on: its nodes leave the graph and are heard no more."""
-        self.ended = True
+        self.ended = self._abandoned = True
         for endpoint in list(self.lingering):
             self.bus.remove(endpoint)
         for node in list(self._nodes):

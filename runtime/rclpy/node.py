@@ -63,6 +63,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         self._ros_order = 0
         self._ros_executor: Any = None
         self._ros_id: Any = None
+        self._ros_rosout: Rosout | None = None
         self._ros_destroyed = False
         self._default_callback_group = MutuallyExclusiveCallbackGroup()
         if not self.context.ok():
@@ -73,7 +74,8 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         self._logger = get_logger(_logger_name(self._ros_namespace, self._ros_name))
         self._ros_id = self._ros_bus.add_node(self._ros_name, self._ros_namespace, "/")
         self.context.track_node(self)
-        self._ros_rosout = Rosout(self) if enable_rosout and self.context.arguments.rosout_enabled else None
+        if enable_rosout and self.context.arguments.rosout_enabled:
+            self._ros_rosout = Rosout(self)
         self._ros_make_parameters(
             arguments, parameter_overrides, allow_undeclared_parameters, automatically_declare_parameters_from_overrides
         )

@@ -47,8 +47,8 @@ class TypeDescriptionService:
         service.detach()
         endpoint.queue = deque(maxlen=0)
         endpoint.notify = _nothing
-        node._ros_bus.disown(endpoint)
         node.context.lingering.add(endpoint)
+        node._ros_bus.disown(endpoint)
         weakref.finalize(node, _vanish, node._ros_bus, node.context.lingering, endpoint).atexit = False
 
     def _answer(self, request: Any, response: Any) -> Any:

@@ -175,7 +175,8 @@ class LocalBus:
         """Make a publisher and match it."""
         publisher = LocalPublisher(endpoint, on_event)
         with self._lock:
-            self._own(endpoint.node, publisher)
+            if not self._own(endpoint.node, publisher):
+                return publisher
             self._publishers.setdefault(endpoint.topic, []).append(publisher)
             matched: list[SubscriptionEndpoint] = []
             for each in self._subscriptions.get(endpoint.topic, ()):
@@ -189,7 +190,8 @@ class LocalBus:
         """Let a subscription receive, late messages included."""
         endpoint = subscription.endpoint
         with self._lock:
-            self._own(endpoint.node, subscription)
+            if not self._own(endpoint.node, subscription):
+                return
             self._subscriptions.setdefault(endpoint.topic, []).append(subscription)
             publishers = self._publishers.get(endpoint.topic, ())
             late = wants_history(endpoint.qos, [each.endpoint.qos for each in publishers])
@@ -218,21 +220,24 @@ class LocalBus:
     def create_service(self, service: ServiceEndpoint) -> None:
         """Let a service server receive requests."""
         with self._lock:
-            self._own(service.node, service)
-            self._services.setdefault(service.name, []).append(service)
+            if self._own(service.node, service):
+                self._services.setdefault(service.name, []).append(service)
         self._changed()
 
     def create_client(self, client: ClientEndpoint) -> None:
         """Let a client appear in the graph."""
         with self._lock:
-            self._own(client.node, client)
-            self._clients.setdefault(client.name, []).append(client)
+            if self._own(client.node, client):
+                self._clients.setdefault(client.name, []).append(client)
         self._changed()
 
-    def _own(self, node: NodeId, thing: Any) -> None:
+    def _own(self, node: NodeId, thing: Any) -> bool:
+        """Note what a node has; False when it has left the graph, as one that was killed while it went on."""
         things = self._nodes.get(node)
-        if things is not None:
-            things.append(thing)
+        if things is None:
+            return False
+        things.append(thing)
+        return True
 
     def disown(self, thing: Any) -> None:
         """Let a service server or client stay when its node leaves."""

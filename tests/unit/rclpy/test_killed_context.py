@@ -1,0 +1,62 @@
+"""A killed process may run a little further: what it still makes never shows in the graph."""
+
+import itertools
+
+import pytest
+from bot_console.runtime.process import NodeProcess
+from bot_console.runtime.process.current import running_as
+from bot_console.runtime.rmw.local import local_bus
+from rclpy.context import Context
+from rclpy.node import Node
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+
+_domains = itertools.count(9500)
+
+
+@pytest.fixture
+def domain():
+    return next(_domains)
+
+
+@pytest.fixture
+def process():
+    made = NodeProcess("killed")
+    with running_as(made):
+        yield made
+
+
+def things(domain):
+    bus = local_bus(domain)
+    return [*bus.nodes(), *bus.publishers(), *bus.subscriptions(), *bus.servers(), *bus.clients()]
+
+
+def test_entities_of_a_node_that_has_left(process, domain, monkeypatch):
+    context = Context()
+    context.init([], domain_id=domain)
+    node = Node("n", context=context)
+    process.finish(-9)
+    monkeypatch.setattr(context, "ended", False)  # as it was when each of these looked
+    node.create_publisher(String, "t", 10)
+    node.create_subscription(String, "t", lambda message: None, 10)
+    node.create_service(Trigger, "s", lambda request, response: response)
+    node.create_client(Trigger, "s")
+    assert things(domain) == []
+    node.destroy_node()
+    assert things(domain) == []
+
+
+def test_a_node_that_is_made_while_its_context_ends(process, domain, monkeypatch):
+    context = Context()
+    context.init([], domain_id=domain)
+    process.finish(-9)
+    monkeypatch.setattr(context, "ended", False)  # as it was when the node looked
+    Node("n", context=context)
+    assert things(domain) == []
+
+
+def test_a_context_that_begins_after_the_end(process, domain):
+    process.finish(-9)
+    context = Context()
+    context.init([], domain_id=domain)
+    assert not context.ok()
