@@ -115,6 +115,7 @@ class SparingApp(App[None]):
             return
         self._held = False
         screen: Any = self.screen
+        screen._compositor.update_widgets(screen._dirty_widgets)
         screen._compositor_refresh()
 
     def _display(self, screen: Screen[Any], renderable: Any) -> None:

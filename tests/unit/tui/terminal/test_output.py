@@ -52,6 +52,7 @@ class Over(ModalScreen[None]):
 
     def compose(self) -> ComposeResult:
         yield Static("over")
+        yield Static("more")
 
 
 class Panes(SparingApp):
@@ -196,19 +197,25 @@ def test_a_layout_while_the_terminal_is_busy_is_not_lost() -> None:
     run(script)
 
 
-def test_what_changes_just_before_a_held_frame_is_drawn_is_not_lost() -> None:
+@pytest.mark.parametrize("over", [False, True])
+def test_what_changes_just_before_a_held_frame_is_drawn_is_not_lost(over: bool) -> None:
     async def script(app: Panes, pilot: Pilot[None]) -> None:
+        if over:
+            await app.push_screen(Over())
+            await pilot.pause()
+        first, second = list(app.screen.query(Static))[:2]
         app.gate.closed = True
-        app.write("left", "held")
+        first.update("held", layout=False)
         await pilot.pause()
-        app.write("right", "late")
+        second.update("late", layout=False)
         for _ in range(100):  # Textual has noticed, and not looked yet
-            if app.query_one("#right") not in app.screen._dirty_widgets:
+            if second not in app.screen._dirty_widgets:
                 await asyncio.sleep(0)
         app.gate.closed = False
         app._draw_held()
         await pilot.pause()
-        assert "held" in app.terminal.lines()[1] and "late" in app.terminal.lines()[1]
+        shown = "".join(app.terminal.lines())
+        assert "held" in shown and "late" in shown
 
     run(script)
 
