@@ -10,6 +10,8 @@ from types import FrameType, TracebackType
 from typing import Any, TypeAlias
 
 ENDLESS = "launch files include each other without end"
+LISTED = 8
+"""Packages that are named when one is missing."""
 
 
 Place: TypeAlias = "tuple[str, int | None]"
@@ -27,16 +29,33 @@ def fault_text(error: BaseException, path: str, file_of: Callable[[Any], str] = 
     if isinstance(error, RecursionError):
         return _at(own or entity or (path, None), ENDLESS)
     place = own or _file_line(causes) or entity or (path, None)
-    return _at(place, f"{type(error).__name__}: {error}" if own else _text(error))
+    named = own and not _is_missing_package(error)
+    return _at(place, f"{type(error).__name__}: {error}" if named else _text(error))
 
 
 def _text(error: BaseException) -> str:
     """The words of an error that launch or a parser has found."""
+    if _is_missing_package(error):
+        return f"{str(error.args[0]).partition(', searching:')[0]}; there are {_packages()}"
     if isinstance(error, OSError) and error.strerror:
         return error.strerror
     problem = getattr(error, "problem", None)  # of a YAML parser
     text = str(problem or (error.args[0] if isinstance(error, KeyError) and error.args else error))
     return " ".join(text.split()) or type(error).__name__
+
+
+def _is_missing_package(error: BaseException) -> bool:
+    from ament_index_python.packages import PackageNotFoundError
+
+    return isinstance(error, PackageNotFoundError) and bool(error.args)
+
+
+def _packages() -> str:
+    """The packages that could have been meant."""
+    from ament_index_python.packages import get_packages_with_prefixes
+
+    names = sorted(get_packages_with_prefixes())
+    return ", ".join(names[:LISTED]) + (f" and {len(names) - LISTED} more" if len(names) > LISTED else "") or "none"
 
 
 def _at(place: Place, text: str) -> str:

@@ -112,6 +112,8 @@ class LaunchedProcess:
         self.info = replace(self.info, exit_code=code, pid=None, cpu=None)
         if not respawns:
             return self._end()
+        if any(verb == "stop" for verb, _ in self._waiting):
+            return Order.NOTHING  # it ended by itself just before; launch is told already not to start it again
         self._told = False
         why = f"{_reason(code)}; launch starts it again" if code else ""
         self.info = replace(self.info, state=ProcessState.STARTING, problem=why)

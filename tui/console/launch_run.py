@@ -26,7 +26,7 @@ class Listener:
     over: Callable[[Any], None]
     """With an action that has ended and that launch will not start again."""
     ending: Callable[[LaunchRun, str], None]
-    """With the reason why the whole launch ends."""
+    """With the reason why the whole launch ends; empty when it has failed."""
     fault: Callable[[Exception], None]
     """With what one of these has raised."""
 
@@ -136,7 +136,8 @@ class LaunchRun:
     def _ends(self, event: Any, context: Any) -> None:
         self.ending = True
         self._reason = event.reason
-        self._listener.ending(self, event.reason.removeprefix(CAUGHT))
+        failed = event.reason.startswith(CAUGHT)  # which is told with file and line when it is over
+        self._listener.ending(self, "" if failed else event.reason)
 
     def start(self, make: Callable[[], Any], failed: Callable[[str], None]) -> None:
         """Run what `make` gives, out of the scope of whatever the launch file has set; `failed` is told why not."""

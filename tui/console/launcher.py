@@ -284,7 +284,7 @@ class RosLauncher:
 
     def _ending(self, run: LaunchRun, reason: str) -> None:
         with self._lock:
-            if reason != "idle":
+            if reason not in ("", "idle"):
                 self._tell(f"{run.title} ends: {reason}")
             for held in self._held.values():
                 if held.run is run and held.process.alive:

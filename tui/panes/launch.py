@@ -45,6 +45,7 @@ class LaunchPane(Pane):
         self._info: LaunchInfo | None = None
         self._why_not = ""
         self._problem = ""
+        self._read = ""
         self._folded: frozenset[tuple[str, ...]] = frozenset()
 
     def compose(self) -> ComposeResult:
@@ -101,7 +102,7 @@ class LaunchPane(Pane):
         info, row = self._info or LaunchInfo(), self._list.current
         if self._why_not and not info.processes:
             text = self._why_not
-        elif info.problem:
+        elif info.problem and info.problem != self._read:
             text = info.problem
         elif row is None:
             text = self._problem or "Nothing was launched yet; o opens a launch file."
@@ -111,11 +112,12 @@ class LaunchPane(Pane):
             text = row.process.problem or f"{row.process.label}  {' '.join(row.process.nodes)}"
         status = self.query_one("#launch-status", Words)
         status.say(text)
-        status.set_class(bool(info.problem), "wrong")
+        status.set_class(text == info.problem, "wrong")
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
-        """Tell of the process at the cursor."""
+        """Tell of the process at the cursor, and no more of a launch that failed before."""
         event.stop()
+        self._read = (self._info or LaunchInfo()).problem
         self._tell()
 
     def on_resize(self) -> None:
@@ -205,8 +207,15 @@ class LaunchPane(Pane):
 
     def _launch(self, path: str, values: Mapping[str, str] | None) -> None:
         if values is not None and self.launcher is not None:
+            self._read = ""
             answer = self.launcher.launch(path, values)
-            answer.add_done_callback(lambda done: self.host.call_later(self._answered, done))
+            answer.add_done_callback(lambda done: self.host.call_later(self._launched, done))
+
+    def _launched(self, done: Future[Answer]) -> None:
+        """What the pane shows by itself is not told twice."""
+        shown = self.console.snapshot().launch.problem
+        if done.exception() is not None or not shown or done.result().text != shown:
+            self._answered(done)
 
 
 def row_is_pointless(verb: str, process: ProcessInfo) -> bool:

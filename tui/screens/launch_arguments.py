@@ -35,6 +35,7 @@ class ArgumentsScreen(ModalScreen["dict[str, str] | None"]):
     ArgumentsScreen VerticalScroll { height: auto; max-height: 100%; scrollbar-size-vertical: 1; }
     ArgumentsScreen .argument { height: auto; margin-bottom: 1; }
     ArgumentsScreen .name { text-style: bold; height: 1; }
+    ArgumentsScreen .choices { padding: 0 1; height: auto; }
     ArgumentsScreen .about { color: $text-muted; height: auto; }
     ArgumentsScreen Input { border: none; height: 1; padding: 0 1; background: $surface; }
     ArgumentsScreen Input:focus { border: none; background: $block-cursor-background; }
@@ -57,6 +58,8 @@ class ArgumentsScreen(ModalScreen["dict[str, str] | None"]):
                         yield Static(harmless(each.name), classes="name", markup=False)
                         suggester = SuggestFromList(each.choices) if each.choices else None
                         yield Input(harmless(each.default or ""), suggester=suggester, select_on_focus=True)
+                        if each.choices:
+                            yield Static(choices_line(each, each.default or ""), classes="choices", markup=False)
                         yield Static(self._about(each), classes="about", markup=False)
             yield Static("", id="wrong", markup=False)
 
@@ -64,8 +67,7 @@ class ArgumentsScreen(ModalScreen["dict[str, str] | None"]):
     def _about(argument: LaunchArgument) -> str:
         parts = [harmless(argument.description)]
         parts.append("required" if argument.default is None else "")
-        choices = " ".join(harmless(each) for each in argument.choices)
-        parts.append(f"one of: {choices} (page up, page down)" if choices else "")
+        parts.append("page up, page down choose" if argument.choices else "")
         return " · ".join(each for each in parts if each)
 
     def on_mount(self) -> None:
@@ -89,6 +91,13 @@ class ArgumentsScreen(ModalScreen["dict[str, str] | None"]):
         if argument.choices:
             now = argument.choices.index(field.value) if field.value in argument.choices else -step
             field.value = argument.choices[(now + step) % len(argument.choices)]
+
+    def on_input_changed(self, event: Input.Changed) -> None:
+        """Mark the value among those that the launch file allows."""
+        at = list(self.query(Input)).index(event.input)
+        line = next(iter(self.query(".argument")[at].query(".choices").results(Static)), None)
+        if line is not None:
+            line.update(choices_line(self._arguments[at], event.value))
 
     def on_input_submitted(self, event: Input.Submitted) -> None:
         """Launch, when everything that is needed is there."""
@@ -116,3 +125,8 @@ class ArgumentsScreen(ModalScreen["dict[str, str] | None"]):
     def action_give_up(self) -> None:
         """Launch nothing."""
         self.dismiss(None)
+
+
+def choices_line(argument: LaunchArgument, value: str) -> str:
+    """The values that an argument may have, with a mark at the one that it has."""
+    return "  ".join(f"{'●' if each == value else '○'} {harmless(each)}" for each in argument.choices)

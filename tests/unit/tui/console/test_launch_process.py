@@ -142,3 +142,14 @@ def test_wishes_while_it_runs_lead_to_one_end(verbs):
             if process.exited(0, respawns=False) is Order.START:
                 process.started("node-1", 8)
     assert all(answer.done() for answer in answers)
+
+
+def test_a_stop_that_comes_just_after_a_crash_is_done_when_launch_gives_up_the_respawn():
+    process = LaunchedProcess("k", "n-1")
+    process.started("n-1", 1)
+    order, stop = process.want("stop")
+    assert order is Order.SHUT_DOWN
+    assert process.exited(1, respawns=True) is Order.NOTHING
+    assert not stop.done() and process.info.state is ProcessState.STOPPING
+    process.over()
+    assert stop.result(0).ok and process.info.state is ProcessState.CRASHED
