@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sysconfig
 import traceback
 from collections.abc import Callable, Iterator, Sequence
@@ -10,8 +11,6 @@ from types import FrameType, TracebackType
 from typing import Any, TypeAlias
 
 ENDLESS = "launch files include each other without end"
-LISTED = 8
-"""Packages that are named when one is missing."""
 
 
 Place: TypeAlias = "tuple[str, int | None]"
@@ -36,7 +35,7 @@ def fault_text(error: BaseException, path: str, file_of: Callable[[Any], str] = 
 def _text(error: BaseException) -> str:
     """The words of an error that launch or a parser has found."""
     if _is_missing_package(error):
-        return f"{str(error.args[0]).partition(', searching:')[0]}; there are {_packages()}"
+        return _no_package(str(error.args[0]))
     if isinstance(error, OSError) and error.strerror:
         return error.strerror
     problem = getattr(error, "problem", None)  # of a YAML parser
@@ -50,12 +49,16 @@ def _is_missing_package(error: BaseException) -> bool:
     return isinstance(error, PackageNotFoundError) and bool(error.args)
 
 
-def _packages() -> str:
-    """The packages that could have been meant."""
+def _no_package(said: str) -> str:
+    """A package that was not found, and what to do."""
+    from difflib import get_close_matches
+
     from ament_index_python.packages import get_packages_with_prefixes
 
-    names = sorted(get_packages_with_prefixes())
-    return ", ".join(names[:LISTED]) + (f" and {len(names) - LISTED} more" if len(names) > LISTED else "") or "none"
+    text = said.partition(", searching:")[0]
+    name = re.search("'([^']*)'", text)
+    similar = get_close_matches(name[1] if name else "", list(get_packages_with_prefixes()), 3)
+    return f"{text}; " + (f"is it {' or '.join(similar)}?" if similar else "is its workspace given with --workspace?")
 
 
 def _at(place: Place, text: str) -> str:
