@@ -26,6 +26,7 @@ DIAGNOSTICS = "diagnostic_msgs/msg/DiagnosticArray"
 SILENCE = 0.5
 """Seconds after which a velocity command is dead, and the robot stops by itself."""
 NO_COMMAND = "no command on cmd_vel for 0.5 s"
+NO_ARBITER = "the node that takes cmd_vel_teleop has ended; start it again to drive"
 
 Velocity = tuple[float, float]
 
@@ -55,6 +56,7 @@ class DriveLink:
         self._heard = 0.0
         self._info = DriveInfo()
         self._topics: dict[str, str] = {}
+        self._arbitrated = False
         node.create_timer(HOLD_PERIOD, self._hold_still)
 
     def follow(self, graph: GraphInfo) -> None:
@@ -63,6 +65,7 @@ class DriveLink:
         published = {each.name for node in graph.nodes for each in node.publishers if TWIST in each.types}
         for token in (TELEOP, FINAL):
             self._topics[token] = _topic(subscribed, token)
+        self._arbitrated = bool(self._topics[TELEOP]) or (self._arbitrated and bool(self._topics[FINAL]))
         for token in (FINAL, ASKED):
             self._watch(token, _topic(published | subscribed, token))
         told = {each.name for node in graph.nodes for each in node.publishers if DIAGNOSTICS in each.types}
@@ -102,14 +105,19 @@ class DriveLink:
     @property
     def topic(self) -> str:
         """Where commands of this console go; empty when no robot listens."""
-        return self._topics.get(TELEOP) or self._topics.get(FINAL, "")
+        return self._topics.get(self._token, "")
+
+    @property
+    def _token(self) -> str:
+        """A robot whose arbiter has left is not driven past it: what kept it safe is gone."""
+        return TELEOP if self._arbitrated else FINAL
 
     def drive(self, linear: float, angular: float) -> None:
         """Publish one command (m/s, rad/s), unless the all-stop holds; raises `ValueError` for NaN and infinity."""
         if not (math.isfinite(linear) and math.isfinite(angular)):
             raise ValueError("a velocity must be a finite number")
         if not self._held:
-            self._send(TELEOP if self._topics.get(TELEOP) else FINAL, linear, angular)
+            self._send(self._token, linear, angular)
 
     def stop(self, hold: bool) -> None:
         """Zero velocity on every command topic, now and, while held, again and again."""
@@ -140,13 +148,16 @@ class DriveLink:
     def info(self, actual: Velocity | None) -> DriveInfo:
         """The chain as known now; the same object while nothing changes."""
         silent = FINAL in self._seen and time.monotonic() - self._heard > SILENCE
+        why = NO_COMMAND if silent else self._verdict.limited_by
+        if self._arbitrated and not self._topics[TELEOP]:
+            why = NO_ARBITER
         info = DriveInfo(
             topic=self.topic,
             asked=self._verdict.asked or self._seen.get(ASKED),
             limited=self._verdict.limited,
             final=None if silent else self._seen.get(FINAL),
             actual=actual,
-            limited_by=NO_COMMAND if silent else self._verdict.limited_by,
+            limited_by=why,
             stopped=self._held,
         )
         if info != self._info:

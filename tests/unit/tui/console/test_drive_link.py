@@ -5,7 +5,7 @@ import math
 
 import pytest
 from bot_console.tui.console import drive_link
-from bot_console.tui.console.drive_link import NO_COMMAND, DriveLink
+from bot_console.tui.console.drive_link import NO_ARBITER, NO_COMMAND, DriveLink
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from geometry_msgs.msg import Twist
@@ -133,3 +133,31 @@ def test_silence_is_told(bench, monkeypatch):
     monkeypatch.setattr(drive_link, "SILENCE", -1.0)
     info = bench.link.info(None)
     assert (info.final, info.limited_by) == (None, NO_COMMAND)
+
+
+def _listening(*topics):
+    return GraphInfo(nodes=(NodeInfo("/robot", subscriptions=tuple(Endpoint(each, (TWIST,)) for each in topics)),))
+
+
+def test_a_robot_whose_arbiter_has_left_is_not_driven_past_it():
+    bench = Bench("/cmd_vel", "/cmd_vel_teleop")
+    bench.link.follow(_listening("/cmd_vel"))
+    bench.link.drive(1.0, 0.0)
+    bench.settle()
+    assert bench.got == []
+    info = bench.link.info(None)
+    assert (info.topic, info.limited_by) == ("", NO_ARBITER)
+    bench.link.stop(hold=False)
+    bench.settle()
+    assert bench.got == [("/cmd_vel", 0.0)], "it can still be stopped"
+    bench.link.follow(_listening("/cmd_vel", "/cmd_vel_teleop"))
+    assert (bench.link.topic, bench.link.info(None).limited_by) == ("/cmd_vel_teleop", "")
+
+
+def test_the_next_robot_needs_no_arbiter():
+    bench = Bench("/cmd_vel", "/cmd_vel_teleop")
+    bench.link.follow(_listening())
+    bench.link.follow(_listening("/cmd_vel"))
+    bench.link.drive(1.0, 0.0)
+    bench.settle()
+    assert bench.got == [("/cmd_vel", 1.0)]
