@@ -54,7 +54,7 @@ def _node_keys(node: Any, prefix: str) -> Iterator[tuple[str, int]]:
 def warn_of_values(context: Any, given: Mapping[Any, Any], evaluated: Mapping[str, Any], origin: str) -> None:
     """Warn of values of a dict whose type changes on the way to the node."""
     for (_, entry), (name, found) in zip(given.items(), evaluated.items(), strict=False):
-        value = entry.given if isinstance(entry, ParameterValue) and entry.value_type is None else entry
+        value: Any = entry.given if isinstance(entry, ParameterValue) and entry.value_type is None else entry
         if is_normalized_substitution(value):
             text = perform_substitutions(context, value)
             if changes_in_yaml(text, found):

@@ -96,6 +96,9 @@ class DeclareLaunchArgument(Action):
         context.declared_arguments.add(self.name)
         if self.name not in context.launch_configurations:
             if self.default_value is None:
+                self.__logger.error(
+                    f'Required launch argument "{self.name}" (description: "{self.description}") was not provided'
+                )
                 raise RuntimeError(f'Required launch argument "{self.name}" was not provided.')
             context.launch_configurations[self.name] = perform_substitutions(context, self.default_value)
         value = context.launch_configurations[self.name]

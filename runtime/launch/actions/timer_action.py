@@ -44,6 +44,9 @@ class TimerAction(Action):
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["period"] = parser.parse_if_substitutions(entity.get_attr("period", data_type=float, can_be_str=True))
+        cancel = entity.get_attr("cancel_on_shutdown", optional=True, data_type=bool, can_be_str=True)
+        if cancel is not None:
+            kwargs["cancel_on_shutdown"] = parser.parse_if_substitutions(cancel)
         kwargs["actions"] = [parser.parse_action(each) for each in entity.children]
         return cls, kwargs
 
@@ -63,7 +66,7 @@ class TimerAction(Action):
 
     def describe_conditional_sub_entities(self) -> list[tuple[str, list[Any]]]:
         """The actions."""
-        return [(f"after {self.__period} seconds", list(self.__actions))]
+        return [(f"{self.__period} seconds pass without being canceled", list(self.__actions))]
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:
         """Done when the actions were visited, or never will be."""

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import shlex
+from collections.abc import Callable
 from typing import Any
 
-TEXTS = ("sigkill_timeout", "sigterm_timeout", "output", "cwd", "name")
+TEXTS = ("output", "cwd", "name")
+DURATIONS = {"sigkill_timeout": str, "sigterm_timeout": str, "respawn_delay": float}
 
 
 def parse_process(entity: Any, parser: Any, kwargs: dict[str, Any], ignore: frozenset[str]) -> dict[str, Any]:
@@ -15,12 +17,13 @@ def parse_process(entity: Any, parser: Any, kwargs: dict[str, Any], ignore: froz
     for name in TEXTS:
         _set(kwargs, name, entity, parser, ignore)
     _set(kwargs, "launch-prefix", entity, parser, ignore, keyword="prefix")
+    _set(kwargs, "respawn", entity, parser, ignore)
     if "on_exit" not in ignore:
         _parse_on_exit(entity, kwargs)
-    respawn = entity.get_attr("respawn", optional=True)
-    if respawn is not None:
-        kwargs["respawn"] = parser.parse_substitution(respawn)
-    for name, kind in (("respawn_max_retries", int), ("respawn_delay", float), ("shell", bool), ("emulate_tty", bool)):
+    for name, form in DURATIONS.items():
+        if name not in ignore:
+            _parse_duration(entity, name, form, kwargs)
+    for name, kind in (("respawn_max_retries", int), ("shell", bool), ("emulate_tty", bool)):
         if name not in ignore:
             value = entity.get_attr(name, data_type=kind, optional=True)
             if value is not None:
@@ -28,6 +31,16 @@ def parse_process(entity: Any, parser: Any, kwargs: dict[str, Any], ignore: froz
     if "additional_env" not in ignore:
         _parse_env(entity, parser, kwargs)
     return kwargs
+
+
+def _parse_duration(entity: Any, name: str, form: Callable[[float], Any], kwargs: dict[str, Any]) -> None:
+    """A number of seconds; a text with substitutions cannot be compared, so that it raises `TypeError`."""
+    value = entity.get_attr(name, data_type=float, optional=True)
+    if value is None:
+        return
+    if value < 0.0:
+        raise ValueError(f"Attribute {name} of Entity node expected to be a non-negative value but got `{value}`")
+    kwargs[name] = form(value)
 
 
 def _set(
@@ -48,7 +61,7 @@ def _parse_on_exit(entity: Any, kwargs: dict[str, Any]) -> None:
         return
     if on_exit != "shutdown":
         raise ValueError(
-            f"Attribute on_exit of Entity {entity.type_name} expected to be shutdown but got `{on_exit}`"
+            f"Attribute on_exit of Entity node expected to be shutdown but got `{on_exit}`"
             "Other on_exit actions not yet supported"
         )
     kwargs["on_exit"] = [Shutdown()]
@@ -67,7 +80,10 @@ def _parse_env(entity: Any, parser: Any, kwargs: dict[str, Any]) -> None:
 
 
 def parse_command_line(text: str, parser: Any) -> list[list[Any]]:
-    """Words of a command line, split as a shell does; what a substitution gives is not split."""
+    """Words of a command line, split as a shell does; what a substitution gives is not split.
+
+    A text of nothing but space ends a word, were it empty: no text at all is one empty word.
+    """
     from launch.substitutions.text_substitution import TextSubstitution
 
     words: list[list[Any]] = []
@@ -76,8 +92,8 @@ def parse_command_line(text: str, parser: Any) -> list[list[Any]]:
         if not isinstance(piece, TextSubstitution):
             word.append(piece)
             continue
-        parts = shlex.split(piece.text) if piece.text.strip() else []
-        if piece.text[:1].isspace() and word:
+        parts = shlex.split(piece.text)
+        if not parts or (piece.text[0].isspace() and word):
             words.append(word)
             word = []
         for number, part in enumerate(parts):
@@ -85,7 +101,7 @@ def parse_command_line(text: str, parser: Any) -> list[list[Any]]:
                 words.append(word)
                 word = []
             word.append(TextSubstitution(text=part))
-        if piece.text[-1:].isspace() and word:
+        if parts and piece.text[-1].isspace():
             words.append(word)
             word = []
     return [*words, word] if word else words

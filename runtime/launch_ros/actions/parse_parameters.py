@@ -29,10 +29,12 @@ def parse_nested_parameters(params: Any, parser: Any) -> list[Any]:
 def _parameter(entity: Any, parser: Any) -> Any:
     source = entity.get_attr("from", optional=True)
     name = entity.get_attr("name", optional=True)
+    substitute = entity.get_attr("allow_substs", data_type=bool, optional=True)
     if source is not None and name is not None:
         raise RuntimeError("name and from attributes are mutually exclusive")
+    if name is not None and substitute is not None:
+        raise RuntimeError("'allow_substs' can only be used together with 'from' attribute")
     if source is not None:
-        substitute = entity.get_attr("allow_substs", data_type=bool, optional=True)
         file = ParameterFile(
             parser.parse_substitution(source),
             allow_substs=False if substitute is None else parser.parse_if_substitutions(substitute),
@@ -40,7 +42,7 @@ def _parameter(entity: Any, parser: Any) -> Any:
         entity.assert_entity_completely_parsed()
         return file
     if name is None:
-        raise RuntimeError("param Entity should have name or from attribute")
+        raise ValueError("param Entity should have name or from attribute")
     return _named(entity, parser)
 
 

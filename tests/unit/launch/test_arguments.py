@@ -327,3 +327,11 @@ def test_the_folder_of_a_description_without_a_file_is_its_location() -> None:
     context = LaunchContext()
     IncludeLaunchDescription(LaunchDescriptionSource(LaunchDescription(), "<script>")).visit(context)
     assert context.locals.current_launch_file_directory == "<script>"
+
+
+def test_a_missing_argument_is_told_with_its_description(run: Launch) -> None:
+    declare = DeclareLaunchArgument("must", description="needed")
+    outcome = run([OpaqueFunction(function=lambda context: [declare])])
+    said = 'Required launch argument "must" (description: "needed") was not provided'
+    assert f"[ERROR] [launch.actions.declare_launch_argument]: {said}" in outcome.lines
+    assert outcome.caught == 'Required launch argument "must" was not provided.'

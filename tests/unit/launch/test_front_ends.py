@@ -7,7 +7,7 @@ import re
 from typing import Any
 
 import pytest
-from launch.actions import ExecuteProcess, GroupAction, LogInfo
+from launch.actions import ExecuteProcess, GroupAction, LogInfo, TimerAction
 from launch.conditions import IfCondition, UnlessCondition
 from launch.frontend.parse_substitution import parse_substitution
 from launch.frontend.process_attributes import parse_command_line
@@ -17,7 +17,7 @@ from launch_xml import Parser as XmlParser
 from launch_yaml import Parser as YamlParser
 from launching import Launch
 
-from launch import LaunchDescription
+from launch import LaunchContext, LaunchDescription
 
 PYTHON = """
     from launch import LaunchDescription
@@ -176,6 +176,41 @@ def test_a_process() -> None:
     assert [word[0].describe() for word in process.cmd] == ["'echo'", "'a'", "'b c'"]
 
 
+def command_words(text: str) -> list[str]:
+    """What each word of a command is made of."""
+    [process] = xml(f"<executable cmd={text!r}/>")
+    return [" ".join(part.describe() for part in word) for word in process.cmd]
+
+
+def test_the_words_of_a_command() -> None:
+    variable = "LaunchConfig('a')"
+    assert command_words("$(var a) $(var a)b 'c d'$(var a) ") == [
+        variable,
+        f"{variable} 'b'",
+        f"'c d' {variable}",
+    ]
+    assert command_words("$(var a) x") == [variable, "'x'"]
+    assert command_words("x$(var a)  y") == [f"'x' {variable}", "'y'"]
+
+
+def test_empty_arguments_are_one_empty_word() -> None:
+    [node] = xml('<node exec="e" args=""/>')
+    assert node.cmd[1] == []
+
+
+def test_stop_times_are_numbers() -> None:
+    [process] = yaml("  - executable: {cmd: e, sigterm_timeout: 4.0, sigkill_timeout: 2.5}")
+    context = LaunchContext()
+    assert process.sigterm_timeout[0].perform(context) == "4.0"
+    assert process.sigkill_timeout[0].perform(context) == "2.5"
+
+
+def test_a_timer_that_shutdown_does_not_cancel() -> None:
+    [timer] = xml('<timer period="1" cancel_on_shutdown="false"><log message="a"/></timer>')
+    assert isinstance(timer, TimerAction)
+    assert timer.describe_conditional_sub_entities()[0][0] == "1.0 seconds pass without being canceled"
+
+
 def test_unless() -> None:
     [log] = xml('<log message="a" unless="$(var x)"/>')
     assert isinstance(log.condition, UnlessCondition)
@@ -198,6 +233,31 @@ XML_ERRORS: list[tuple[str, type[Exception], str]] = [
         ValueError,
         "Attribute on_exit of Entity node expected to be shutdown but got `restart`"
         "Other on_exit actions not yet supported",
+    ),
+    (
+        '<executable cmd="e" on_exit="restart"/>',
+        ValueError,
+        "Attribute on_exit of Entity node expected to be shutdown but got `restart`"
+        "Other on_exit actions not yet supported",
+    ),
+    *(
+        (
+            f'<executable cmd="e" {name}="-1"/>',
+            ValueError,
+            f"Attribute {name} of Entity node expected to be a non-negative value but got `-1.0`",
+        )
+        for name in ("respawn_delay", "sigterm_timeout", "sigkill_timeout")
+    ),
+    (
+        '<node exec="e" sigterm_timeout="$(var t)"/>',
+        TypeError,
+        "'<' not supported between instances of 'str' and 'float'",
+    ),
+    ('<node exec="e"><param value="a"/></node>', ValueError, "param Entity should have name or from attribute"),
+    (
+        '<node exec="e"><param name="a" value="b" allow_substs="true"/></node>',
+        RuntimeError,
+        "'allow_substs' can only be used together with 'from' attribute",
     ),
     (
         '<node exec="e"><param name="a" value="1" type="double"/></node>',

@@ -305,7 +305,7 @@ def test_print_resolved(capsys: pytest.CaptureFixture[str], folder: Path) -> Non
         "    PopEnvironment",
         "    PopLaunchConfigurations",
         "  TimerAction",
-        "    after 1.0 seconds:",
+        "    1.0 seconds pass without being canceled:",
         "      LogInfo",
     ]
 
