@@ -63,8 +63,11 @@ class DriveLink:
         """Find the robot's command topics by their last token, in whatever namespace."""
         subscribed = {each.name for node in graph.nodes for each in node.subscriptions if TWIST in each.types}
         published = {each.name for node in graph.nodes for each in node.publishers if TWIST in each.types}
+        had_arbiter = bool(self._topics.get(TELEOP))
         for token in (TELEOP, FINAL):
             self._topics[token] = _topic(subscribed, token)
+        if had_arbiter and not self._topics[TELEOP]:
+            self.zero()  # it need not wait until its last command is dead
         self._arbitrated = bool(self._topics[TELEOP]) or (self._arbitrated and bool(self._topics[FINAL]))
         for token in (FINAL, ASKED):
             self._watch(token, _topic(published | subscribed, token))

@@ -1,0 +1,44 @@
+"""The safety monitor is killed while a person drives: the robot stops, stays still, and the console says why."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from bot_console.tui.console.connection import RosConsole
+from bot_console.tui.console.drive_link import NO_ARBITER
+from launcher_bench import PATIENCE, Bench
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+@pytest.mark.timeout(60)
+def test_the_robot_is_not_driven_without_its_safety_monitor(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS_DOMAIN_ID", "9700")
+    monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
+    bench = Bench(tmp_path)
+    console = RosConsole(launch_info=bench.launcher.info)
+    console.start()
+    assert console.wait_ready(PATIENCE)
+
+    def speed() -> float:
+        """How fast it goes, in m/s, while the person goes on to ask for 0.8."""
+        console.drive(0.8, 0.0)
+        actual = console.snapshot().drive.actual
+        return actual[0] if actual else 0.0
+
+    try:
+        path = str(ROOT / "launch" / "robot_system.launch.py")
+        assert bench.launcher.launch(path, {"profile": "outdoor"}).result(PATIENCE).ok
+        bench.until(lambda: speed() > 0.1, "the robot to drive")
+        key = next(each.key for each in bench.info.processes if "safety" in each.label)
+        assert bench.launcher.kill(key).result(PATIENCE).ok
+        bench.until(lambda: speed() == 0.0, "the robot to stop")
+        drive = console.snapshot().drive
+        assert (drive.topic, drive.limited_by) == ("", NO_ARBITER)
+        assert "killed" in next(each.problem for each in bench.info.processes if each.key == key)
+        assert bench.launcher.start(key).result(PATIENCE).ok
+        bench.until(lambda: speed() > 0.1, "the robot to drive again")
+    finally:
+        console.close()
+        bench.launcher.close()
