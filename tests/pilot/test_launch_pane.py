@@ -155,6 +155,32 @@ def test_a_launch_that_failed_is_told_in_the_pane() -> None:
     run(faulty(), play, (100, 30))
 
 
+def test_a_failure_is_told_once_and_whole_until_the_cursor_moves() -> None:
+    async def play(session: Session) -> None:
+        problem = "/a/long/path/to/some/workspace/src/robot/launch/robot.launch.py, line 31: " + "word " * 12 + "end"
+        session.launcher.declared = ()
+        session.launcher.broken = ""
+        session.console.change(launch=replace(launched(), problem=problem))
+        await session.press("8")
+        assert problem in " ".join(session.text().replace("│", " ").split())
+        await session.press("down")
+        assert "sensor_handler-1  /sensor_handler" in session.text() and "word word" not in session.text()
+
+    run(live(), play)
+
+
+def test_choices_stand_as_a_list_with_a_mark_at_the_value() -> None:
+    async def play(session: Session) -> None:
+        session.launcher.declared = arguments()[:1]
+        await session.press("8", "o", "enter")
+        await until(session, ArgumentsScreen)
+        assert "● indoor  ○ outdoor  ○ warehouse" in session.text()
+        await session.press("pagedown")
+        assert "○ indoor  ● outdoor  ○ warehouse" in session.text()
+
+    run(live(), play)
+
+
 def test_an_empty_pane_says_what_to_do_and_a_process_that_comes_appears() -> None:
     async def play(session: Session) -> None:
         await session.press("8", "x", "s", "enter", "left", "right")
