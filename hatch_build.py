@@ -24,10 +24,10 @@ class CustomBuildHook(BuildHookInterface):
         root = Path(self.root)
         subprocess.run([sys.executable, str(root / "runtime" / "rosidl" / "generate.py")], check=True, cwd=root)
         if version == "editable":
-            farm = root / "build" / "editable" / "bot_console"
-            farm.mkdir(parents=True, exist_ok=True)
+            links = root / "build" / "editable" / "bot_console"
+            links.mkdir(parents=True, exist_ok=True)
             for folder in FOLDERS:
-                link(root / folder, farm / folder)
+                link(root / folder, links / folder)
             # The type checker's way to the package name that the importer serves.
             (root / "build" / "types").mkdir(parents=True, exist_ok=True)
             link(root / "nodes", root / "build" / "types" / "intelligent_robot")

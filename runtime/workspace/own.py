@@ -21,9 +21,9 @@ def own_package() -> Package:
     return Package(NAME, nodes, "ament_python", executables=MappingProxyType(entry_points))
 
 
-def own_share(farm: Path) -> Path:
+def own_share(links: Path) -> Path:
     """Its share folder: `launch/`, `config/` with each profile under both its names, and `worlds/`."""
-    place = farm / NAME
+    place = links / NAME
     for path in (ROOT / "launch").glob("*.launch.*"):
         link(path, place / "launch" / path.name)
     for path in (ROOT / "profiles").glob("*.yaml"):

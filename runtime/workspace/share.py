@@ -9,16 +9,16 @@ from pathlib import Path
 from bot_console.runtime.workspace.package import Package
 
 
-def share_folder(package: Package, farm: Path) -> Path:
+def share_folder(package: Package, links: Path) -> Path:
     """A folder laid out as the package's installed `share/<name>`.
 
     Most packages install `launch/x` as `launch/x`; then that is the source folder. Others get a folder of links
-    below `farm`, made afresh.
+    below `links`, made afresh.
     """
     targets = list(_targets(package))
     if all(package.folder / target == source for target, source in targets):
         return package.folder
-    place = farm / package.name
+    place = links / package.name
     shutil.rmtree(place, ignore_errors=True)
     for target, source in targets:
         link(source, place / target)
