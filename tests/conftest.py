@@ -11,3 +11,8 @@ install()
 settings.register_profile("repeatable", derandomize=True, deadline=None, database=None)
 settings.register_profile("explore", deadline=None, max_examples=1000)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
+
+
+def pytest_xdist_auto_num_workers() -> int:
+    """One more than there are processors for `-n auto`: the tests of the screen wait for it to come to rest."""
+    return (os.cpu_count() or 1) + 1
