@@ -16,7 +16,7 @@ class DriveLimits:
     turn_acceleration: float = 10.0
     wheel_separation: float = 0.3
     radius: float = 0.2
-    command_timeout: float = 0.5
+    command_timeout: float = 0.3
 
 
 class DifferentialDrive:

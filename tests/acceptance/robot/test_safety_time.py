@@ -1,0 +1,58 @@
+"""A robot whose safety monitor is killed comes to rest by itself, whoever watches."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from systems import System, system
+
+ROOT = Path(__file__).resolve().parents[3]
+
+NOISE = 0.02
+"""Speed (m/s) that odometry may show at rest."""
+
+SPEEDS = """
+import rclpy
+from nav_msgs.msg import Odometry
+
+rclpy.init()
+node = rclpy.create_node("speeds")
+
+
+def told(message):
+    stamp = message.header.stamp
+    print(stamp.sec + stamp.nanosec / 1e9, message.twist.twist.linear.x)
+
+
+node.create_subscription(Odometry, "odom", told, 10)
+rclpy.spin(node)
+"""
+
+
+def speeds(text: str) -> list[tuple[float, float]]:
+    """(time (s), speed (m/s)) of what was printed so far."""
+    return [(float(at), float(speed)) for at, speed in map(str.split, text.splitlines())]
+
+
+def kill(running: System, launch_says: str, name: str) -> None:
+    """SIGKILL for a process that the launch has started."""
+    found = re.search(rf"\[{name}-\d+\]: process started with pid \[(\d+)\]", launch_says)
+    assert found, launch_says
+    assert running.finish(running.python("-c", f"import os, signal; os.kill({found[1]}, signal.SIGKILL)")).exit == 0
+
+
+@pytest.mark.parametrize("seconds", [2.0, 2.53, 6.0, 7.17])
+def test_it_stands_half_a_second_after_the_kill(seconds: float) -> None:
+    with system() as running:
+        launch = running.ros2("launch", str(ROOT / "launch" / "robot_system.launch.py"))
+        watch = running.python("-c", SPEEDS)
+        running.run(seconds)
+        killed_at, speed = speeds(watch.stdout)[-1]
+        assert speed > 0.4
+        kill(running, launch.stdout, "safety_node")
+        running.run(2.0)
+        after = [(at - killed_at, speed) for at, speed in speeds(watch.stdout) if at > killed_at]
+        assert after[-1][0] > 1.5
+        assert not [each for each in after if each[0] > 0.5 and abs(each[1]) > NOISE]
