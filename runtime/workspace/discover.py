@@ -47,7 +47,7 @@ class Workspace:
             return None
         if name not in self._shares:
             ours = package.folder == own_package().folder
-            self._shares[name] = own_share(self._farm) if ours else share_folder(package, self._farm)
+            self._shares[name] = own_share(self._links) if ours else share_folder(package, self._links)
         return self._shares[name]
 
     @cached_property
@@ -55,10 +55,10 @@ class Workspace:
         return {}
 
     @cached_property
-    def _farm(self) -> Path:
+    def _links(self) -> Path:
         """A folder of this process for share folders made of links; it goes with the process."""
-        self._farm_holder = tempfile.TemporaryDirectory(prefix="bot-console-share-")
-        return Path(self._farm_holder.name)
+        self._links_folder = tempfile.TemporaryDirectory(prefix="bot-console-share-")
+        return Path(self._links_folder.name)
 
 
 def default_folders(start: Path) -> tuple[Path, ...]:

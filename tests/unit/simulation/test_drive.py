@@ -41,9 +41,9 @@ def test_the_outer_wheel_limits_a_curve_and_keeps_its_shape() -> None:
 def test_a_command_dies_after_its_time() -> None:
     simulation = Simulation(HALL, 1, Settings(limits=LIMITS))
     simulation.command(1.0, 0.0)
-    for _ in range(50):
+    for _ in range(30):
         simulation.step()
-    assert simulation.speed == pytest.approx(0.5, abs=0.02)
+    assert simulation.speed == pytest.approx(0.3, abs=0.02)
     for _ in range(40):
         simulation.step()
     assert simulation.speed == 0.0
