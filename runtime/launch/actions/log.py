@@ -6,8 +6,7 @@ import logging
 from typing import Any
 
 import launch.logging
-from launch.action import Action
-from launch.actions.log_info import LogInfo
+from launch.actions.log_info import LogInfo, Message
 from launch.frontend import expose_action
 from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
@@ -17,25 +16,12 @@ LEVELS = {name: getattr(logging, name) for name in ("NOTSET", "DEBUG", "INFO", "
 __all__ = ["Log", "LogDebug", "LogError", "LogInfo", "LogWarning"]
 
 
-class Log(Action):
+class Log(Message):
     """Logs a text at a level, as `debug` or `WARNING`."""
 
     def __init__(self, *, msg: Any, level: Any, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.__msg = normalize_to_list_of_substitutions(msg)
+        super().__init__(msg=msg, **kwargs)
         self.__level = normalize_to_list_of_substitutions(level)
-
-    @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[type[Log], dict[str, Any]]:
-        """From XML or YAML."""
-        _, kwargs = super().parse(entity, parser)
-        kwargs["msg"] = parser.parse_substitution(entity.get_attr("message"))
-        return cls, kwargs
-
-    @property
-    def msg(self) -> list[Substitution]:
-        """The text."""
-        return self.__msg
 
     @property
     def level(self) -> list[Substitution]:
@@ -47,7 +33,7 @@ class Log(Action):
         level = perform_substitutions(context, self.__level).upper()
         if level not in LEVELS:
             raise KeyError(f"Invalid log level '{level}', expected: {LEVELS.keys()}")
-        text = perform_substitutions(context, self.__msg)
+        text = perform_substitutions(context, self.msg)
         launch.logging.get_logger("launch.user").log(LEVELS[level], "%s", text)
 
 

@@ -11,18 +11,15 @@ from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 
-@expose_action("log")
-@expose_action("log_info")
-class LogInfo(Action):
-    """Logs a text."""
+class Message(Action):
+    """What all actions that log a text have: the text, and how it is written in XML and YAML."""
 
     def __init__(self, *, msg: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.__msg = normalize_to_list_of_substitutions(msg)
-        self.__logger = launch.logging.get_logger("launch.user")
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[type[LogInfo], dict[str, Any]]:
+    def parse(cls, entity: Any, parser: Any) -> tuple[type[Message], dict[str, Any]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["msg"] = parser.parse_substitution(entity.get_attr("message"))
@@ -33,6 +30,16 @@ class LogInfo(Action):
         """The text."""
         return self.__msg
 
+
+@expose_action("log")
+@expose_action("log_info")
+class LogInfo(Message):
+    """Logs a text."""
+
+    def __init__(self, *, msg: Any, **kwargs: Any) -> None:
+        super().__init__(msg=msg, **kwargs)
+        self.__logger = launch.logging.get_logger("launch.user")
+
     def execute(self, context: Any) -> None:
         """Log it."""
-        self.__logger.info("%s", perform_substitutions(context, self.__msg))
+        self.__logger.info("%s", perform_substitutions(context, self.msg))

@@ -9,7 +9,7 @@ from rclpy.node import Node
 from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, spin_until
 from ros2cli.qos_arguments import add_qos_arguments, profile
-from ros2cli.verbs.topic_echo import add_length_arguments
+from ros2cli.verbs.topic_echo import add_form_arguments
 from rosidl_runtime_py import message_to_csv, message_to_ordereddict
 from rosidl_runtime_py.convert import ordereddict_to_yaml
 from rosidl_runtime_py.utilities import get_service
@@ -32,12 +32,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="Output all recursive fields separated by commas (e.g. for plotting).",
     )
-    add_length_arguments(parser)
-    add("--no-arr", action="store_true", help="Don't print array fields of messages")
-    add("--no-str", action="store_true", help="Don't print string fields of messages")
-    add(
-        "--flow-style", action="store_true", help="Print collections in the block style (not available with csv format)"
-    )
+    add_form_arguments(parser)
 
 
 def echo(arguments: argparse.Namespace) -> Result:

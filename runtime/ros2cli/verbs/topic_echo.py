@@ -28,8 +28,8 @@ def unsigned(text: str) -> int:
     return value
 
 
-def add_length_arguments(parser: argparse.ArgumentParser) -> None:
-    """Add the options that say how much of arrays and strings is shown."""
+def add_form_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options that say in which form, and how much of arrays and strings, is shown."""
     parser.add_argument(
         "--full-length",
         "-f",
@@ -43,6 +43,13 @@ def add_length_arguments(parser: argparse.ArgumentParser) -> None:
         type=unsigned,
         default=TRUNCATE,
         help=f"The length to truncate arrays, bytes, and string to (default: {TRUNCATE})",
+    )
+    parser.add_argument("--no-arr", action="store_true", help="Don't print array fields of messages")
+    parser.add_argument("--no-str", action="store_true", help="Don't print string fields of messages")
+    parser.add_argument(
+        "--flow-style",
+        action="store_true",
+        help="Print collections in the block style (not available with csv format)",
     )
 
 
@@ -65,14 +72,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         help="Echo a selected field of a message. Use '.' to select sub-fields. For example, to echo the position "
         "field of a nav_msgs/msg/Odometry message: 'ros2 topic echo /odom --field pose.pose.position'",
     )
-    add_length_arguments(parser)
-    add("--no-arr", action="store_true", help="Don't print array fields of messages")
-    add("--no-str", action="store_true", help="Don't print string fields of messages")
-    add(
-        "--flow-style",
-        action="store_true",
-        help="Print collections in the block style (not available with csv format)",
-    )
+    add_form_arguments(parser)
     add("--no-lost-messages", action="store_true", help="Don't report when a message is lost")
     add("--raw", action="store_true", help="Echo the raw binary representation")
     add(
