@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import sys
 import threading
-from types import ModuleType, TracebackType
+from types import TracebackType
 from typing import TYPE_CHECKING
 
 from . import real
 from .frames import trim
-from .module_property import process_variable
+from .module_property import VirtualModule, process_variable
 from .thread_state import ProcessKilled, ThreadState, local
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ def start_inside(
     return state
 
 
-class VirtualThreading(ModuleType):
+class VirtualThreading(VirtualModule):
     """The class of `threading` while node processes run."""
 
     excepthook = process_variable("excepthook", lambda _process: threading.__excepthook__)

@@ -29,7 +29,34 @@ def process_variable(name: str, of_process: Callable[[Any], Any]) -> property:
     return property(get, set_)
 
 
-def replace_class(module: Any, virtual: type[ModuleType]) -> Callable[[], None]:
+class _OfOneModule(type):
+    """What makes the class of one module's properties stand for `ModuleType` to everybody who takes `type(module)`.
+
+    The interpreter itself makes all modules by `type(sys)(name)`: with the properties they would take that module's
+    variables for their own.
+    """
+
+    def __new__(cls, name: str, bases: tuple[type, ...], members: dict[str, Any], **options: Any) -> Any:
+        if any(type(base) is _OfOneModule and base is not VirtualModule for base in bases):
+            bases = tuple(ModuleType if isinstance(base, _OfOneModule) else base for base in bases)
+            return type(name, bases, members, **options)
+        return super().__new__(cls, name, bases, members, **options)
+
+    def __call__(cls, *arguments: Any, **options: Any) -> ModuleType:
+        return ModuleType(*arguments, **options)
+
+    def __instancecheck__(cls, instance: object) -> bool:
+        return isinstance(instance, ModuleType)
+
+    def __subclasscheck__(cls, subclass: type) -> bool:
+        return issubclass(subclass, ModuleType)
+
+
+class VirtualModule(ModuleType, metaclass=_OfOneModule):
+    """Base of the class of a module that has such properties; no other module is ever of it."""
+
+
+def replace_class(module: Any, virtual: type[VirtualModule]) -> Callable[[], None]:
     """Give a module a class with such properties; returns what undoes it."""
     before = module.__class__
     module.__class__ = virtual

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from types import ModuleType
 from typing import Any
 
-from .module_property import process_variable, replace_class
+from .module_property import VirtualModule, process_variable, replace_class
 from .thread_state import local
 
 
@@ -59,7 +59,7 @@ class RoutingStream:
             self._real = self._original if stream is self else stream
 
 
-class VirtualSys(ModuleType):
+class VirtualSys(VirtualModule):
     """The class of `sys` while node processes run."""
 
 

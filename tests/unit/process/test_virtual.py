@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import atexit
 import importlib
+import importlib.util
 import multiprocessing
 import os
 import queue
@@ -12,6 +13,7 @@ import subprocess
 import sys
 import threading
 import time
+import types
 
 import pytest
 from bot_console.runtime.process import on_notice
@@ -200,3 +202,36 @@ def test_multiprocessing(run):
 
     ended = run(target)
     assert sorted(ended.out) == ["0\n", "42\n", "works\n"], ended.stderr
+
+
+@pytest.mark.parametrize("module", [sys, threading])
+def test_the_class_of_a_virtual_module_stands_for_that_of_all_modules(start, module):
+    install_virtual_process()
+    kind = type(module)
+    made = kind("made", "its text")
+    assert (type(made), made.__name__, made.__doc__) == (types.ModuleType, "made", "its text")
+    assert isinstance(made, kind) and isinstance(module, kind) and issubclass(types.ModuleType, kind)
+    assert not isinstance("text", kind)
+
+    class Own(kind):
+        """A program's own kind of module."""
+
+    own = Own("own")
+    own.path, own.argv = "mine", ["mine"]
+    assert (own.path, own.argv, vars(own)["path"]) == ("mine", ["mine"], "mine")
+
+
+def test_modules_made_in_a_node_process_have_no_variables_of_sys(run, tmp_path):
+    names = [name for name in dir(type(sys)) if not name.startswith("_")] + ["stdout", "argv", "path", "modules"]
+    (tmp_path / "named_like_sys.py").write_text("".join(f"{name} = {name!r}\n" for name in names))
+
+    def target():
+        sys.path.insert(0, str(tmp_path))
+        spec = importlib.util.find_spec("named_like_sys")
+        for module in (importlib.import_module("named_like_sys"), importlib.util.module_from_spec(spec)):
+            spec.loader.exec_module(module)
+            print([name for name in names if getattr(module, name) != name])
+
+    started = run(target)
+    sys.modules.pop("named_like_sys", None)
+    assert (started.stdout, started.stderr) == ("[]\n[]\n", "")
