@@ -1,0 +1,59 @@
+"""One at a time joins a domain: without that, two that start together would list the folder and never meet."""
+
+from __future__ import annotations
+
+import contextlib
+import fcntl
+import os
+import time
+from collections.abc import Iterator
+
+from bot_console.runtime.rmw.zenoh.sockets import is_stopped
+
+PATIENCE = 0.2
+"""How long one try for the lock lasts, in s; then it is looked at who holds it."""
+
+LONGEST_WAIT = 10.0
+"""After this time, in s, a process goes on without the lock, whoever holds it."""
+
+
+@contextlib.contextmanager
+def folder_lock(folder: str) -> Iterator[None]:
+    """Hold the lock of a domain's folder.
+
+    A process that is frozen while it holds the lock stops nobody: the others go on without, and what they miss of each
+    other is mended by the watch that each of them keeps on the folder.
+    """
+    handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
+    try:
+        deadline = time.monotonic() + LONGEST_WAIT
+        while not _taken(handle, PATIENCE):
+            if _holder_is_stopped(handle) or time.monotonic() > deadline:
+                break
+        yield
+    finally:
+        os.close(handle)
+
+
+def _taken(handle: int, patience: float) -> bool:
+    """Whether the lock was got in this time (s)."""
+    deadline = time.monotonic() + patience
+    while True:
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            return True
+        except BlockingIOError:
+            if time.monotonic() >= deadline:
+                return False
+        time.sleep(0.003)
+
+
+def _holder_is_stopped(handle: int) -> bool:
+    """Whether the process that holds the lock is frozen, as far as the system tells."""
+    inode = f":{os.fstat(handle).st_ino}"
+    try:
+        with open("/proc/locks") as file:
+            rows = [line.split() for line in file if "FLOCK" in line]
+    except OSError:
+        return False
+    return any(is_stopped(int(row[4])) for row in rows if row[1] == "FLOCK" and row[5].endswith(inode))

@@ -1,0 +1,275 @@
+"""A session: this process's place in the mesh of a domain. The only file that imports Zenoh, and only when one opens.
+
+Callbacks come on Zenoh's own threads, at once and one after the other: they may append and wake, and nothing else.
+Nothing may fork once a session was opened.
+"""
+
+from __future__ import annotations
+
+import json
+import secrets
+import threading
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from bot_console.runtime.rmw.zenoh.domain_folder import domain_folder
+from bot_console.runtime.rmw.zenoh.joining import folder_lock
+from bot_console.runtime.rmw.zenoh.settings import session_settings
+from bot_console.runtime.rmw.zenoh.sockets import Socket, live_sockets, own_socket
+
+if TYPE_CHECKING:
+    import zenoh
+
+Received = Callable[[bytes, "bytes | None"], None]
+"""Called with the payload and the attachment of a sample."""
+
+TokenSeen = Callable[[str, bool], None]
+"""Called with the key of a liveliness token, and whether it came (or went)."""
+
+
+class Declared:
+    """Something that a session has declared; `declare` makes it in a Zenoh session."""
+
+    def __init__(self, session: Session, declare: Callable[[Any], Any]) -> None:
+        self._session = session
+        self.declare = declare
+        self.inner: Any = None
+
+    def undeclare(self) -> None:
+        """Take it back; a second time does nothing."""
+        self._session.forget(self)
+
+
+class Publisher(Declared):
+    """Sends payloads to the subscribers of a key."""
+
+    def put(self, payload: bytes, attachment: bytes) -> None:
+        """Send one sample; waits at most `WAIT_BEFORE_DROP` for a link that is full."""
+        self.inner.put(payload, attachment=attachment)
+
+    def is_matched(self) -> bool:
+        """Whether anybody subscribes."""
+        return bool(self.inner.matching_status)
+
+
+class Querier(Declared):
+    """Asks the queryables of a key."""
+
+    def get(self, payload: bytes, attachment: bytes, replied: Received, done: Callable[[], None]) -> None:
+        """Ask; `replied` gets each reply, and `done` is called when all have replied or the time is over."""
+        import zenoh
+
+        def take(reply: zenoh.Reply) -> None:
+            sample = reply.ok
+            if sample is not None:
+                replied(sample.payload.to_bytes(), _bytes(sample.attachment))
+
+        self.inner.get(zenoh.handlers.Callback(take, done, indirect=False), payload=payload, attachment=attachment)
+
+
+class Query:
+    """A request that has come in: `answer` once, or `drop`."""
+
+    __slots__ = ("_key", "_query", "attachment", "payload")
+
+    def __init__(self, query: zenoh.Query, key: str) -> None:
+        self._query = query
+        self._key = key
+        self.payload = _bytes(query.payload) or b""
+        self.attachment = _bytes(query.attachment)
+
+    def answer(self, payload: bytes, attachment: bytes) -> None:
+        """Send the one reply."""
+        with self._query as query:
+            query.reply(self._key, payload, attachment=attachment)
+
+    def drop(self) -> None:
+        """End the request without a reply."""
+        self._query.drop()
+
+
+class Session:
+    """A session of one domain; made by `open_session`. All methods may be called from any thread but Zenoh's own."""
+
+    def __init__(self, domain: int) -> None:
+        self.domain = domain
+        self.zid = f"{secrets.randbits(128) | 1 << 127:032x}"
+        """The session's id: 32 hexadecimal digits, the first not 0."""
+        self._lock = threading.Lock()
+        self._declared: dict[Declared, None] = {}
+        self._open()
+
+    def _open(self) -> None:
+        import zenoh
+
+        folder = domain_folder(self.domain)
+        self.socket: Socket = own_socket(folder, self.zid)
+        with folder_lock(folder):
+            self.joined = tuple(live_sockets(folder))
+            """The sockets that were there, and that this session connects to."""
+            settings = session_settings(self.zid, self.socket.path, [each.path for each in self.joined])
+            self._zenoh = zenoh.open(zenoh.Config.from_json5(json.dumps(settings)))
+
+    def close(self) -> None:
+        """Leave the mesh; what was declared is gone. A second time does nothing."""
+        self._zenoh.close()
+        self.socket.remove()
+
+    def is_closed(self) -> bool:
+        """Whether it was closed."""
+        return self._zenoh.is_closed()
+
+    def declare_publisher(self, key: str, *, reliable: bool = True, cache: int = 0) -> Publisher:
+        """Make a publisher; with a `cache` late subscribers get as many of its last samples."""
+        import zenoh
+
+        quality: dict[str, Any] = {
+            "reliability": zenoh.Reliability.RELIABLE if reliable else zenoh.Reliability.BEST_EFFORT,
+            "congestion_control": zenoh.CongestionControl.DROP,
+        }
+        ext = zenoh.ext
+
+        def declare(session: zenoh.Session) -> Any:
+            if not cache:
+                return session.declare_publisher(key, **quality)
+            heartbeat = ext.MissDetectionConfig(heartbeat=None, sporadic_heartbeat=0.5) if reliable else None
+            return ext.declare_advanced_publisher(
+                *(session, key),
+                **quality,
+                cache=ext.CacheConfig(cache),
+                sample_miss_detection=heartbeat,
+                publisher_detection=True,
+            )
+
+        return self._declare(Publisher(self, declare))
+
+    def declare_subscriber(
+        self, key: str, received: Received, *, reliable: bool = True, history: int | None = None
+    ) -> Declared:
+        """Make a subscriber; with a `history` it asks publishers for as many of their last samples."""
+        import zenoh
+
+        def take(sample: zenoh.Sample) -> None:
+            received(sample.payload.to_bytes(), _bytes(sample.attachment))
+
+        ext = zenoh.ext
+
+        def declare(session: zenoh.Session) -> Any:
+            callback = zenoh.handlers.Callback(take, indirect=False)
+            if history is None:
+                return session.declare_subscriber(key, callback)
+            return ext.declare_advanced_subscriber(
+                *(session, key, callback),
+                history=ext.HistoryConfig(detect_late_publishers=True, max_samples=history),
+                recovery=ext.RecoveryConfig(periodic_queries=None, heartbeat=True) if reliable else None,
+                subscriber_detection=True,
+            )
+
+        return self._declare(Declared(self, declare))
+
+    def declare_queryable(self, key: str, asked: Callable[[Query], None]) -> Declared:
+        """Answer the requests of a key."""
+        import zenoh
+
+        def take(query: zenoh.Query) -> None:
+            asked(Query(query, key))
+
+        return self._declare(
+            Declared(
+                self,
+                lambda session: session.declare_queryable(
+                    key, zenoh.handlers.Callback(take, indirect=False), complete=True
+                ),
+            )
+        )
+
+    def declare_querier(self, key: str, timeout: float) -> Querier:
+        """Ask all queryables of a key, and end each request after `timeout` (s)."""
+        import zenoh
+
+        return self._declare(
+            Querier(
+                self,
+                lambda session: session.declare_querier(
+                    key,
+                    target=zenoh.QueryTarget.ALL_COMPLETE,
+                    consolidation=zenoh.ConsolidationMode.NONE,
+                    congestion_control=zenoh.CongestionControl.DROP,
+                    timeout=timeout,
+                ),
+            )
+        )
+
+    def declare_token(self, key: str) -> Declared:
+        """Show something in the graph for as long as this process lives."""
+        return self._declare(Declared(self, lambda session: session.liveliness().declare_token(key)))
+
+    def watch_tokens(self, key: str, seen: TokenSeen) -> Declared:
+        """Call back for each token that is there, comes or goes; `key` may have wildcards."""
+        import zenoh
+
+        def take(sample: zenoh.Sample) -> None:
+            seen(str(sample.key_expr), sample.kind == zenoh.SampleKind.PUT)
+
+        return self._declare(
+            Declared(
+                self,
+                lambda session: session.liveliness().declare_subscriber(
+                    key, zenoh.handlers.Callback(take, indirect=False), history=True
+                ),
+            )
+        )
+
+    def ask_tokens(self, key: str, seen: Callable[[str], None], done: Callable[[], None], timeout: float) -> None:
+        """Call back once for each token that is there now, then `done`, after at most `timeout` (s)."""
+        import zenoh
+
+        def take(reply: zenoh.Reply) -> None:
+            if reply.ok is not None:
+                seen(str(reply.ok.key_expr))
+
+        self._zenoh.liveliness().get(key, zenoh.handlers.Callback(take, done, indirect=False), timeout=timeout)
+
+    def linked(self) -> set[str]:
+        """The ids of the sessions that this one has a link to."""
+        return {str(each) for each in self._zenoh.info.peers_zid()}
+
+    def watch_links(self, changed: Callable[[str, bool], None]) -> Declared:
+        """Call back with the id of each session that is or gets linked (True) or is lost (False)."""
+        import zenoh
+
+        def take(event: zenoh.TransportEvent) -> None:
+            changed(str(event.transport.zid), event.kind == zenoh.SampleKind.PUT)
+
+        return self._declare(
+            Declared(
+                self,
+                lambda session: session.info.declare_transport_events_listener(
+                    zenoh.handlers.Callback(take, indirect=False), history=True
+                ),
+            )
+        )
+
+    def _declare(self, thing: Any) -> Any:
+        with self._lock:
+            thing.inner = thing.declare(self._zenoh)
+            self._declared[thing] = None
+        return thing
+
+    def forget(self, thing: Declared) -> None:
+        """Take back what was declared."""
+        with self._lock:
+            if self._declared.pop(thing, 0) is None:
+                thing.inner.undeclare()
+
+
+def open_session(domain: int) -> Session:
+    """Join the mesh of a domain: listen on a socket in its folder and connect to all others there.
+
+    Raises `FolderRefusedError` and `PathTooLongError`, whose texts say how to mend it.
+    """
+    return Session(domain)
+
+
+def _bytes(data: Any) -> bytes | None:
+    return None if data is None else data.to_bytes()

@@ -1,0 +1,89 @@
+"""Two sessions in one domain: they find each other, and what they declare works."""
+
+import os
+import threading
+
+import pytest
+from bot_console.runtime.rmw.zenoh.session import Session, open_session
+
+PATIENCE = 20.0
+
+
+@pytest.fixture
+def pair(socket_folder):
+    one, two = open_session(0), open_session(0)
+    linked = threading.Event()
+    two.watch_links(lambda zid, on: linked.set())
+    assert linked.wait(PATIENCE)
+    yield one, two
+    one.close()
+    two.close()
+
+
+def ask(session: Session, key: str, payload: bytes) -> list[tuple[bytes, bytes | None]]:
+    replies: list[tuple[bytes, bytes | None]] = []
+    done = threading.Event()
+    querier = session.declare_querier(key, PATIENCE)
+    querier.get(payload, b"ask", lambda *reply: replies.append(reply), done.set)
+    assert done.wait(PATIENCE)
+    return replies
+
+
+def tokens(session: Session, key: str) -> set[str]:
+    seen: set[str] = set()
+    done = threading.Event()
+    session.ask_tokens(key, seen.add, done.set, PATIENCE)
+    assert done.wait(PATIENCE)
+    return seen
+
+
+def test_each_knows_the_other(pair):
+    one, two = pair
+    assert (one.linked(), two.linked()) == ({two.zid}, {one.zid})
+
+
+def test_a_late_subscriber_gets_what_was_kept(pair):
+    one, two = pair
+    publisher = one.declare_publisher("t", cache=2)
+    for payload in (b"1", b"2", b"3"):
+        publisher.put(payload, b"a")
+    got: list[tuple[bytes, bytes | None]] = []
+    both = threading.Event()
+
+    def received(payload: bytes, attachment: bytes | None) -> None:
+        got.append((payload, attachment))
+        if len(got) == 2:
+            both.set()
+
+    two.declare_subscriber("t", received, history=2)
+    assert both.wait(PATIENCE)
+    assert got == [(b"2", b"a"), (b"3", b"a")]
+
+
+def test_a_question_is_answered_until_it_is_taken_back(pair):
+    one, two = pair
+    queryable = one.declare_queryable("s", lambda query: query.answer(query.payload * 2, b"answer"))
+    assert ask(two, "s", b"x") == [(b"xx", b"answer")]
+    queryable.undeclare()
+    queryable.undeclare()
+    assert ask(two, "s", b"x") == []
+
+
+def test_tokens_are_seen_until_their_session_ends(pair):
+    one, two = pair
+    one.declare_token("k/1")
+    came, went = threading.Event(), threading.Event()
+    two.watch_tokens("k/**", lambda key, there: (came if there else went).set())
+    assert came.wait(PATIENCE)
+    assert tokens(two, "k/**") == {"k/1"}
+    one.close()
+    assert went.wait(PATIENCE)
+
+
+def test_a_session_that_ends_takes_its_socket_away(pair, socket_folder):
+    one, two = pair
+    assert len(os.listdir(os.path.join(socket_folder, "0"))) == 4
+    one.close()
+    two.close()
+    two.close()
+    assert os.listdir(os.path.join(socket_folder, "0")) == []
