@@ -1,0 +1,75 @@
+"""What is declared is imported, what is imported is declared, and the documentation gives a reason for each."""
+
+import ast
+import re
+import sys
+from pathlib import Path
+
+import pytest
+
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    tomllib = pytest.importorskip("tomli")
+
+ROOT = Path(__file__).resolve().parents[2]
+FOLDERS = ("tui", "runtime", "nodes", "launch")
+IMPORT_NAMES = {"pyyaml": "yaml", "eclipse-zenoh": "zenoh", "google-re2": "re2"}
+BUILD_ONLY = {"rosbags"}
+"""Imported by what runs at build time alone (`runtime/rosidl/standard.py`)."""
+
+
+def project():
+    return tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+
+
+def import_names(requirements):
+    distributions = {re.match(r"[A-Za-z0-9_.-]+", each)[0].lower() for each in requirements}
+    return {IMPORT_NAMES.get(each, each) for each in distributions}
+
+
+def imported():
+    """Top-level names that any file imports, late imports and optional ones included."""
+    names = set()
+    for path in (path for folder in FOLDERS for path in (ROOT / folder).rglob("*.py")):
+        if "generated" in path.parts:
+            continue
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.Import):
+                names |= {alias.name.split(".")[0] for alias in node.names}
+            elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+                names.add(node.module.split(".")[0])
+    return names
+
+
+def ros_names():
+    """What the runtime serves under ROS names: its own folders, generated interfaces, the robot's package."""
+    runtime = ROOT / "runtime"
+    folders = {path.name for path in (*runtime.iterdir(), *(runtime / "rosidl" / "generated").iterdir())}
+    return folders | {"bot_console", "bot_console_robot", "intelligent_robot"}
+
+
+def test_what_is_declared_is_imported():
+    assert import_names(project()["dependencies"]) - imported() == set()
+
+
+def test_what_is_imported_is_declared():
+    extras = project()["optional-dependencies"]
+    optional = [line for name, lines in extras.items() if name != "dev" for line in lines]
+    known = (
+        import_names([*project()["dependencies"], *optional]) | BUILD_ONLY | ros_names() | set(sys.stdlib_module_names)
+    )
+    assert imported() - known == set()
+
+
+def test_each_dependency_has_its_reason():
+    page = (ROOT / "docs" / "dependencies.md").read_text(encoding="utf-8")
+    missing = [name for name in sorted(import_names(project()["dependencies"])) if f"| `{name}` |" not in page]
+    assert missing == []
+
+
+def test_every_textual_that_may_be_installed_is_one_the_terminal_knows():
+    bounds = next(each for each in project()["dependencies"] if each.startswith("textual"))
+    gate = re.search(r'startswith\("(\d+)\.(\d+)\."\)', (ROOT / "tui" / "terminal" / "output.py").read_text())
+    major, minor = map(int, gate.groups())
+    assert bounds == f"textual>={major}.{minor},<{major}.{minor + 1}"
