@@ -31,7 +31,7 @@ BUSY = 0.03
 """Seconds after which is looked again whether earlier output has left."""
 
 SUPPORTED = version("textual").startswith("8.2.")
-"""Follows the bounds in `pyproject.toml`; somebody who overrules those gets Textual's own drawing, not a broken screen."""
+"""Follows the bounds in `pyproject.toml`; who overrules those gets Textual's own drawing, not a broken screen."""
 
 
 class SparingApp(App[None]):

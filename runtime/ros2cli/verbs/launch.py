@@ -19,13 +19,7 @@ def _arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="There is no terminal: launch itself sends SIGINT to the processes",
     )
-    parser.add_argument(
-        "-d",
-        "--debug",
-        default=False,
-        action="store_true",
-        help="Log everything, with tracebacks",
-    )
+    parser.add_argument("-d", "--debug", default=False, action="store_true", help="Log everything, with tracebacks")
     what = parser.add_mutually_exclusive_group()
     what.add_argument(
         "-p",

@@ -1,0 +1,40 @@
+"""The limits of the style page: what a reader is asked to hold in the head at once."""
+
+import ast
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+SOURCES = ("tui", "runtime", "nodes", "launch", "tools")
+FILE_LIMIT = 400
+FUNCTION_LIMIT = 60
+FILES = sorted(
+    path
+    for folder in (*SOURCES, "tests/helpers")
+    for path in (ROOT / folder).rglob("*.py")
+    if "generated" not in path.parts
+)
+
+
+def test_files_are_found():
+    assert len(FILES) > 500
+
+
+@pytest.mark.parametrize("folder", (*SOURCES, "tests/helpers"))
+def test_no_file_is_longer_than_the_limit(folder):
+    inside = [path for path in FILES if path.is_relative_to(ROOT / folder)]
+    long = {str(path.relative_to(ROOT)): n for path in inside if (n := len(path.read_text().splitlines())) > FILE_LIMIT}
+    assert long == {}
+
+
+@pytest.mark.parametrize("folder", (*SOURCES, "tests/helpers"))
+def test_no_function_is_longer_than_the_limit(folder):
+    long = {}
+    for path in (path for path in FILES if path.is_relative_to(ROOT / folder)):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+                lines = (node.end_lineno or node.lineno) - node.lineno + 1
+                if lines > FUNCTION_LIMIT:
+                    long[f"{path.relative_to(ROOT)}:{node.lineno} {node.name}"] = lines
+    assert long == {}
