@@ -7,6 +7,7 @@ import math
 
 import pymunk
 from intelligent_robot.simulation.geometry import Disc, Pose, closed
+from intelligent_robot.simulation.memory import Memory
 from intelligent_robot.simulation.moving import MovingObstacle
 from intelligent_robot.simulation.world import World
 
@@ -20,10 +21,15 @@ SLOP = 0.001
 
 
 class Space:
-    """The physics of one world with a round robot in it; the caller sets its velocity before each step."""
+    """The physics of one world with a round robot in it; the caller sets its velocity before each step.
+
+    It owns the bodies of the movers too: they may not be used when it is gone.
+    """
 
     def __init__(self, world: World, movers: list[MovingObstacle], pose: Pose, radius: float) -> None:
+        self._memory = Memory()
         self._space = pymunk.Space()
+        self._memory.take(self._space, self._space.static_body)
         self._space.collision_slop = SLOP
         self._kinds: dict[pymunk.Shape, str] = {}
         self._radius = radius
@@ -33,8 +39,12 @@ class Space:
         self.body = pymunk.Body(MASS, pymunk.moment_for_circle(MASS, 0, radius))
         hull = pymunk.Circle(self.body, radius)
         hull.filter = ROBOT
+        self._memory.take(self.body, hull)
         self._space.add(self.body, hull)
         self.place(pose)
+
+    def __del__(self) -> None:
+        self._memory.free()
 
     def _add_still(self, world: World) -> None:
         still = self._space.static_body
@@ -50,7 +60,9 @@ class Space:
     def _add(self, shape: pymunk.Shape, kind: str, body: pymunk.Body | None = None) -> None:
         shape.filter = OBSTACLE
         self._kinds[shape] = kind
-        self._space.add(*((body, shape) if body else (shape,)))
+        parts = (body, shape) if body else (shape,)
+        self._memory.take(*parts)
+        self._space.add(*parts)
 
     def place(self, pose: Pose) -> None:
         """Put the robot somewhere, at rest."""

@@ -1,0 +1,146 @@
+"""Simulated robots started, reset and ended in every way in one program; it survives all of them or dies of a fault.
+
+Usage: python simulator_ends.py ROUNDS SEED. Prints how many of each kind there were, as JSON, and ends while the last
+robots still drive, as a console that is quit does.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import gc
+import json
+import random
+import sys
+import threading
+from collections import Counter
+
+from bot_console.runtime.importer import install
+from bot_console.runtime.process import NodeProcess
+
+install()
+sys.setswitchinterval(0.0005)
+
+import rclpy
+from geometry_msgs.msg import Twist
+from intelligent_robot import simulator_node
+from rcl_interfaces.srv import SetParameters
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.parameter import Parameter
+from std_srvs.srv import Trigger
+
+PATIENCE = 30.0
+WORLDS = ("indoor", "outdoor", "warehouse", "competition")
+KINDS = ("interrupt", "terminate", "kill", "stop", "reset", "world", "kill while it resets")
+
+
+class Person:
+    """Drives a robot into walls and asks for resets, in a domain of its own."""
+
+    def __init__(self, domain: int) -> None:
+        self._context = Context()
+        rclpy.init(context=self._context, domain_id=domain)
+        self._node = rclpy.create_node("person", context=self._context, enable_rosout=False)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self._node)
+        self._commands = self._node.create_publisher(Twist, "cmd_vel", 10)
+        self._resets = self._node.create_client(Trigger, "reset")
+        self._setter = self._node.create_client(SetParameters, "simulator/set_parameters")
+
+    def drive(self) -> None:
+        """Full speed ahead."""
+        command = Twist()
+        command.linear.x, command.angular.z = 2.0, 0.3
+        self._commands.publish(command)
+
+    def wait(self) -> None:
+        """Until the simulator serves."""
+        assert self._resets.wait_for_service(PATIENCE), "the simulator has not come up"
+
+    def reset(self, *, wait: bool = True) -> None:
+        """Ask for a reset."""
+        future = self._resets.call_async(Trigger.Request())
+        if wait:
+            self._executor.spin_until_future_complete(future, PATIENCE)
+            answer = future.result()
+            assert answer and answer.success
+
+    def world(self, name: str) -> None:
+        """Another world from the next reset on."""
+        value = Parameter("world", value=name).to_parameter_msg()
+        future = self._setter.call_async(SetParameters.Request(parameters=[value]))
+        self._executor.spin_until_future_complete(future, PATIENCE)
+        answer = future.result()
+        assert answer and answer.results[0].successful
+
+    def close(self) -> None:
+        """Leave."""
+        self._node.destroy_node()
+        self._context.try_shutdown()
+
+
+def start(domain: int) -> NodeProcess:
+    """A simulator as a launch would start it."""
+    process = NodeProcess("simulator")
+    words = ["simulator", "--ros-args", "-p", f"world:={WORLDS[domain % len(WORLDS)]}"]
+    process.start(simulator_node.main, argv=words, env={"ROS_DOMAIN_ID": str(domain)}, stdout=_drop, stderr=_drop)
+    return process
+
+
+def _drop(_: str) -> None:
+    pass
+
+
+def play(kind: str, domain: int, chance: random.Random) -> None:
+    """One start, a little driving, and one end."""
+    process, person = start(domain), Person(domain)
+    person.wait()
+    person.drive()
+    threading.Event().wait(chance.uniform(0.0, 0.02))
+    if kind == "reset":
+        for _ in range(3):
+            person.reset()
+    elif kind == "world":
+        person.world(chance.choice(WORLDS))
+        person.reset()
+    elif kind == "kill while it resets":
+        person.reset(wait=False)
+        threading.Event().wait(chance.uniform(0.0, 0.01))
+    person.close()
+    {"interrupt": process.interrupt, "terminate": process.terminate, "stop": process.stop}.get(kind, process.kill)()
+    assert process.wait(PATIENCE) is not None, process.line()
+
+
+def main(rounds: int, seed: int) -> None:
+    """Play, four at a time, beside a thread that collects garbage all the time."""
+    done: Counter[str] = Counter()
+    over = threading.Event()
+    rest = list(range(rounds))
+
+    def collect() -> None:
+        while not over.wait(0.002):
+            gc.collect()
+
+    def work() -> None:
+        with contextlib.suppress(IndexError):
+            while True:
+                number = rest.pop()
+                kind = KINDS[number % len(KINDS)]
+                play(kind, 3000 + number, random.Random(seed + number))
+                done[kind] += 1
+
+    workers = [threading.Thread(target=work) for _ in range(4)]
+    for each in [*workers, threading.Thread(target=collect, daemon=True)]:
+        each.start()
+    for each in workers:
+        each.join()
+    over.set()
+    last = [start(9000 + number) for number in range(2)]
+    threading.Event().wait(0.2)
+    print(json.dumps(done), flush=True)
+    for each in last:
+        each.kill()
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]), int(sys.argv[2]))

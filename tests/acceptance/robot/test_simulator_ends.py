@@ -1,0 +1,36 @@
+"""Simulated robots are started, reset and ended in every way, by threads at once: the physics does not crash."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+PROGRAM = Path(__file__).with_name("simulator_ends.py")
+KINDS = 7
+
+
+def ends(rounds: int, seed: int, patience: float) -> None:
+    """Run the program; a segmentation fault is an exit code of -11."""
+    line = [sys.executable, "-X", "faulthandler", str(PROGRAM), str(rounds), str(seed)]
+    environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
+    done = subprocess.run(line, env=environment, capture_output=True, text=True, timeout=patience, check=False)
+    assert done.returncode == 0, done.stderr[-3000:]
+    counts = json.loads(done.stdout)
+    assert len(counts) == KINDS and sum(counts.values()) == rounds
+
+
+@pytest.mark.timeout(120)
+def test_a_few_of_each_kind() -> None:
+    ends(14, 1, 100.0)
+
+
+@pytest.mark.soak
+@pytest.mark.timeout(900)
+def test_five_hundred_of_all_kinds() -> None:
+    for seed in range(10):
+        ends(50, seed, 400.0)
