@@ -30,7 +30,7 @@ class CustomBuildHook(BuildHookInterface):
                 link(root / folder, links / folder)
             # The type checker's way to the package name that the importer serves.
             (root / "build" / "types").mkdir(parents=True, exist_ok=True)
-            link(root / "nodes", root / "build" / "types" / "intelligent_robot")
+            link(root / "nodes", root / "build" / "types" / "bot_console_robot")
 
 
 def link(target: Path, place: Path) -> None:

@@ -8,7 +8,7 @@ from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
 
 from launch import LaunchDescription
 
-PACKAGE = "intelligent_robot"
+PACKAGE = "bot_console_robot"
 
 
 def generate_launch_description():

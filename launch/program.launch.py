@@ -10,7 +10,7 @@ from launch_ros.actions import Node
 
 from launch import LaunchDescription
 
-PACKAGE = "intelligent_robot"
+PACKAGE = "bot_console_robot"
 
 
 def generate_launch_description():

@@ -14,7 +14,7 @@ from launch_ros.parameter_descriptions import ParameterValue
 
 from launch import LaunchDescription
 
-PACKAGE = "intelligent_robot"
+PACKAGE = "bot_console_robot"
 PROFILES = ["indoor", "outdoor", "warehouse", "competition"]
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 import math
 
+from bot_console_robot.motion import Gains, VelocityController, WaypointFollower
+from bot_console_robot.parameters import number, plain
+from bot_console_robot.running import run
 from geometry_msgs.msg import PoseStamped, Quaternion, Twist
-from intelligent_robot.motion import Gains, VelocityController, WaypointFollower
-from intelligent_robot.parameters import number, plain
-from intelligent_robot.running import run
 from nav_msgs.msg import Odometry, Path
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node

@@ -6,11 +6,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from bot_console_robot.avoidance import Avoidance, Rules
+from bot_console_robot.parameters import accepted, number, plain, refused, whole
+from bot_console_robot.running import run
+from bot_console_robot.scans import intensities_of, ranges_of
 from geometry_msgs.msg import Twist
-from intelligent_robot.avoidance import Avoidance, Rules
-from intelligent_robot.parameters import accepted, number, plain, refused, whole
-from intelligent_robot.running import run
-from intelligent_robot.scans import intensities_of, ranges_of
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node
 from rclpy.parameter import Parameter

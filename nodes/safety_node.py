@@ -6,13 +6,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+from bot_console_robot.arbitration import Arbiter, Command, Verdict, limit, nearest_ahead
+from bot_console_robot.diagnostics import ERROR, OK, WARN, status
+from bot_console_robot.parameters import accepted, number, proposed, refused
+from bot_console_robot.running import CannotStart, run
+from bot_console_robot.scans import ranges_of
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist
-from intelligent_robot.arbitration import Arbiter, Command, Verdict, limit, nearest_ahead
-from intelligent_robot.diagnostics import ERROR, OK, WARN, status
-from intelligent_robot.parameters import accepted, number, proposed, refused
-from intelligent_robot.running import CannotStart, run
-from intelligent_robot.scans import ranges_of
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node

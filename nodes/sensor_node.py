@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
+from bot_console_robot.detection import Detection, find, median_of_three, strong
+from bot_console_robot.parameters import number, plain, whole
+from bot_console_robot.running import run
+from bot_console_robot.scans import intensities_of, packed, ranges_of
 from geometry_msgs.msg import Pose, PoseArray
-from intelligent_robot.detection import Detection, find, median_of_three, strong
-from intelligent_robot.parameters import number, plain, whole
-from intelligent_robot.running import run
-from intelligent_robot.scans import intensities_of, packed, ranges_of
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from sensor_msgs.msg import LaserScan

@@ -6,14 +6,14 @@ import math
 from array import array
 from collections.abc import Iterable
 
+from bot_console_robot.scans import packed
+from bot_console_robot.simulation.arrays import Floats
+from bot_console_robot.simulation.geometry import Point, Pose
+from bot_console_robot.simulation.lidar import LidarSettings, Scan
+from bot_console_robot.simulation.occupancy import occupancy_grid
+from bot_console_robot.simulation.world import World
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseStamped, Quaternion
-from intelligent_robot.scans import packed
-from intelligent_robot.simulation.arrays import Floats
-from intelligent_robot.simulation.geometry import Point, Pose
-from intelligent_robot.simulation.lidar import LidarSettings, Scan
-from intelligent_robot.simulation.occupancy import occupancy_grid
-from intelligent_robot.simulation.world import World
 from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from sensor_msgs.msg import LaserScan
 from visualization_msgs.msg import Marker, MarkerArray

@@ -5,15 +5,15 @@ from __future__ import annotations
 
 import json
 
+from bot_console_robot import simulator_messages as messages
+from bot_console_robot.parameters import accepted, refused
+from bot_console_robot.running import CannotStart, run
+from bot_console_robot.simulation.geometry import Pose
+from bot_console_robot.simulation.simulation import STEP, STEP_NS, Simulation
+from bot_console_robot.simulation.world import WorldError
+from bot_console_robot.simulator_parameters import declare, problem, settings
+from bot_console_robot.worlds import find_world
 from geometry_msgs.msg import PoseWithCovarianceStamped, Twist
-from intelligent_robot import simulator_messages as messages
-from intelligent_robot.parameters import accepted, refused
-from intelligent_robot.running import CannotStart, run
-from intelligent_robot.simulation.geometry import Pose
-from intelligent_robot.simulation.simulation import STEP, STEP_NS, Simulation
-from intelligent_robot.simulation.world import WorldError
-from intelligent_robot.simulator_parameters import declare, problem, settings
-from intelligent_robot.worlds import find_world
 from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import Clock, ClockType

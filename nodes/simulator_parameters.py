@@ -6,11 +6,11 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
-from intelligent_robot.parameters import number, plain, proposed, whole
-from intelligent_robot.simulation.lidar import LidarSettings
-from intelligent_robot.simulation.odometry import OdometryNoise
-from intelligent_robot.simulation.robot import DriveLimits
-from intelligent_robot.simulation.simulation import Settings
+from bot_console_robot.parameters import number, plain, proposed, whole
+from bot_console_robot.simulation.lidar import LidarSettings
+from bot_console_robot.simulation.odometry import OdometryNoise
+from bot_console_robot.simulation.robot import DriveLimits
+from bot_console_robot.simulation.simulation import Settings
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.node import Node
 from rclpy.parameter import Parameter

@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
+from bot_console_robot.diagnostics import OK, WARN, status
+from bot_console_robot.parameters import number, plain
+from bot_console_robot.running import run
+from bot_console_robot.scans import nearest_return
+from bot_console_robot.trip import Trip
 from diagnostic_msgs.msg import DiagnosticArray
-from intelligent_robot.diagnostics import OK, WARN, status
-from intelligent_robot.parameters import number, plain
-from intelligent_robot.running import run
-from intelligent_robot.scans import nearest_return
-from intelligent_robot.trip import Trip
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
 from rclpy.parameter import Parameter

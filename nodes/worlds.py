@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
-from intelligent_robot.simulation.world import World, WorldError
-from intelligent_robot.simulation.world_file import load_world
+from bot_console_robot.simulation.world import World, WorldError
+from bot_console_robot.simulation.world_file import load_world
 
-PACKAGE = "intelligent_robot"
+PACKAGE = "bot_console_robot"
 
 
 def find_world(name: str) -> World:

@@ -37,8 +37,10 @@ PACKAGES = (
     "rosidl_runtime_py",
 )
 ALIAS = "bot_console.runtime."
-OWN_PACKAGE = "intelligent_robot"
+OWN_PACKAGE = "bot_console_robot"
 """The ROS package that the folder `nodes/` is."""
+OWN_PACKAGES = (OWN_PACKAGE, "intelligent_robot")
+"""Its two names; the second means it where the workspace has no package of that name."""
 
 
 class RosFinder:
@@ -51,40 +53,50 @@ class RosFinder:
         if path is None:
             return self._find_package(fullname)
         if fullname.startswith(ALIAS) and fullname[len(ALIAS) :].split(".", maxsplit=1)[0] in PACKAGES:
-            loader: Any = _AliasLoader(fullname[len(ALIAS) :])
-            return ModuleSpec(fullname, loader)
+            return _alias(fullname, fullname[len(ALIAS) :])
+        top, _, rest = fullname.partition(".")
+        if top in OWN_PACKAGES[1:] and getattr(sys.modules.get(top), "__name__", top) == OWN_PACKAGE:
+            return _alias(fullname, f"{OWN_PACKAGE}.{rest}")
         return None
 
     def _find_package(self, name: str) -> ModuleSpec | None:
         if name in PACKAGES:
             return PathFinder.find_spec(name, [RUNTIME])
-        if name == OWN_PACKAGE:
-            return _own_package()
+        if name in OWN_PACKAGES:
+            return _own_package(name)
         if os.path.isdir(os.path.join(GENERATED, name)) and not (name in EXAMPLES and name in interface_folders()):
             return PathFinder.find_spec(name, [GENERATED])
         return None
 
 
-def _own_package() -> ModuleSpec | None:
-    """`intelligent_robot` where the workspace has a package of that name, else our own nodes."""
+def _own_package(name: str) -> ModuleSpec | None:
+    """What one of our names means: the package of that name of a workspace or a path, else our own nodes."""
     from importlib.util import spec_from_file_location
 
     from bot_console.runtime.workspace.discover import workspace
 
-    theirs = workspace().packages[OWN_PACKAGE].modules.get(OWN_PACKAGE)
-    folder = os.path.join(os.path.dirname(RUNTIME), "nodes") if theirs is None else os.fspath(theirs)
-    init = os.path.join(folder, "__init__.py")
-    return spec_from_file_location(OWN_PACKAGE, init, submodule_search_locations=[folder])
+    theirs = workspace().packages.get(name)
+    folder = None if theirs is None else theirs.modules.get(name)
+    if folder is None and name != OWN_PACKAGE:
+        beside = PathFinder.find_spec(name)
+        return beside if beside is not None and beside.loader is not None else _alias(name, OWN_PACKAGE)
+    place = os.path.join(os.path.dirname(RUNTIME), "nodes") if folder is None else os.fspath(folder)
+    return spec_from_file_location(name, os.path.join(place, "__init__.py"), submodule_search_locations=[place])
+
+
+def _alias(name: str, stands_for: str) -> ModuleSpec:
+    loader: Any = _AliasLoader(stands_for)
+    return ModuleSpec(name, loader)
 
 
 class _AliasLoader:
-    """Loads a module by giving the one that stands under its ROS name."""
+    """Loads a module by giving the one that stands under another name."""
 
     def __init__(self, name: str) -> None:
-        self._name = name
+        self.stands_for = name
 
     def create_module(self, spec: ModuleSpec) -> ModuleType:
-        module = importlib.import_module(self._name)
+        module = importlib.import_module(self.stands_for)
         self._spec = module.__spec__
         return module
 
@@ -104,7 +116,7 @@ def node_modules(folders: Sequence[str | os.PathLike[str]] = ()) -> FreshModules
     """
     from bot_console.runtime.process.fresh_import import FreshModules
 
-    return FreshModules([os.fspath(folder) for folder in folders], packages=[OWN_PACKAGE], shared=is_embedded)
+    return FreshModules([os.fspath(folder) for folder in folders], packages=OWN_PACKAGES, shared=is_embedded)
 
 
 _finder = RosFinder()

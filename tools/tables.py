@@ -28,12 +28,12 @@ from ament_index_python.packages import get_package_share_directory  # noqa: E40
 from bot_console.tui.cli import arguments as console_arguments  # noqa: E402
 from bot_console.tui.cli import run as console_run  # noqa: E402
 from bot_console.tui.keymap import TABLE, key_text  # noqa: E402
-from intelligent_robot.controller_node import MotionController  # noqa: E402
-from intelligent_robot.robot_node import RobotNavigator  # noqa: E402
-from intelligent_robot.safety_node import SafetyMonitor  # noqa: E402
-from intelligent_robot.sensor_node import SensorHandler  # noqa: E402
-from intelligent_robot.simulator_node import Simulator  # noqa: E402
-from intelligent_robot.telemetry_node import TelemetryPublisher  # noqa: E402
+from bot_console_robot.controller_node import MotionController  # noqa: E402
+from bot_console_robot.robot_node import RobotNavigator  # noqa: E402
+from bot_console_robot.safety_node import SafetyMonitor  # noqa: E402
+from bot_console_robot.sensor_node import SensorHandler  # noqa: E402
+from bot_console_robot.simulator_node import Simulator  # noqa: E402
+from bot_console_robot.telemetry_node import TelemetryPublisher  # noqa: E402
 from launch.launch_description_sources import get_launch_description_from_any_launch_file  # noqa: E402
 from launch.utilities import perform_substitutions  # noqa: E402
 from rcl_interfaces.msg import ParameterDescriptor  # noqa: E402
@@ -111,7 +111,7 @@ def arguments(file: str) -> str:
 def _argument(argument: Any, context: LaunchContext) -> tuple[str, ...]:
     default = "required"
     if argument.default_value is not None:
-        share = get_package_share_directory("intelligent_robot")
+        share = get_package_share_directory("bot_console_robot")
         text = perform_substitutions(context, argument.default_value).replace(f"{share}/", "")
         default = f"`{text}`" if text else "(empty)"
     choices = ", ".join(f"`{each}`" for each in argument.choices or ())

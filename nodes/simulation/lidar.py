@@ -10,9 +10,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from intelligent_robot.simulation.arrays import Floats, Ints, table
-from intelligent_robot.simulation.geometry import Pose
-from intelligent_robot.simulation.world import World
+from bot_console_robot.simulation.arrays import Floats, Ints, table
+from bot_console_robot.simulation.geometry import Pose
+from bot_console_robot.simulation.world import World
 
 TURN = 2 * math.pi
 EDGE = 1e-9

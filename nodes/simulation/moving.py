@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pymunk
-from intelligent_robot.simulation.geometry import Mover, Point
+from bot_console_robot.simulation.geometry import Mover, Point
 
 PATIENCE = 2.0
 """Seconds they wait before they turn back."""

@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 import numpy.typing as npt
-from intelligent_robot.simulation.arrays import Floats
-from intelligent_robot.simulation.geometry import Point
-from intelligent_robot.simulation.world import World
+from bot_console_robot.simulation.arrays import Floats
+from bot_console_robot.simulation.geometry import Point
+from bot_console_robot.simulation.world import World
 
 FREE, OCCUPIED, UNKNOWN = 0, 100, -1
 

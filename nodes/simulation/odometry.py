@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from intelligent_robot.simulation.geometry import Pose
+from bot_console_robot.simulation.geometry import Pose
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,16 +6,16 @@ import math
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from intelligent_robot.simulation.arrays import Floats, table
-from intelligent_robot.simulation.collisions import CollisionLog
-from intelligent_robot.simulation.geometry import Pose
-from intelligent_robot.simulation.lidar import Lidar, LidarSettings, Scan, Surfaces
-from intelligent_robot.simulation.metrics import Metrics
-from intelligent_robot.simulation.moving import MovingObstacle
-from intelligent_robot.simulation.odometry import Odometry, OdometryNoise
-from intelligent_robot.simulation.robot import DifferentialDrive, DriveLimits
-from intelligent_robot.simulation.space import Space
-from intelligent_robot.simulation.world import World, WorldError, inside, populated
+from bot_console_robot.simulation.arrays import Floats, table
+from bot_console_robot.simulation.collisions import CollisionLog
+from bot_console_robot.simulation.geometry import Pose
+from bot_console_robot.simulation.lidar import Lidar, LidarSettings, Scan, Surfaces
+from bot_console_robot.simulation.metrics import Metrics
+from bot_console_robot.simulation.moving import MovingObstacle
+from bot_console_robot.simulation.odometry import Odometry, OdometryNoise
+from bot_console_robot.simulation.robot import DifferentialDrive, DriveLimits
+from bot_console_robot.simulation.space import Space
+from bot_console_robot.simulation.world import World, WorldError, inside, populated
 
 STEP = 0.01
 """The constant physics step in s. Elapsed wall time decides at most how many steps are made, never how long one is."""

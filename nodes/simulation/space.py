@@ -6,10 +6,10 @@ import itertools
 import math
 
 import pymunk
-from intelligent_robot.simulation.geometry import Disc, Pose, closed
-from intelligent_robot.simulation.memory import Memory
-from intelligent_robot.simulation.moving import MovingObstacle
-from intelligent_robot.simulation.world import World
+from bot_console_robot.simulation.geometry import Disc, Pose, closed
+from bot_console_robot.simulation.memory import Memory
+from bot_console_robot.simulation.moving import MovingObstacle
+from bot_console_robot.simulation.world import World
 
 OBSTACLE = pymunk.ShapeFilter(categories=0b01)
 ROBOT = pymunk.ShapeFilter(categories=0b10)

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from intelligent_robot.simulation.arrays import Floats, table
-from intelligent_robot.simulation.geometry import Block, Disc, Mover, Point, Pose, Wall, closed
+from bot_console_robot.simulation.arrays import Floats, table
+from bot_console_robot.simulation.geometry import Block, Disc, Mover, Point, Pose, Wall, closed
 
 TRIES = 400
 """Random places tried for each scattered disc before it is left out."""

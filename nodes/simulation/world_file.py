@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 import yaml
-from intelligent_robot.simulation.geometry import (
+from bot_console_robot.simulation.geometry import (
     Block,
     Disc,
     Mover,
@@ -20,7 +20,7 @@ from intelligent_robot.simulation.geometry import (
     rounded_rectangle,
     signed_area,
 )
-from intelligent_robot.simulation.world import Scatter, World, WorldError, inside
+from bot_console_robot.simulation.world import Scatter, World, WorldError, inside
 
 T = TypeVar("T")
 Entry = Mapping[str, Any]

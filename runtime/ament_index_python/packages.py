@@ -10,6 +10,8 @@ from pathlib import Path
 from ament_index_python.resources import get_resources, get_search_paths
 from bot_console.runtime.rosidl.texts import PREFIX, standard_packages
 from bot_console.runtime.workspace.discover import workspace
+from bot_console.runtime.workspace.own import NAME as OWN
+from bot_console.runtime.workspace.own import own_is_first
 
 NAME = re.compile(r"^[a-zA-Z0-9][a-zA-Z0-9_-]*$")
 
@@ -23,11 +25,18 @@ def get_packages_with_prefixes() -> dict[str, str]:
 
     The interface packages that come along stand behind those of the user.
     """
-    found = get_resources("packages")
+    found = _installed()
     for name, package in workspace().packages.items():
         found.setdefault(name, str(package.folder))
     for name in standard_packages():
         found.setdefault(name, str(PREFIX))
+    return found
+
+
+def _installed() -> dict[str, str]:
+    found = get_resources("packages")
+    if own_is_first():
+        found.pop(OWN, None)
     return found
 
 
@@ -36,6 +45,8 @@ def get_package_prefix(package_name: str) -> str:
     if not NAME.match(package_name):
         raise ValueError(f"'{package_name}' is not a valid package name")
     found = get_packages_with_prefixes().get(package_name)
+    if found is None and (package := workspace().find(package_name)):
+        found = str(package.folder)
     if found is None:
         raise PackageNotFoundError(f"package '{package_name}' not found, searching: {get_search_paths()}")
     return found
@@ -44,7 +55,7 @@ def get_package_prefix(package_name: str) -> str:
 def get_package_share_directory(package_name: str, print_warning: bool = True) -> str:
     """The share folder of a package: of an installed one `<prefix>/share/<name>`."""
     prefix = get_package_prefix(package_name)
-    if package_name in get_resources("packages"):
+    if package_name in _installed():
         path = os.path.join(prefix, "share", package_name)
         if print_warning and not os.path.exists(path):
             warnings.warn(f"Share directory for {package_name} ({path}) does not exist.", stacklevel=2)

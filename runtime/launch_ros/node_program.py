@@ -11,8 +11,8 @@ from pathlib import Path
 from ament_index_python.packages import PackageNotFoundError, get_package_prefix
 from bot_console.runtime.importer import node_modules
 from bot_console.runtime.process import entry_point_program, file_program
-from bot_console.runtime.workspace.discover import workspace
 from bot_console.runtime.workspace.executables import Executable, executables
+from bot_console.runtime.workspace.program import source_folders
 from launch_ros import component_container
 from launch_ros.component_container import EXECUTABLES
 
@@ -27,11 +27,11 @@ def program_of(package: str | None, path: str) -> Program | None:
     executable = _known(package, path)
     if executable is not None and executable.entry_point is not None:
         entry = executable.entry_point
-        return entry_point_program(f"{entry.module}:{entry.function}", node_modules(_source_folders(executable)))
+        return entry_point_program(f"{entry.module}:{entry.function}", node_modules(source_folders(executable.package)))
     if not _is_python(path):
         return None
-    folders = [os.path.dirname(os.path.abspath(path)), *_prefix_folders(package)]
-    return file_program(path, node_modules(folders))
+    folders = [os.path.dirname(os.path.abspath(path)), *_above_packages(path), *_prefix_folders(package)]
+    return file_program(path, node_modules([*folders, *source_folders()]))
 
 
 def container_path(package: str, executable: str) -> str | None:
@@ -66,12 +66,13 @@ def _known(package: str | None, path: str) -> Executable | None:
         return None
 
 
-def _source_folders(executable: Executable) -> list[str]:
-    """Folders from which the modules of a source package are imported."""
-    package = workspace().packages.get(executable.package)
-    if package is None:
-        return []
-    return list(dict.fromkeys(str(path.parent) for path in package.modules.values()))
+def _above_packages(path: str) -> list[str]:
+    """The folder from which the Python package that a file lies in is imported, so that the file finds its own."""
+    folder = Path(path).resolve().parent
+    inside = folder
+    while (folder / "__init__.py").is_file():
+        folder = folder.parent
+    return [] if folder == inside else [str(folder)]
 
 
 def _prefix_folders(package: str | None) -> list[str]:

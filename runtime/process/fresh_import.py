@@ -32,7 +32,8 @@ class FreshModules:
     """The modules that one node process has for itself.
 
     Its own are those found in `folders` or in what the process adds to `sys.path`; further top-level names in
-    `packages`, wherever they are found. A name for which `shared` is true is never its own.
+    `packages`, wherever they are found. A name for which `shared` is true is never its own. A top-level package whose
+    loader has `stands_for`, another package's name, is that package.
     """
 
     def __init__(
@@ -84,6 +85,11 @@ class FreshModules:
         return _find_spec(top, None) if spec is None and top in self._packages else spec
 
     def _execute(self, name: str) -> ModuleType:
+        top, _, rest = name.partition(".")
+        stands_for = getattr(getattr(self._top_spec(top), "loader", None), "stands_for", None)
+        if stands_for is not None:  # a second name of a package: the same modules
+            module = self._modules[name] = self.load(f"{stands_for}.{rest}" if rest else stands_for)
+            return module
         parent_name, _, child = name.rpartition(".")
         parent: ModuleType | None = None
         if not parent_name:

@@ -10,8 +10,7 @@ from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 
-from bot_console.runtime.workspace.own import NAME as OWN
-from bot_console.runtime.workspace.own import own_package, own_share
+from bot_console.runtime.workspace.own import NAME, PAGE_NAME, is_own, own_is_first, own_package, own_share
 from bot_console.runtime.workspace.package import Package, read_package
 from bot_console.runtime.workspace.share import share_folder
 
@@ -23,35 +22,51 @@ FOLDERS = 20_000
 
 
 class Workspace:
-    """The source packages below some folders; the first of a name wins, and ours comes last."""
+    """The source packages below some folders, and ours; the first of a name wins.
+
+    Ours comes last, but in a launch of our own first.
+    """
 
     def __init__(self, folders: Sequence[Path]) -> None:
         self.folders = tuple(folders)
 
-    @cached_property
+    @property
     def packages(self) -> Mapping[str, Package]:
         """Packages by name."""
+        return self._with_ours_first if own_is_first() else self._with_ours_last
+
+    def find(self, name: str) -> Package | None:
+        """The package that a name means, or None; ours has a second name where no other package has it."""
+        packages = self.packages
+        return packages.get(name) or (packages[NAME] if name == PAGE_NAME else None)
+
+    @cached_property
+    def _with_ours_last(self) -> Mapping[str, Package]:
         found: dict[str, Package] = {}
         budget = [FOLDERS]
         for folder in self.folders:
             for each in _package_folders(folder, DEPTH, budget):
                 package = read_package(each)
                 found.setdefault(package.name, package)
-        found.setdefault(OWN, own_package())
+        found.setdefault(NAME, own_package())
         return MappingProxyType(found)
+
+    @cached_property
+    def _with_ours_first(self) -> Mapping[str, Package]:
+        return MappingProxyType({**self._with_ours_last, NAME: own_package()})
 
     def share(self, name: str) -> Path | None:
         """The share folder of a package, or None when the workspace does not have it."""
-        package = self.packages.get(name)
+        package = self.find(name)
         if package is None:
             return None
-        if name not in self._shares:
-            ours = package.folder == own_package().folder
-            self._shares[name] = own_share(self._links) if ours else share_folder(package, self._links)
-        return self._shares[name]
+        if package.folder not in self._shares:
+            share = own_share(self._links) if is_own(package) else share_folder(package, self._links / "workspace")
+            self._shares[package.folder] = share
+        return self._shares[package.folder]
 
     @cached_property
-    def _shares(self) -> dict[str, Path]:
+    def _shares(self) -> dict[Path, Path]:
         return {}
 
     @cached_property

@@ -27,7 +27,11 @@ class Executable:
 
 def executables(package: str) -> dict[str, Executable]:
     """Executables of a package by name; raises `ament_index_python.PackageNotFoundError` for an unknown package."""
-    source = workspace().packages.get(package)
+    from ament_index_python.resources import get_resources
+
+    source = workspace().find(package)
+    if source is not None and source.name != package and package in get_resources("packages"):
+        source = None  # an installed package has our second name
     found = {} if source is None else _of_source(source)
     if source is None or not found:
         found = {**_of_prefix(package, required=source is None), **found}

@@ -21,7 +21,7 @@ FOLDERS = {
 
 
 def export(folder: Path) -> Path:
-    """Write `<folder>/intelligent_robot`; raises `ValueError` where that exists, and `OSError`."""
+    """Write `<folder>/bot_console_robot`; raises `ValueError` where that exists, and `OSError`."""
     place = folder.expanduser().resolve() / NAME
     if place.exists():
         raise ValueError(f"{place} exists; give another folder, or remove it")

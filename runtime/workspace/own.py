@@ -1,16 +1,21 @@
-"""The package `intelligent_robot` that comes along: the folders `nodes/`, `launch/` and `profiles/`."""
+"""The package `bot_console_robot` that comes along: the folders `nodes/`, `launch/` and `profiles/`."""
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from types import MappingProxyType
 
 from bot_console.runtime.workspace.package import EntryPoint, Package
 from bot_console.runtime.workspace.share import link
 
-NAME = "intelligent_robot"
+NAME = "bot_console_robot"
+PAGE_NAME = "intelligent_robot"
+"""A second name for the same package, where nobody else has taken it: courses call their robot so."""
 ROOT = Path(__file__).resolve().parents[2]
 """Where `nodes/`, `launch/` and `profiles/` lie side by side, in a checkout and in an installed wheel."""
+FIRST_VARIABLE = "BOT_CONSOLE_ROBOT_FIRST"
+"""In the environment of a launch of our own, and so of its processes: our package comes before others of its name."""
 
 
 def own_package() -> Package:
@@ -19,6 +24,16 @@ def own_package() -> Package:
     names = sorted(each.stem for each in nodes.glob("*_node.py"))
     entry_points = {name: EntryPoint(f"{NAME}.{name}", "main") for name in names}
     return Package(NAME, nodes, "ament_python", executables=MappingProxyType(entry_points))
+
+
+def is_own(package: Package) -> bool:
+    """Whether a package is the one that comes along, not one of the user's with its name."""
+    return package.folder == ROOT / "nodes"
+
+
+def own_is_first() -> bool:
+    """Whether the calling process belongs to a launch of our own."""
+    return bool(os.environ.get(FIRST_VARIABLE))
 
 
 def own_share(links: Path) -> Path:

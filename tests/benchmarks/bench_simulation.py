@@ -18,10 +18,10 @@ from bot_console.runtime.importer import install
 install()
 
 import numpy as np
-from intelligent_robot.simulation.geometry import Pose
-from intelligent_robot.simulation.lidar import LidarSettings
-from intelligent_robot.simulation.simulation import Settings, Simulation
-from intelligent_robot.simulation.world_file import load_world, parse_world
+from bot_console_robot.simulation.geometry import Pose
+from bot_console_robot.simulation.lidar import LidarSettings
+from bot_console_robot.simulation.simulation import Settings, Simulation
+from bot_console_robot.simulation.world_file import load_world, parse_world
 
 WORLDS = Path(__file__).resolve().parents[2] / "profiles" / "worlds"
 BUDGET = 0.15

@@ -21,7 +21,7 @@ INLINE = re.compile(
 )
 """A command in a sentence; fewer words only name one."""
 ELSEWHERE = {"python3", "pip", "pytest", "tmux", "cd", "export", "set"}
-PACKAGE, SYSTEM = "intelligent_robot", "robot_system.launch.py"
+PACKAGE, SYSTEM = "bot_console_robot", "robot_system.launch.py"
 ENVIRONMENT = re.compile(r"[A-Z_]+=.*")
 
 

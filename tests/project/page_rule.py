@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from intelligent_robot.simulation.simulation import Simulation
+from bot_console_robot.simulation.simulation import Simulation
 
 SCAN_EVERY = 10
 

@@ -78,8 +78,8 @@ def test_command_lines_can_be_typed(path):
     [
         "bot-console --no-such-option",
         "bot-console nowhere",
-        "bot-console launch intelligent_robot no_such.launch.py",
-        "bot-console launch intelligent_robot robot_system.launch.py no_such_argument:=1",
+        "bot-console launch bot_console_robot no_such.launch.py",
+        "bot-console launch bot_console_robot robot_system.launch.py no_such_argument:=1",
         "bot-console no_such_argument:=1",
         "bot-console run --no-such-option",
         "ros2 param no_such_verb",

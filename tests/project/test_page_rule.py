@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 import yaml
-from intelligent_robot.simulation.geometry import Pose
-from intelligent_robot.simulation.lidar import LidarSettings
-from intelligent_robot.simulation.simulation import Settings, Simulation
-from intelligent_robot.simulation.world import World
-from intelligent_robot.simulation.world_file import load_world
+from bot_console_robot.simulation.geometry import Pose
+from bot_console_robot.simulation.lidar import LidarSettings
+from bot_console_robot.simulation.simulation import Settings, Simulation
+from bot_console_robot.simulation.world import World
+from bot_console_robot.simulation.world_file import load_world
 
 sys.path.insert(0, str(Path(__file__).parent))
 from page_rule import drive

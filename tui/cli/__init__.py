@@ -37,6 +37,9 @@ def _run(words: Words) -> int:
 
 
 def _launch(words: Words) -> int:
+    from bot_console.tui.cli.workspaces import tell_whose
+
+    tell_whose(next((each for each in words if not each.startswith("-")), ""))
     return ros2.main(["launch", *words])
 
 

@@ -16,7 +16,7 @@ from typing import Any
 from bot_console.runtime.importer import install
 from bot_console.runtime.process import MAIN, NodeProcess, on_notice, stepped
 from bot_console.tui.cli.arguments import Options
-from bot_console.tui.cli.workspaces import choose
+from bot_console.tui.cli.workspaces import choose, launch_environment
 
 ROOT = Path(__file__).resolve().parents[2]
 DURATION = 60.0
@@ -41,7 +41,13 @@ def run(options: Options) -> int:
         watching = NodeProcess("observer", clock)
         watching.start(observer.run, argv=["observer"])
         launch = NodeProcess("launch", clock)
-        launch.start(lambda: sys.exit(_launch(options)), argv=["launch"], stdout=_to_stderr, stderr=_to_stderr)
+        launch.start(
+            lambda: sys.exit(_launch(options)),
+            argv=["launch"],
+            env=launch_environment(options.launch),
+            stdout=_to_stderr,
+            stderr=_to_stderr,
+        )
         with contextlib.suppress(KeyboardInterrupt):
             _wait_for(observer, launch, clock.steady_ns() + round((duration + GRACE) * 1e9))
         report = observer.report()

@@ -7,6 +7,7 @@ import shlex
 from pathlib import Path
 
 from bot_console.tui.cli.arguments import Options
+from bot_console.tui.cli.workspaces import tell_whose
 
 PROGRAM_LAUNCH = Path(__file__).resolve().parents[2] / "launch" / "program.launch.py"
 WANTS_ROBOT = (b"cmd_vel", b"LaserScan", b"Odometry")
@@ -18,6 +19,7 @@ def run(words: list[str]) -> int:
     parser = _parser()
     given, rest = parser.parse_known_args(words[: _operand(words)])
     rest += words[_operand(words) :]
+    tell_whose(rest[0] if rest else "")
     if not (given.watch or given.headless):
         from bot_console.runtime.run import main
 

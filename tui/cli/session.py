@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import contextlib
-import os
 import re
 import signal
 import sys
 import threading
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Mapping
 from pathlib import Path
 from types import FrameType
 
@@ -18,7 +17,7 @@ from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.hangup import hangup_as_signal
 from bot_console.tui.cli.vitals import find_vitals
-from bot_console.tui.cli.workspaces import choose, launch_files
+from bot_console.tui.cli.workspaces import choose, launch_environment, launch_files
 from bot_console.tui.console.connection import RosConsole
 from bot_console.tui.console.launcher import RosLauncher
 from bot_console.tui.console.model import LaunchInfo, Severity
@@ -97,7 +96,7 @@ class Session:
 
     def _spawn(self, target: Callable[[], None]) -> Launching:
         """A launch is a node process too, so that what it prints goes to the log."""
-        return Launching(target, self.console.printed)
+        return Launching(target, self.console.printed, launch_environment(self._options.launch))
 
     @contextlib.contextmanager
     def _ended_by_signals(self) -> Generator[None]:
@@ -129,7 +128,9 @@ class Session:
 class Launching:
     """One running launch."""
 
-    def __init__(self, target: Callable[[], None], printed: Callable[[int, str, str], None]) -> None:
+    def __init__(
+        self, target: Callable[[], None], printed: Callable[[int, str, str], None], env: Mapping[str, str]
+    ) -> None:
         self._process = NodeProcess("launch")
 
         def tell(text: str) -> None:
@@ -139,7 +140,7 @@ class Launching:
             elif text.strip():
                 printed(Severity.INFO, "launch", text.rstrip("\n"))
 
-        self._process.start(target, env={**os.environ, **ENVIRONMENT}, stdout=tell, stderr=tell)
+        self._process.start(target, env={**env, **ENVIRONMENT}, stdout=tell, stderr=tell)
 
     def join(self, timeout: float | None = None) -> object:
         """Wait for the end, at most so many seconds."""

@@ -21,8 +21,8 @@ install()
 sys.setswitchinterval(0.0005)
 
 import rclpy
+from bot_console_robot import simulator_node
 from geometry_msgs.msg import Twist
-from intelligent_robot import simulator_node
 from rcl_interfaces.srv import SetParameters
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor

@@ -5,13 +5,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+from bot_console_robot.simulation.geometry import Pose
+from bot_console_robot.simulation.lidar import LidarSettings
+from bot_console_robot.simulation.simulation import Settings, Simulation
+from bot_console_robot.simulation.world import WorldError
+from bot_console_robot.simulation.world_file import parse_world
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from intelligent_robot.simulation.geometry import Pose
-from intelligent_robot.simulation.lidar import LidarSettings
-from intelligent_robot.simulation.simulation import Settings, Simulation
-from intelligent_robot.simulation.world import WorldError
-from intelligent_robot.simulation.world_file import parse_world
 
 place = st.tuples(st.floats(0.3, 9.7), st.floats(0.3, 7.7))
 circles = st.lists(st.fixed_dictionaries({"center": place, "radius": st.floats(0.05, 1.0)}), max_size=6)

@@ -3,7 +3,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from intelligent_robot.avoidance import Avoidance, Decision, Rules
+from bot_console_robot.avoidance import Avoidance, Decision, Rules
 
 RULES = Rules(1.0, 0.5, 100, 1.0, True)
 BEAMS = 361

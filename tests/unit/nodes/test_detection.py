@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from intelligent_robot.detection import find, median_of_three, strong
+from bot_console_robot.detection import find, median_of_three, strong
 
 INF = math.inf
 

@@ -2,7 +2,7 @@ import itertools
 import math
 
 import pytest
-from intelligent_robot.motion import CRUISE, DETOUR, Gains, VelocityController, WaypointFollower
+from bot_console_robot.motion import CRUISE, DETOUR, Gains, VelocityController, WaypointFollower
 
 GAINS = Gains(3.0, 6.0, 1.0)
 

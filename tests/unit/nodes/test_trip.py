@@ -1,5 +1,5 @@
 import pytest
-from intelligent_robot.trip import Trip
+from bot_console_robot.trip import Trip
 
 
 def test_way_and_stops() -> None:

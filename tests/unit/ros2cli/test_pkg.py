@@ -105,10 +105,13 @@ def test_a_package_can_use_another_one(ros, src: Path) -> None:
     assert ros.ask("run", "user", "show").stdout == "from the library\n"
 
 
-def test_a_workspace_package_wins_over_ours(ros, src: Path) -> None:
-    package(src, "intelligent_robot", robot_node="def main():\n    print('theirs')\n")
-    assert ros.ask("run", "intelligent_robot", "robot_node").stdout == "theirs\n"
-    assert ros.ask("run", "intelligent_robot", "sensor_node").stderr == "No executable found\n"
+@pytest.mark.parametrize("name", ["intelligent_robot", "bot_console_robot"])
+def test_a_workspace_package_wins_over_ours(name: str, ros, src: Path) -> None:
+    assert "robot_node" in ros.ask("pkg", "executables", name).stdout
+    use(src)  # as in a new process: packages are looked for once
+    package(src, name, robot_node="def main():\n    print('theirs')\n")
+    assert ros.ask("run", name, "robot_node").stdout == "theirs\n"
+    assert ros.ask("run", name, "sensor_node").stderr == "No executable found\n"
 
 
 def test_a_module_without_main_is_explained(ros, src: Path) -> None:

@@ -1,8 +1,8 @@
 from pathlib import Path
 
 import pytest
-from intelligent_robot.simulation.world import World
-from intelligent_robot.simulation.world_file import load_world, parse_world
+from bot_console_robot.simulation.world import World
+from bot_console_robot.simulation.world_file import load_world, parse_world
 
 WORLDS = Path(__file__).resolve().parents[3] / "profiles" / "worlds"
 

@@ -4,8 +4,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-from intelligent_robot.simulation.simulation import Simulation
-from intelligent_robot.simulation.world import World
+from bot_console_robot.simulation.simulation import Simulation
+from bot_console_robot.simulation.world import World
 
 WORLDS = Path(__file__).resolve().parents[3] / "profiles" / "worlds"
 PROGRAM = """
@@ -13,8 +13,8 @@ import hashlib, sys
 from bot_console.runtime.importer import install
 install()
 from pathlib import Path
-from intelligent_robot.simulation.simulation import Simulation
-from intelligent_robot.simulation.world_file import load_world
+from bot_console_robot.simulation.simulation import Simulation
+from bot_console_robot.simulation.world_file import load_world
 simulation = Simulation(load_world(Path(sys.argv[1])), int(sys.argv[2]))
 scans = hashlib.sha256()
 for i in range(4000):

@@ -3,12 +3,12 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from intelligent_robot.simulation.geometry import Pose
-from intelligent_robot.simulation.odometry import Odometry, OdometryNoise
-from intelligent_robot.simulation.robot import DifferentialDrive, DriveLimits
-from intelligent_robot.simulation.simulation import STEP, Settings, Simulation
-from intelligent_robot.simulation.world import World
-from intelligent_robot.simulation.world_file import parse_world
+from bot_console_robot.simulation.geometry import Pose
+from bot_console_robot.simulation.odometry import Odometry, OdometryNoise
+from bot_console_robot.simulation.robot import DifferentialDrive, DriveLimits
+from bot_console_robot.simulation.simulation import STEP, Settings, Simulation
+from bot_console_robot.simulation.world import World
+from bot_console_robot.simulation.world_file import parse_world
 
 HALL = parse_world("hall", {"size": [40.0, 40.0], "start": [20.0, 20.0, 0.0]})
 LIMITS = DriveLimits(max_speed=2.0, max_turn_rate=1.5, acceleration=1.0, deceleration=2.0, turn_acceleration=3.0)

@@ -3,11 +3,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from intelligent_robot.simulation.geometry import Pose
-from intelligent_robot.simulation.lidar import LidarSettings
-from intelligent_robot.simulation.simulation import Settings, Simulation
-from intelligent_robot.simulation.world import World
-from intelligent_robot.simulation.world_file import parse_world
+from bot_console_robot.simulation.geometry import Pose
+from bot_console_robot.simulation.lidar import LidarSettings
+from bot_console_robot.simulation.simulation import Settings, Simulation
+from bot_console_robot.simulation.world import World
+from bot_console_robot.simulation.world_file import parse_world
 
 EXACT = LidarSettings(noise=0.0, dropout=0.0, range_max=100.0)
 

@@ -7,8 +7,8 @@ import sys
 import weakref
 from types import FrameType
 
-from intelligent_robot.simulation.simulation import Simulation
-from intelligent_robot.simulation.world import World
+from bot_console_robot.simulation.simulation import Simulation
+from bot_console_robot.simulation.world import World
 
 FREEING = {
     "spacefree", "freebody", "shapefree",

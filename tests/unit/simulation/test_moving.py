@@ -1,8 +1,8 @@
 import math
 
 import pytest
-from intelligent_robot.simulation.simulation import STEP, Simulation
-from intelligent_robot.simulation.world_file import parse_world
+from bot_console_robot.simulation.simulation import STEP, Simulation
+from bot_console_robot.simulation.world_file import parse_world
 
 
 def make(mover: dict[str, object], start: tuple[float, float, float] = (1.0, 5.0, 0.0)) -> Simulation:

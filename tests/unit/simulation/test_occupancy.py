@@ -2,10 +2,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from intelligent_robot.simulation.occupancy import FREE, OCCUPIED, UNKNOWN, occupancy_grid
-from intelligent_robot.simulation.simulation import Simulation
-from intelligent_robot.simulation.world import World
-from intelligent_robot.simulation.world_file import parse_world
+from bot_console_robot.simulation.occupancy import FREE, OCCUPIED, UNKNOWN, occupancy_grid
+from bot_console_robot.simulation.simulation import Simulation
+from bot_console_robot.simulation.world import World
+from bot_console_robot.simulation.world_file import parse_world
 
 
 def test_rows_start_at_the_lower_left() -> None:

@@ -3,9 +3,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from intelligent_robot.simulation.simulation import Simulation
-from intelligent_robot.simulation.world import World, WorldError
-from intelligent_robot.simulation.world_file import load_world, parse_world
+from bot_console_robot.simulation.simulation import Simulation
+from bot_console_robot.simulation.world import World, WorldError
+from bot_console_robot.simulation.world_file import load_world, parse_world
 
 GOOD: dict[str, Any] = {"size": [6.0, 4.0], "start": [1.0, 1.0, 0.0]}
 

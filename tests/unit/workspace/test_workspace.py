@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.runtime.workspace.discover import Workspace, default_folders
+from bot_console.runtime.workspace.own import FIRST_VARIABLE, NAME, PAGE_NAME, is_own
 from bot_console.runtime.workspace.package import EntryPoint, read_package
 
 PACKAGE = """<package format="3"><name>{name}</name><version>0.1.0</version>
@@ -85,17 +86,35 @@ def test_packages_are_found_as_colcon_does(tmp_path: Path) -> None:
     make(tmp_path / "src" / "four", "four")
     (tmp_path / "src" / "four" / "COLCON_IGNORE").touch()
     found = Workspace(default_folders(tmp_path)).packages
-    assert set(found) == {"one", "two", "intelligent_robot"}
+    assert set(found) == {"one", "two", NAME}
 
 
-def test_a_workspace_package_of_our_name_wins(tmp_path: Path) -> None:
-    folder = make(tmp_path / "robot", "intelligent_robot")
-    assert Workspace([tmp_path]).packages["intelligent_robot"].folder == folder
+@pytest.mark.parametrize("name", [NAME, PAGE_NAME])
+def test_a_workspace_package_of_our_name_wins(name: str, tmp_path: Path) -> None:
+    folder = make(tmp_path / "robot", name)
+    found = Workspace([tmp_path])
+    assert found.packages[name].folder == folder
+    assert found.find(name) is found.packages[name]
+    assert found.share(name) != Workspace([]).share(name)
 
 
-def test_our_own_package_has_its_share_folder() -> None:
+@pytest.mark.parametrize("name", [NAME, PAGE_NAME])
+def test_in_a_launch_of_our_own_our_name_means_ours(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    make(tmp_path / "robot", name)
+    found = Workspace([tmp_path])
+    assert not is_own(found.packages[name])
+    monkeypatch.setenv(FIRST_VARIABLE, "1")
+    assert is_own(found.packages[NAME])
+    assert is_own(found.packages[name]) == (name == NAME)
+    share = found.share(NAME)
+    assert share is not None
+    assert (share / "worlds" / "indoor.yaml").exists()
+
+
+@pytest.mark.parametrize("name", [NAME, PAGE_NAME])
+def test_our_own_package_has_its_share_folder(name: str) -> None:
     own = Workspace([])
-    share = own.share("intelligent_robot")
+    share = own.share(name)
     assert share is not None
     profiles = {each.name for each in (share / "config").glob("*.yaml")}
     assert {"indoor.yaml", "indoor_config.yaml"} <= profiles

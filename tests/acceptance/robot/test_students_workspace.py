@@ -1,0 +1,75 @@
+"""Whatever a workspace holds, our robot starts: packages of both its names lie in it, with one node each."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))
+from headless import headless
+
+SETUP = """from setuptools import setup
+setup(
+    name={0!r},
+    packages=[{0!r}],
+    entry_points={{'console_scripts': ['robot_node = {0}.robot_node:main']}},
+)
+"""
+NODE = """import rclpy
+from {0} import TEXT
+from sensor_msgs.msg import LaserScan
+
+def main():
+    rclpy.init()
+    node = rclpy.create_node('mine')
+    node.get_logger().info(TEXT)
+    seen = []
+    node.create_subscription(LaserScan, 'scan', lambda scan: seen or seen.append(node.get_logger().info('a scan')), 10)
+    rclpy.spin(node)
+
+if __name__ == '__main__':
+    main()
+"""
+NAMES = ("intelligent_robot", "bot_console_robot")
+
+
+@pytest.fixture
+def workspace(tmp_path):
+    for name in NAMES:
+        package = tmp_path / "src" / name
+        (package / name).mkdir(parents=True)
+        (package / "package.xml").write_text(f"<package><name>{name}</name></package>")
+        (package / "setup.py").write_text(SETUP.format(name))
+        (package / name / "__init__.py").write_text(f"TEXT = 'theirs: {name}'")
+        (package / name / "robot_node.py").write_text(NODE.format(name))
+    return tmp_path
+
+
+def test_our_robot_drives(workspace):
+    report = headless(workspace, "--duration", "10")
+    assert report["distance"] > 1.0
+    assert "theirs" not in report["log"]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_file_of_theirs_navigates(name, workspace):
+    report = headless(workspace, "--duration", "3", f"navigator:=src/{name}/{name}/robot_node.py")
+    assert report["duration"] == 3.0
+    assert "a scan" in report["log"]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_file_of_theirs_runs_beside_our_simulator(name, workspace):
+    report = headless(workspace, "--duration", "3", f"src/{name}/{name}/robot_node.py", command=("run",))
+    assert f"theirs: {name}" in report["log"]
+    assert "a scan" in report["log"]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_package_that_is_named_is_the_workspaces(name, workspace):
+    line = [sys.executable, "-m", "bot_console.tui", "run", name, "safety_node"]
+    done = subprocess.run(line, cwd=workspace, capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert "which has: robot_node" in done.stderr
+    assert f"package '{name}' is the one in {workspace / 'src' / name}" in done.stderr
