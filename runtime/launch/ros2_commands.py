@@ -7,9 +7,17 @@ import re
 import shlex
 from collections.abc import Callable, Sequence
 
+from launch.child import PythonProgram
+
 NEEDS_SHELL = re.compile(r"[;&|<>()`$*?#~\n]|\[[^\]]*\]")
 """What a shell would do something with, outside of quotes."""
 QUOTED = re.compile(r"'[^']*'|\"[^\"`$\\]*\"")
+
+
+def ros2_program(command: Sequence[str], shell: bool) -> PythonProgram | None:
+    """A command that is nothing but a `ros2` command line, as a program; None for all others."""
+    words = ros2_words(command, shell)
+    return None if words is None else PythonProgram("launch.ros2_commands:verb", (words,), is_ours=True)
 
 
 def ros2_words(command: Sequence[str], shell: bool) -> list[str] | None:
@@ -26,7 +34,7 @@ def ros2_words(command: Sequence[str], shell: bool) -> list[str] | None:
     return words[1:] if words and os.path.basename(words[0]) == "ros2" else None
 
 
-def ros2_program(words: Sequence[str]) -> Callable[[], object]:
+def verb(words: Sequence[str]) -> Callable[[], object]:
     """A callable that runs a `ros2` command line and ends with its exit code."""
 
     def run() -> object:

@@ -10,7 +10,15 @@ import launch.logging
 from launch.action import Action
 
 ALWAYS_KNOWN = frozenset(
-    ("launch-prefix", "launch-prefix-filter", "emulate_tty", "sigterm_timeout", "sigkill_timeout", "ros_namespace")
+    (
+        "emulate_tty",
+        "isolation",
+        "launch-prefix",
+        "launch-prefix-filter",
+        "ros_namespace",
+        "sigkill_timeout",
+        "sigterm_timeout",
+    )
 )
 
 

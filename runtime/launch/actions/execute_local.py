@@ -5,12 +5,11 @@ from __future__ import annotations
 import asyncio
 import os
 import traceback
-from collections.abc import Callable
 from typing import Any
 
 import launch.logging
 from launch.action import Action
-from launch.child import Child, start_node_child, start_os_child
+from launch.child import Child, PythonProgram, start_child
 from launch.conditions import evaluate_condition_expression
 from launch.descriptions import Executable
 from launch.escalation import Escalation
@@ -24,14 +23,13 @@ from launch.events.process import (
     ShutdownProcess,
     SignalProcess,
 )
+from launch.isolation import has_own_process
 from launch.output_lines import OutputLines
 from launch.respawn import Respawn
 from launch.substitution import Substitution
 from launch.substitutions.launch_configuration import LaunchConfiguration
 from launch.utilities import create_future, normalize_to_list_of_substitutions, perform_substitutions
 from launch.utilities.type_utils import normalize_typed_substitution
-
-Program = Callable[[], object]
 
 
 class ExecuteLocal(Action):
@@ -180,12 +178,11 @@ class ExecuteLocal(Action):
             "env": description.final_env,
         }
 
-    def in_process_program(self, command: list[str]) -> Program | None:
-        """What to run as a node process of this process; None: the command is a process of the system."""
-        from launch.ros2_commands import ros2_program, ros2_words
+    def python_program(self, command: list[str]) -> PythonProgram | None:
+        """The command as a Python program of this runtime; None: it is a process of the system."""
+        from launch.ros2_commands import ros2_program
 
-        words = ros2_words(command, self.__shell)
-        return None if words is None else ros2_program(words)
+        return ros2_program(command, self.__shell)
 
     def os_command(self, command: list[str]) -> list[str]:
         """The command as the system is given it."""
@@ -340,21 +337,18 @@ class ExecuteLocal(Action):
             kind = ProcessStdout if fd == 1 else ProcessStderr
             context.emit_event_sync(kind(text=data, action=self, **details))
 
-        environment = details["env"]
-        program = self.in_process_program(command)
-        if program is not None:
-            child: Child = start_node_child(
-                program, details["name"], argv=command, env=environment, cwd=details["cwd"], output=output
-            )
-        else:
-            child = await start_os_child(
-                self.os_command(command),
-                shell=self.__shell,
-                emulate_tty=self.__wants_tty(context),
-                env=environment,
-                cwd=details["cwd"],
-                output=output,
-            )
+        program = self.python_program(command)
+        child = await start_child(
+            self.os_command(command) if program is None else command,
+            program=program,
+            own_process=program is not None and has_own_process(context, program),
+            name=details["name"],
+            shell=self.__shell,
+            emulate_tty=self.__wants_tty(context),
+            env=details["env"],
+            cwd=details["cwd"],
+            output=output,
+        )
         self.__child = child
         details["pid"] = child.pid
         self.__logger.info(f"process started with pid [{child.pid}]")

@@ -1,7 +1,23 @@
-"""What runs for an action that executes something: a process of the system, or a node process in this one."""
+"""What runs for an action that executes something.
+
+A process of the system (`os_child`), a node process, which is a thread of this one (`node_child`), or a process of its
+own for a Python program (`forked_child`).
+"""
 
 from launch.child.child import Child, Output
-from launch.child.node_child import start_node_child
-from launch.child.os_child import start_os_child
+from launch.child.forked_child import CAN_FORK, close_fork_server, fork_server
+from launch.child.news import News, on_news
+from launch.child.python_program import PythonProgram
+from launch.child.start import start_child
 
-__all__ = ["Child", "Output", "start_node_child", "start_os_child"]
+__all__ = [
+    "CAN_FORK",
+    "Child",
+    "News",
+    "Output",
+    "PythonProgram",
+    "close_fork_server",
+    "fork_server",
+    "on_news",
+    "start_child",
+]

@@ -9,23 +9,17 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from launch.child.child import Output
-
-DRAIN_S = 0.2
-"""How long (s) output may still come after the end: a grandchild can hold the pipes open for ever."""
+from launch.child.streamed_child import StreamedChild, read_stream
 
 
-class OsChild(asyncio.SubprocessProtocol):
+class OsChild(StreamedChild, asyncio.SubprocessProtocol):
     """A process of the system, its output by pipes or by terminals of its own."""
 
     gets_signals_of_terminal = True
 
     def __init__(self, output: Output, loop: asyncio.AbstractEventLoop) -> None:
-        self._output = output
-        self._loop = loop
-        self.exited: asyncio.Future[int] = loop.create_future()
+        super().__init__(output, loop)
         self.terminals: list[asyncio.ReadTransport] = []
-        self.open_streams = {1, 2}
-        self._code: int | None = None
         self.pid = 0
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
@@ -34,29 +28,9 @@ class OsChild(asyncio.SubprocessProtocol):
         self._transport = transport
         self.pid = transport.get_pid()
 
-    def pipe_data_received(self, fd: int, data: bytes) -> None:
-        """It has printed."""
-        self._output(fd, bytes(data))
-
-    def pipe_connection_lost(self, fd: int, exc: Exception | None) -> None:
-        """It prints no more."""
-        self.open_streams.discard(fd)
-        self._finish_if_drained()
-
     def process_exited(self) -> None:
         """It has ended."""
-        self._code = self._transport.get_returncode()
-        self._finish_if_drained()
-        if not self.exited.done():
-            self._loop.call_later(DRAIN_S, self._finish)
-
-    def _finish_if_drained(self) -> None:
-        if self._code is not None and not self.open_streams:
-            self._finish()
-
-    def _finish(self) -> None:
-        if not self.exited.done():
-            self.exited.set_result(self._code or 0)
+        self.has_ended(self._transport.get_returncode() or 0)
 
     def send_signal(self, signum: int) -> None:
         """Deliver a signal."""
@@ -103,7 +77,7 @@ async def start_os_child(
         for end in ends:
             os.close(end.child_end)
     for fd, end in zip((1, 2), ends, strict=True):
-        child.terminals.append(await end.connect(loop, child, fd))
+        child.terminals.append(await read_stream(child, fd, end.own_end))
     return child
 
 

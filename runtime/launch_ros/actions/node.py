@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
 import launch.logging
 from launch.actions import ExecuteProcess
+from launch.child import PythonProgram
 from launch.frontend import expose_action
 from launch.substitutions import LocalSubstitution, TextSubstitution
 from launch.utilities import ensure_argument_type, normalize_to_list_of_substitutions, perform_substitutions
@@ -233,7 +234,7 @@ class Node(ExecuteProcess):
     def _add_words(self, *words: str) -> None:
         self.process_description.cmd.extend([TextSubstitution(text=each)] for each in words)
 
-    def in_process_program(self, command: list[str]) -> Callable[[], object] | None:
+    def python_program(self, command: list[str]) -> PythonProgram | None:
         """The node's program, where it is Python and nothing is put before it."""
         if self.shell or self.process_description.words_of_prefix:
             return None

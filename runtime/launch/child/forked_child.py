@@ -1,0 +1,163 @@
+"""A process of its own for a Python program, forked from a server that has imported everything."""
+
+from __future__ import annotations
+
+import asyncio
+import operator
+import os
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack
+
+from bot_console.runtime.process.fork_server import ForkServer, Job, Report
+from launch.child.child import Output
+from launch.child.news import NewsReader
+from launch.child.python_program import PythonProgram
+from launch.child.streamed_child import StreamedChild, read_stream
+
+WARM_UP = "bot_console.runtime.warm_up:warm_up"
+UNKNOWN = 255
+"""The exit code of a process whose fork server was killed: nobody could ask the system for the real one."""
+UNKNOWN_TEXT = b"the fork server was killed, so the exit code of this process is not known\n"
+
+DATA = 3
+"""Its data pipe, among its streams: what it has to tell of its end is waited for."""
+
+CAN_FORK = hasattr(os, "fork")
+
+_guard = threading.Lock()
+_servers: list[ForkServer] = []
+
+
+def fork_server() -> ForkServer:
+    """The fork server of this process, started when it is first asked for, and anew when it was killed."""
+    with _guard:
+        if not _servers or not _servers[0].is_alive:
+            _servers[:] = [ForkServer(WARM_UP)]
+        return _servers[0]
+
+
+def close_fork_server() -> None:
+    """End the server, and with it all that it has started; waits for that."""
+    with _guard:
+        servers, _servers[:] = list(_servers), []
+    for each in servers:
+        each.close()
+
+
+class ForkedChild(StreamedChild):
+    """A real process; it is in a session of its own, out of reach of the terminal's Ctrl-C."""
+
+    gets_signals_of_terminal = False
+
+    def __init__(self, name: str, output: Output, loop: asyncio.AbstractEventLoop) -> None:
+        super().__init__(output, loop)
+        self.open_streams.add(DATA)
+        self.pid = 0
+        self.report = Report()
+        self.news = NewsReader(name)
+        self.started: asyncio.Future[None] = loop.create_future()
+        self.transports: list[asyncio.BaseTransport] = []
+        self.input: asyncio.WriteTransport | None = None
+
+    def news_end(self) -> None:
+        """It tells no more."""
+        self.news.close()
+        self.pipe_connection_lost(DATA, None)
+
+    def told(self, data: bytes) -> None:
+        """The fork server tells of it."""
+        self.report.feed(data)
+        if self.report.pid is not None and not self.started.done():
+            self.pid = self.news.pid = self.report.pid
+            self.started.set_result(None)
+        if self.report.exit_code is not None:
+            self.has_ended(self.report.exit_code)
+
+    def told_all(self) -> None:
+        """The fork server has said its last word, of whatever kind."""
+        if not self.started.done():
+            text = self.report.problem or "the fork server has ended"
+            self.started.set_exception(OSError(f"cannot start a process: {text}"))
+        elif self.report.exit_code is None:
+            self.pipe_data_received(2, UNKNOWN_TEXT)
+            self._loop.create_task(self._outlive_server())
+
+    async def _outlive_server(self) -> None:
+        """Without its server a process goes on; only that it holds its streams says so."""
+        while self.open_streams:
+            await asyncio.sleep(0.2)
+        self.has_ended(UNKNOWN)
+
+    def send_signal(self, signum: int) -> None:
+        """Deliver a signal."""
+        os.kill(self.pid, operator.index(signum))
+
+    def write(self, data: bytes) -> None:
+        """Hand bytes to its standard input."""
+        if self.input is not None:
+            self.input.write(data)
+
+    def close(self) -> None:
+        """Close its pipes and terminals."""
+        self.news.close()
+        for each in self.transports:
+            each.close()
+
+
+class _Feed(asyncio.Protocol):
+    """Hands on what comes from a descriptor, and its end."""
+
+    def __init__(self, take: Callable[[bytes], None], end: Callable[[], None]) -> None:
+        self._take = take
+        self._end = end
+
+    def data_received(self, data: bytes) -> None:
+        self._take(data)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        self._end()
+
+
+async def start_forked_child(
+    program: PythonProgram,
+    name: str,
+    *,
+    argv: Sequence[str],
+    env: Mapping[str, str],
+    cwd: str | None,
+    emulate_tty: bool,
+    output: Output,
+) -> ForkedChild:
+    """Run a program in a process of its own; raises `OSError` where it cannot be started."""
+    from launch.child.terminals import open_pipes, open_terminals
+
+    loop = asyncio.get_running_loop()
+    child = ForkedChild(name, output, loop)
+    job = Job(name, program.function, program.arguments, list(argv), dict(env), os.path.abspath(cwd or os.getcwd()))
+    with ExitStack() as kept, ExitStack() as given:
+        out, error = open_terminals() if emulate_tty else open_pipes()
+        child_input, own_input = os.pipe()
+        own_data, child_data = os.pipe()
+        for each in (child_input, out.child_end, error.child_end, child_data):
+            given.callback(os.close, each)
+        for each in (own_input, own_data, out.own_end, error.own_end):
+            kept.callback(os.close, each)
+        report = fork_server().start(
+            job, stdin=child_input, stdout=out.child_end, stderr=error.child_end, data=child_data
+        )
+        kept.pop_all()  # they belong to the transports now
+    await _feed(child, report, child.told, child.told_all)
+    await _feed(child, own_data, child.news.feed, child.news_end)
+    for fd, end in ((1, out.own_end), (2, error.own_end)):
+        child.transports.append(await read_stream(child, fd, end))
+    child.input, _ = await loop.connect_write_pipe(asyncio.Protocol, os.fdopen(own_input, "wb", buffering=0))
+    child.transports.append(child.input)
+    await child.started
+    return child
+
+
+async def _feed(child: ForkedChild, descriptor: int, take: Callable[[bytes], None], end: Callable[[], None]) -> None:
+    pipe = os.fdopen(descriptor, "rb", buffering=0)
+    transport, _ = await asyncio.get_running_loop().connect_read_pipe(lambda: _Feed(take, end), pipe)
+    child.transports.append(transport)

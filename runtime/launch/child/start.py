@@ -1,0 +1,33 @@
+"""Starting a command in whichever way fits it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from launch.child.child import Child, Output
+from launch.child.forked_child import start_forked_child
+from launch.child.node_child import start_node_child
+from launch.child.os_child import start_os_child
+from launch.child.python_program import PythonProgram
+
+
+async def start_child(
+    command: Sequence[str],
+    *,
+    program: PythonProgram | None,
+    own_process: bool,
+    name: str,
+    shell: bool,
+    emulate_tty: bool,
+    env: Mapping[str, str],
+    cwd: str | None,
+    output: Output,
+) -> Child:
+    """Run a command, or the Python program that it is; raises what starting it raises, above all `OSError`."""
+    if program is None:
+        return await start_os_child(command, shell=shell, emulate_tty=emulate_tty, env=env, cwd=cwd, output=output)
+    if own_process:
+        return await start_forked_child(
+            program, name, argv=command, env=env, cwd=cwd, emulate_tty=emulate_tty, output=output
+        )
+    return start_node_child(program.load(), name, argv=command, env=env, cwd=cwd, output=output)

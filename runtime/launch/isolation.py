@@ -1,0 +1,32 @@
+"""Whether a Python program of a launch runs as a thread of this process or in a process of its own."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from bot_console.runtime.process import current
+from launch.child import CAN_FORK, PythonProgram
+
+CONFIGURATION = "isolation"
+"""The launch configuration that decides for all: `isolation:=process` or `isolation:=thread`."""
+PROCESS, THREAD = "process", "thread"
+
+_default = [THREAD]
+
+
+def isolate_by_default(kind: str) -> None:
+    """What holds where no configuration says otherwise; with `process` only a user's programs get one, ours not."""
+    _default[:] = [kind]
+
+
+def has_own_process(context: Any, program: PythonProgram) -> bool:
+    """Whether a program is to have a process of its own; raises `RuntimeError` for a word that is none of the two.
+
+    In a stepped run nothing has: exactly one thread runs at a time there.
+    """
+    wanted = context.launch_configurations.get(CONFIGURATION, "")
+    if wanted not in ("", PROCESS, THREAD):
+        raise RuntimeError(f"the launch argument '{CONFIGURATION}' must be '{PROCESS}' or '{THREAD}', not '{wanted}'")
+    if not CAN_FORK or current().clock.stepped:
+        return False
+    return wanted == PROCESS or (not wanted and _default[0] == PROCESS and not program.is_ours)

@@ -1,0 +1,74 @@
+"""The parent's side of the fork server."""
+
+from __future__ import annotations
+
+import os
+import socket
+import subprocess
+import sys
+import threading
+
+from . import wire
+from .job import Job
+
+CODE = """\
+import sys
+if sys.path[:1] == [""]:
+    sys.path.pop(0)
+from bot_console.runtime.process.fork_server.main import main
+main({descriptor}, {warm_up!r})
+"""
+"""The working directory is not looked into: a user's `random.py` is for the user's nodes."""
+END_S = 12.0
+"""Seconds that the server may take to end its children: both steps of its escalation, and some."""
+
+
+class ForkServer:
+    """A fork server of this process. Methods may be called from any thread."""
+
+    def __init__(self, warm_up: str) -> None:
+        """`warm_up` names a function, `package.module:function`; it must leave no thread and no open socket behind."""
+        ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_STREAM)
+        self._connection = ours
+        self._lock = threading.Lock()
+        with theirs:
+            self._process = subprocess.Popen(
+                [sys.executable, "-c", CODE.format(descriptor=theirs.fileno(), warm_up=warm_up)],
+                stdin=subprocess.DEVNULL,
+                pass_fds=[theirs.fileno()],
+                env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
+                start_new_session=True,
+            )
+        self.pid = self._process.pid
+
+    @property
+    def is_alive(self) -> bool:
+        """Whether it can start anything."""
+        return self._process.poll() is None
+
+    def start(self, job: Job, *, stdin: int, stdout: int, stderr: int, data: int) -> int:
+        """Start a child with these descriptors, which stay open here; the descriptor that its `Report` comes from.
+
+        Raises `FileNotFoundError` for a directory that is not there, `OSError` when the server has ended.
+        """
+        if not os.path.isdir(job.cwd):
+            raise FileNotFoundError(2, os.strerror(2), job.cwd)
+        report, told = os.pipe()
+        try:
+            with self._lock:
+                wire.send(self._connection, job.to_bytes(), (stdin, stdout, stderr, data, told))
+        except BaseException:
+            os.close(report)
+            raise
+        finally:
+            os.close(told)
+        return report
+
+    def close(self) -> None:
+        """End all children and the server; waits for that."""
+        self._connection.close()
+        try:
+            self._process.wait(END_S)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()

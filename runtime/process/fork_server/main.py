@@ -1,0 +1,23 @@
+"""What the fork server's interpreter runs."""
+
+from __future__ import annotations
+
+import gc
+import socket
+
+from .job import function_named
+from .server import Server
+from .start import become, let_signals_in
+
+
+def main(descriptor: int, warm_up: str) -> None:
+    """Serve the parent at the other end of a socket; in each child: run its program."""
+    function_named(warm_up)()
+    gc.collect()
+    gc.freeze()  # what is never looked at again is not copied into each child
+    birth = Server(socket.socket(fileno=descriptor)).serve()
+    if birth is None:
+        return
+    program = become(birth)
+    let_signals_in()
+    program()

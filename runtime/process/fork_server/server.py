@@ -1,0 +1,121 @@
+"""The fork server's loop: it starts children and tells how they ended. It never has a second thread."""
+
+from __future__ import annotations
+
+import os
+import select
+import signal
+import socket
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from . import wire
+from .job import Job
+from .report import tell_exit, tell_pid, tell_problem
+
+ESCALATION_S = 5.0
+"""Seconds between SIGINT and SIGTERM, and SIGTERM and SIGKILL, to children whose parent has gone."""
+HELD_BACK = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGCHLD)
+"""Signals that a child gets only when it is ready for them."""
+
+
+@dataclass
+class Birth:
+    """What a child is born with."""
+
+    job: Job
+    stdio: tuple[int, int, int]
+    data: int
+    """The descriptor of its data pipe."""
+
+
+@dataclass
+class Server:
+    """Serves one parent until that is gone."""
+
+    parent: socket.socket
+    _children: dict[int, int] = field(default_factory=dict[int, int])
+    """Where the report of each child goes, by its pid."""
+    _ending: bool = False
+
+    def serve(self) -> Birth | None:
+        """Start children until the parent is gone and all have ended: None. In each child: what it is to do."""
+        wake, woken = os.pipe()
+        os.set_blocking(wake, False)
+        os.set_blocking(woken, False)
+        signal.set_wakeup_fd(woken, warn_on_full_buffer=False)
+        for each in HELD_BACK:
+            signal.signal(each, self._signalled)
+        while not self._ending:
+            birth = self._next() if self._look(wake) else None
+            if birth is not None:
+                signal.set_wakeup_fd(-1)
+                os.close(wake)
+                os.close(woken)
+                self.parent.close()
+                return birth
+        self._end_children(wake)
+        return None
+
+    def _look(self, wake: int, timeout: float | None = None) -> bool:
+        """Wait for a request or a signal, at most so many seconds; whether there is a request."""
+        ready, _, _ = select.select([wake] if self._ending else [self.parent, wake], [], [], timeout)
+        if wake in ready:
+            os.read(wake, 4096)
+        self._reap()
+        return self.parent in ready
+
+    def _signalled(self, number: int, _frame: object) -> None:
+        if number != signal.SIGCHLD:
+            self._ending = True
+
+    def _next(self) -> Birth | None:
+        """Take a request; in the child: what it is to do."""
+        request = wire.receive(self.parent)
+        if request is None:
+            self._ending = True
+            return None
+        data, descriptors = request
+        *given, report = descriptors
+        job = Job.from_bytes(data)
+        signal.pthread_sigmask(signal.SIG_BLOCK, HELD_BACK)
+        try:
+            pid = os.fork()
+        except OSError as error:
+            tell_problem(report, str(error.strerror))
+            self._release((*given, report))
+            return None
+        if pid == 0:
+            os.close(report)
+            for each in self._children.values():
+                os.close(each)
+            return Birth(job, (given[0], given[1], given[2]), given[3])
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, HELD_BACK)
+        self._release(given)
+        self._children[pid] = report
+        tell_pid(report, pid)
+        return None
+
+    @staticmethod
+    def _release(descriptors: Sequence[int]) -> None:
+        for each in descriptors:
+            os.close(each)
+
+    def _reap(self) -> None:
+        while self._children:
+            pid, status = os.waitpid(-1, os.WNOHANG)
+            if pid == 0:
+                return
+            report = self._children.pop(pid)
+            tell_exit(report, os.waitstatus_to_exitcode(status))
+            os.close(report)
+
+    def _end_children(self, wake: int) -> None:
+        """The parent is gone: nobody could stop them any more."""
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
+            for pid in self._children:
+                os.kill(pid, number)  # not reaped yet, so the pid is still the child's
+            deadline = time.monotonic() + ESCALATION_S
+            while self._children and (left := deadline - time.monotonic()) > 0:
+                self._look(wake, left)

@@ -1,0 +1,99 @@
+"""From a fork of the server to a process of its own that runs a program."""
+
+from __future__ import annotations
+
+import os
+import random
+import signal
+import sys
+import threading
+import traceback
+from collections.abc import Callable, Sequence
+from types import TracebackType
+from typing import TextIO
+
+from .. import data_pipe
+from ..crashes import explanation
+from ..current import MAIN
+from ..frames import trim
+from ..notices import notify, on_notice
+from .job import function_named
+from .server import HELD_BACK, Birth
+
+LAST_PRIORITY = 500
+"""Raised chance (of -1000 to 1000) to be the one that the system ends when memory runs out, before the console."""
+
+
+def become(birth: Birth) -> Callable[[], object]:
+    """Make this fork the process that a job describes; what it is to run. Signals are still held back."""
+    job = birth.job
+    os.setsid()
+    _take_streams(birth.stdio)
+    data_pipe.use(birth.data)
+    os.chdir(job.cwd)
+    os.environ.clear()
+    os.environ.update(job.env)
+    _add_python_path(job.env.get("PYTHONPATH", ""))
+    sys.argv = MAIN.argv = list(job.argv)
+    MAIN.pid = os.getpid()
+    MAIN.locals.clear()
+    MAIN.notices.clear()
+    _name(job.name)
+    random.seed()
+    if "numpy" in sys.modules:
+        sys.modules["numpy"].random.seed()
+    sys.excepthook = _uncaught
+    on_notice(lambda process, text: data_pipe.tell("notice", text=text))
+    return function_named(job.program)(*job.arguments)
+
+
+def let_signals_in() -> None:
+    """Default handlers, and from now on whatever has come meanwhile."""
+    for each in HELD_BACK:
+        signal.signal(each, signal.default_int_handler if each == signal.SIGINT else signal.SIG_DFL)
+    try:
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, HELD_BACK)
+    except KeyboardInterrupt as interrupt:
+        raise interrupt.with_traceback(None) from None  # it met the program before its first line
+
+
+def _take_streams(stdio: Sequence[int]) -> None:
+    for number, each in enumerate(stdio):
+        os.dup2(each, number)
+        os.close(each)
+    sys.stdin = sys.__stdin__ = os.fdopen(0, closefd=False, encoding="utf-8")
+    sys.stdout = sys.__stdout__ = _output(1, "surrogateescape")
+    sys.stderr = sys.__stderr__ = _output(2, "backslashreplace")
+
+
+def _output(descriptor: int, errors: str) -> TextIO:
+    """A stream that hands on each line at once, though it is no terminal: a log shows lines when they are printed."""
+    return os.fdopen(descriptor, "w", buffering=1, closefd=False, encoding="utf-8", errors=errors)
+
+
+def _add_python_path(folders: str) -> None:
+    """What the interpreter does when it starts with this environment."""
+    wanted = [os.path.abspath(each) for each in folders.split(os.pathsep) if each]
+    sys.path[:0] = [each for each in wanted if each not in sys.path]
+
+
+def _name(name: str) -> None:
+    for file, text in (("comm", name[:15]), ("oom_score_adj", str(LAST_PRIORITY))):
+        try:
+            with open(f"/proc/self/{file}", "w") as writable:
+                writable.write(text)
+        except OSError:  # a system without it, or that forbids it
+            continue
+
+
+def _uncaught(kind: type[BaseException], exception: BaseException, trace: TracebackType | None) -> None:
+    """Print an uncaught exception as the interpreter does, from the program's own first line on; tell the parent."""
+    exception.__traceback__ = trace.tb_next if trace is not None else None  # without the line that called `main` here
+    trim(exception)
+    lines = traceback.format_exception(kind, exception, exception.__traceback__)
+    sys.stderr.write("".join(lines))
+    frames = traceback.extract_tb(exception.__traceback__)
+    where = [(each.filename, each.lineno, each.name) for each in frames]
+    data_pipe.tell("uncaught", text="".join(lines), frames=where)
+    if threading.current_thread() is threading.main_thread() and (text := explanation(exception)):
+        notify(MAIN, text)

@@ -1,0 +1,44 @@
+"""What the fork server imports and does once, so that every node that is forked from it finds it done."""
+
+from __future__ import annotations
+
+from bot_console.runtime.importer import install
+
+INTERFACES = ("action_msgs", "builtin_interfaces", "geometry_msgs", "nav_msgs", "rcl_interfaces", "sensor_msgs",
+              "std_msgs", "std_srvs", "tf2_msgs")  # fmt: skip
+"""Those whose messages, services and actions most nodes import."""
+
+
+def warm_up() -> None:
+    """Import the runtime, and make and destroy one node. No thread and no session of a middleware stays."""
+    import contextlib
+    import importlib
+
+    install()
+    for package in INTERFACES:
+        for kind in ("msg", "srv", "action"):
+            with contextlib.suppress(ModuleNotFoundError):
+                importlib.import_module(f"{package}.{kind}")
+    for name in ("numpy", "rclpy.action", "rclpy.executors", "rclpy.qos", "launch_ros.node_program"):
+        importlib.import_module(name)
+    _make_one_node()
+
+
+def _make_one_node() -> None:
+    import rclpy
+    from std_msgs.msg import String
+
+    context = rclpy.Context()
+    rclpy.init(args=[], context=context)
+    node = rclpy.create_node("warm_up", context=context)
+    try:
+        node.declare_parameter("warm", True)
+        node.create_publisher(String, "warm", 1).publish(String(data="up"))
+        node.create_timer(1.0, lambda: None)
+        executor = rclpy.executors.SingleThreadedExecutor(context=context)
+        executor.add_node(node)
+        executor.spin_once(timeout_sec=0.0)
+        executor.shutdown()
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown(context=context)

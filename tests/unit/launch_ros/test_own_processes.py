@@ -1,0 +1,223 @@
+"""Nodes of a launch in processes of their own: what they are given, print and tell, and how they end."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import textwrap
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+if not hasattr(os, "fork"):
+    pytest.skip("needs fork", allow_module_level=True)
+
+from bot_console.runtime.process import stepped
+from launch.actions import EmitEvent, ExecuteProcess, RegisterEventHandler, Shutdown
+from launch.child import News, close_fork_server, fork_server, on_news
+from launch.event_handlers import OnProcessExit, OnProcessIO, OnProcessStart
+from launch.events import matches_action
+from launch.events.process import SignalProcess
+from launch.isolation import isolate_by_default
+from launch_ros.actions import Node
+from launching import Launch
+
+PROCESS = {"isolation": "process"}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def server() -> Iterator[None]:
+    """One fork server for all tests of this file."""
+    yield
+    close_fork_server()
+
+
+@pytest.fixture
+def script(tmp_path: Path) -> Any:
+    """Write a Python file."""
+
+    def written(code: str, name: str = "program") -> str:
+        path = tmp_path / name
+        path.write_text("#!/usr/bin/env python3\n" + textwrap.dedent(code).lstrip())
+        path.chmod(0o755)
+        return str(path)
+
+    return written
+
+
+@pytest.fixture
+def news() -> Iterator[list[News]]:
+    """What processes tell."""
+    heard: list[News] = []
+    forget = on_news(heard.append)
+    yield heard
+    forget()
+
+
+def lines_of(text: str) -> list[str]:
+    return re.findall(r"^\[\w+-\d+\] (.*)$", text, re.M)
+
+
+IN_A_PROCESS = "import os, sys, threading; print(os.getpid() < 1 << 22, os.getppid() == {server}, sys.argv[1:])"
+
+
+def test_a_node_has_a_process_with_its_arguments_and_environment(run: Launch, script: Any) -> None:
+    path = script(IN_A_PROCESS.format(server=fork_server().pid) + "\nprint(os.environ['BC_A'])")
+    pids: list[int] = []
+    started = RegisterEventHandler(OnProcessStart(on_start=lambda event, context: pids.append(event.pid)))
+    node = Node(executable=path, name="a", output="screen", arguments=["x"], additional_env={"BC_A": "b"})
+    text = run([started, node], PROCESS).text
+    assert lines_of(text) == ["True True ['x', '--ros-args', '-r', '__node:=a']", "b"]
+    assert len(pids) == 1 and pids[0] < 1 << 22 and f"process has finished cleanly [pid {pids[0]}]" in text
+
+
+def test_who_gets_a_process(run: Launch, script: Any) -> None:
+    path = script("import os; print('own' if os.getpid() < 1 << 22 else 'thread')")
+    node = lambda: [Node(executable=path, output="screen")]  # noqa: E731
+    assert lines_of(run(node()).text) == ["thread"]
+    isolate_by_default("process")
+    try:
+        assert lines_of(run(node()).text)[-1:] == ["own"]
+        assert lines_of(run(node(), {"isolation": "thread"}).text)[-1:] == ["thread"]
+        with stepped(virtual_main=True):
+            assert lines_of(run(node(), PROCESS).text)[-1:] == ["thread"]
+    finally:
+        isolate_by_default("thread")
+
+
+def test_another_word_is_refused_with_the_words_that_are_known(run: Launch, script: Any) -> None:
+    outcome = run([Node(executable=script(""))], {"isolation": "box"})
+    assert "the launch argument 'isolation' must be 'process' or 'thread', not 'box'" in outcome.text
+
+
+@pytest.mark.parametrize(
+    ("code", "exit_code"),
+    [
+        ("", 0),
+        ("raise SystemExit(7)", 7),
+        ("1 / 0", 1),
+        ("raise KeyboardInterrupt", -2),
+        ("import os; os._exit(5)", 5),
+        ("import os; os.abort()", -6),
+    ],
+)
+def test_exit_codes(run: Launch, script: Any, code: str, exit_code: int) -> None:
+    codes: list[int] = []
+    on_exit = OnProcessExit(on_exit=lambda event, context: codes.append(event.returncode))
+    outcome = run([RegisterEventHandler(on_exit), Node(executable=script(code))], PROCESS)
+    assert (codes, outcome.code) == ([exit_code], 0)
+
+
+def test_a_traceback_comes_before_the_end(run: Launch, script: Any, news: list[News]) -> None:
+    path = script("def f():\n    1 / 0\nf()")
+    lines = run([Node(executable=path)], PROCESS).lines
+    died = next(number for number, each in enumerate(lines) if "process has died" in each)
+    assert lines[died - 1].endswith("ZeroDivisionError: division by zero")
+    assert [(each.kind, each.facts["frames"][-1]) for each in news] == [("uncaught", [path, 3, "f"])]
+
+
+def test_a_crash_in_c_tells_the_line(run: Launch, script: Any, news: list[News]) -> None:
+    path = script("import ctypes\nctypes.string_at(0)\n")
+    run([Node(executable=path)], PROCESS)
+    assert [each.kind for each in news] == ["crash"]
+    assert f'File "{path}", line 3 in <module>' in news[0].facts["text"] and news[0].process.startswith("program-")
+
+
+WAITS = """
+import rclpy
+from rclpy.node import Node
+rclpy.init()
+node = Node("x")
+
+def up():
+    timer.cancel()
+    print("up")
+
+timer = node.create_timer(0.001, up)
+try:
+    rclpy.spin(node)
+except KeyboardInterrupt:
+    print("interrupted")
+"""
+
+
+def on_line(node: Any, then: Any) -> RegisterEventHandler:
+    return RegisterEventHandler(
+        OnProcessIO(target_action=node, on_stdout=lambda event: then if b"up" in event.text else None)
+    )
+
+
+def test_the_end_of_the_launch_interrupts_it(run: Launch, script: Any) -> None:
+    node = Node(executable=script(WAITS), output="screen")
+    text = run([node, on_line(node, Shutdown())], PROCESS).text
+    assert lines_of(text) == ["up", "interrupted"] and "process has finished cleanly" in text
+
+
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGKILL"])
+def test_one_that_is_deaf_is_ended_by_escalation(run: Launch, script: Any, name: str) -> None:
+    deaf = "import signal, time\nsignal.signal(signal.SIGINT, signal.SIG_IGN)\n"
+    if name == "SIGKILL":
+        deaf += "signal.signal(signal.SIGTERM, signal.SIG_IGN)\n"
+    loop = "print('up', flush=True)\nwhile True:\n    pass\n"
+    short = {"sigterm_timeout": "0.1", "sigkill_timeout": "0.1"}
+    node = Node(executable=script(deaf + loop), output="screen", **short)
+    text = run([node, on_line(node, Shutdown())], PROCESS).text
+    assert f"exit code {-signal.Signals[name]}" in text and f"escalating to '{name}'" in text
+
+
+def test_a_kill_and_a_start_again(run: Launch, script: Any) -> None:
+    path = script(WAITS)
+    node = Node(executable=path, output="screen", respawn=True, respawn_max_retries=1)
+    kill = EmitEvent(event=SignalProcess(signal_number="SIGKILL", process_matcher=matches_action(node)))
+    text = run([node, on_line(node, kill)], PROCESS).text
+    pids = re.findall(r"process started with pid \[(\d+)\]", text)
+    assert text.count("exit code -9") == 2 and len(set(pids)) == 2
+
+
+def test_a_terminal_for_its_output(run: Launch, script: Any) -> None:
+    path = script("import sys; print(sys.stdout.isatty(), sys.stderr.isatty())")
+    assert lines_of(run([Node(executable=path, output="screen", emulate_tty=True)], PROCESS).text) == ["True True"]
+    assert lines_of(run([Node(executable=path, output="screen")], PROCESS).text)[-1:] == ["False False"]
+
+
+def test_what_is_written_to_its_input_arrives(run: Launch, script: Any) -> None:
+    from launch.events.process import ProcessStdin
+
+    node = Node(executable=script("print('up', flush=True)\nprint(input()[::-1])"), output="screen")
+
+    def answer(event: Any) -> Any:
+        if b"up" not in event.text:
+            return None
+        details = {"name": event.process_name, "cmd": event.cmd, "cwd": event.cwd, "env": event.env, "pid": event.pid}
+        return EmitEvent(event=ProcessStdin(text=b"abc\n", action=event.action, **details))
+
+    handler = RegisterEventHandler(OnProcessIO(target_action=node, on_stdout=answer))
+    assert "cba" in run([node, handler], PROCESS).text
+
+
+def test_a_ros2_line_gets_a_process_where_all_do(run: Launch) -> None:
+    lines = run([ExecuteProcess(cmd=["ros2", "interface", "show", "std_msgs/msg/Bool"], output="screen")], PROCESS).text
+    assert "bool data" in lines
+
+
+def test_a_killed_fork_server_takes_no_node_along_and_the_next_start_has_a_new_one(run: Launch, script: Any) -> None:
+    first = Node(executable=script(WAITS, "first"), output="screen")
+
+    def kill_server(event: Any) -> Any:
+        if b"up" not in event.text:
+            return None
+        server = fork_server()
+        os.kill(server.pid, signal.SIGKILL)
+        server._process.wait()
+        return Node(executable=script("print('second runs')", "second"), output="screen")
+
+    handler = RegisterEventHandler(OnProcessIO(target_action=first, on_stdout=kill_server))
+    after = RegisterEventHandler(
+        OnProcessExit(on_exit=lambda event, context: Shutdown() if "second" in event.process_name else None)
+    )
+    text = run([first, handler, after], PROCESS).text
+    assert "second runs" in text and "interrupted" in text
+    assert "the exit code of this process is not known" in text
