@@ -2,30 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import Future
+from functools import partial
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from bot_console.tui import keymap
-from bot_console.tui.commands import KeyCommands
+from bot_console.tui.commands import all_commands, options_for
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Console, Launcher
+from bot_console.tui.keyboard import Keyboard
 from bot_console.tui.pane_table import PANES
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.plot import PlotPane
+from bot_console.tui.screens.door import screen_for
 from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.screens.output import OutputScreen
+from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.terminal.output import SparingApp
 from bot_console.tui.theme import DARK
 from bot_console.tui.widgets.key_bar import KeyBar
+from bot_console.tui.widgets.prompt.line import Prompt
+from bot_console.tui.widgets.prompt.question import Asker, Choice
 from bot_console.tui.widgets.status_bar import StatusBar
 from rich.style import Style
 from rich.text import Text
 from textual import events
 from textual.app import ComposeResult
 from textual.binding import BindingType
-from textual.command import Provider
 from textual.containers import Container
 from textual.geometry import Size
 from textual.types import CSSPathType
@@ -42,6 +47,10 @@ SMALLEST = (60, 20)
 HERE = Path(__file__).parent
 
 
+AT_ONCE = frozenset(next(key.keys for key in keymap.TABLE["app"] if key.id == "app.quit_now").split(","))
+"""Keys that never wait for those typed before."""
+
+
 class BotConsoleApp(SparingApp):
     """rqt for the terminal."""
 
@@ -50,9 +59,8 @@ class BotConsoleApp(SparingApp):
         HERE / "app.tcss",
         *(HERE / "panes" / f"{each.id}.tcss" for each in PANES),
     ]
-    COMMANDS: ClassVar[set[type[Provider] | Callable[[], type[Provider]]]] = {KeyCommands}
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("app")]
-    ENABLE_COMMAND_PALETTE = True
+    ENABLE_COMMAND_PALETTE = False
 
     def __init__(
         self,
@@ -75,6 +83,15 @@ class BotConsoleApp(SparingApp):
         self._snapshot = ConsoleSnapshot()
         self._panes: list[Pane] = []
         self._extent = Size(80, 24)
+        self._keyboard = Keyboard(self, super().on_event)
+
+    async def on_event(self, event: events.Event) -> None:
+        """Keys are dealt with one after the other; those that quit from anywhere wait for nothing."""
+        typed = isinstance(event, (events.Key, events.Paste)) and not event.is_forwarded
+        if isinstance(event, (events.Key, events.Paste)) and typed and getattr(event, "key", "") not in AT_ONCE:
+            await self._keyboard.typed(event)
+        else:
+            await super().on_event(event)
 
     def compose(self) -> ComposeResult:
         """Tabs, panes, status, footer, and a word for terminals that are too small."""
@@ -112,8 +129,15 @@ class BotConsoleApp(SparingApp):
         with self.batch_update():
             for pane in self.visible_panes():
                 pane.show(snapshot)
-            for bar in self.query(StatusBar):
-                bar.show(snapshot, self.gate.held_back)
+            self.screen_stack[0].query_one(StatusBar).show(snapshot, self.gate.held_back)
+        for asker in self._askers():
+            asker.look()
+
+    def _askers(self) -> Iterable[Asker[Any]]:
+        """Whatever has a question open."""
+        yield from (each for each in self.screen_stack[0].query(Prompt) if each.is_open)
+        if isinstance(self.screen, QuestionScreen):
+            yield self.screen
 
     def panes(self) -> list[Pane]:
         """All panes, in the order in which they stand on the screen."""
@@ -237,6 +261,21 @@ class BotConsoleApp(SparingApp):
         pane = self.current_pane
         if pane is not None:
             self.push_screen(HelpScreen(pane.id or "", pane.TITLE, pane.HELP or ""))
+
+    def action_palette(self) -> None:
+        """Ask for a command: an action by its words, or a `ros2` line."""
+        known = all_commands(self, self.current_pane)
+        self.push_screen(
+            screen_for(
+                Choice(
+                    "Commands",
+                    lambda chosen: known[chosen].run() if chosen in known else self.run_ros2(chosen),
+                    find=partial(options_for, known),
+                    hint="words of a command, or a ros2 line",
+                    empty="No command has these words; a line that begins with ros2 is run.",
+                )
+            )
+        )
 
     def action_redraw(self) -> None:
         """Draw everything anew."""

@@ -2,37 +2,47 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, cast
 
 from bot_console.tui.keymap import TABLE, key_text
-from textual.command import DiscoveryHit, Hit, Hits, Provider
+from bot_console.tui.panes.pane import Pane
+from bot_console.tui.widgets.prompt.question import Option
+from textual.app import App
+from textual.fuzzy import Matcher
 
-if TYPE_CHECKING:
-    from bot_console.tui.app import BotConsoleApp
-
-SCOPES = {"app": ""}
+HIDDEN = ("app.palette",)
+"""What makes no sense to choose from the palette."""
 
 
-class KeyCommands(Provider):
-    """All actions of the key table that can be run now."""
+@dataclass(frozen=True)
+class Command:
+    """An action of the key table, bound to what it is for."""
 
-    async def discover(self) -> Hits:
-        """The actions that work everywhere."""
-        for key in TABLE["app"]:
-            yield DiscoveryHit(key.text, partial(self.app.run_action, key.action), help=key_text(key))
+    text: str
+    keys: str
+    run: Callable[[], object]
 
-    async def search(self, query: str) -> Hits:
-        """Actions that match, those of the current pane too; a `ros2` line as it stands."""
-        app = cast("BotConsoleApp", self.app)
-        if query.strip().startswith("ros2 "):
-            yield Hit(1.0, query, partial(app.run_ros2, query), help="run this command line")
-        matcher = self.matcher(query)
-        pane = app.current_pane
-        scopes = [("app", app)] + ([(pane.id or "", pane)] if pane is not None and pane.id in TABLE else [])
-        for scope, target in scopes:
-            for key in TABLE[scope]:
-                score = matcher.match(key.text)
-                if score > 0:
-                    run = partial(app.run_action, key.action, target)
-                    yield Hit(score, matcher.highlight(key.text), run, help=key_text(key))
+
+def all_commands(app: App[None], pane: Pane | None) -> Mapping[str, Command]:
+    """The actions that can be run now, by the id of their key: those of the pane first."""
+    scopes = [(pane.id, pane)] if pane is not None and pane.id in TABLE else []
+    found = {
+        key.id: Command(key.text, key_text(key), partial(app.call_later, app.run_action, key.action, target))
+        for scope, target in (*scopes, ("app", app))
+        for key in TABLE[scope or ""]
+    }
+    return {id: each for id, each in found.items() if id not in HIDDEN}
+
+
+def options_for(commands: Mapping[str, Command], typed: str) -> Sequence[Option]:
+    """The commands whose words match, the best first; a `ros2` line as it stands; all while nothing is typed."""
+    words = typed.strip()
+    if not words:
+        return [Option(each.text, each.keys, id) for id, each in commands.items()]
+    matcher = Matcher(words)
+    scores = {id: matcher.match(each.text) for id, each in commands.items()}
+    best = sorted((id for id, score in scores.items() if score > 0), key=lambda id: -scores[id])
+    line = [Option(words, "run this command line")] if words.startswith("ros2 ") else []
+    return [*line, *(Option(commands[id].text, commands[id].keys, id) for id in best)]

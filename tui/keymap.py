@@ -33,7 +33,7 @@ TABLE: Mapping[str, tuple[Key, ...]] = {
         Key(
             "app.palette",
             "colon,ctrl+p",
-            "command_palette",
+            "palette",
             "Command palette",
             footer=True,
             shown=":",
@@ -227,6 +227,35 @@ TABLE: Mapping[str, tuple[Key, ...]] = {
         Key("list.down", "down,j", "cursor(1)", "Down"),
         Key("list.page_up", "pageup", "page(-1)", "Page up"),
         Key("list.page_down", "pagedown", "page(1)", "Page down"),
+    ),
+    "overlay": (
+        Key("overlay.close", "escape,enter,q", "dismiss", "Close"),
+        Key("overlay.stop", "exclamation_mark", "app.all_stop", "All stop", shown="!"),
+        Key("overlay.up", "up,k", "scroll_box(-1)", "Up"),
+        Key("overlay.down", "down,j", "scroll_box(1)", "Down"),
+        Key("overlay.page_up", "pageup", "page_box(-1)", "Page up"),
+        Key("overlay.page_down", "pagedown", "page_box(1)", "Page down"),
+        Key("overlay.home", "g,home", "end_of_box(-1)", "To the top"),
+        Key("overlay.end", "G,end", "end_of_box(1)", "To the bottom", shown="G"),
+    ),
+    "help": (Key("help.close", "question_mark,f1", "dismiss", "Close"),),
+    "question": (Key("question.give_up", "escape", "give_up", "Close without an answer"),),
+    "confirm": (
+        Key("confirm.yes", "y", "yes", "Yes"),
+        Key("confirm.no", "n,q", "give_up", "No"),
+        Key("confirm.stop", "exclamation_mark", "app.all_stop", "All stop", shown="!"),
+    ),
+    "picker": (
+        Key("picker.down", "down", "move(1)", "Down", priority=True),
+        Key("picker.up", "up", "move(-1)", "Up", priority=True),
+        Key("picker.page_down", "pagedown", "move(10)", "Page down", priority=True),
+        Key("picker.page_up", "pageup", "move(-10)", "Page up", priority=True),
+    ),
+    "form": (
+        Key("form.next", "down,tab", "step(1)", "Next argument", priority=True),
+        Key("form.previous", "up,shift+tab", "step(-1)", "Previous argument", priority=True),
+        Key("form.choice", "ctrl+n,pagedown", "choice(1)", "Next choice", priority=True),
+        Key("form.choice_back", "pageup", "choice(-1)", "Previous choice", priority=True),
     ),
 }
 

@@ -9,7 +9,7 @@ from bot_console.tui.panes.launch import LaunchPane
 from bot_console.tui.panes.launch_rows import ProcessRows
 from bot_console.tui.screens.confirm import ConfirmScreen
 from bot_console.tui.screens.launch_arguments import ArgumentsScreen
-from bot_console.tui.screens.launch_picker import PickerScreen
+from bot_console.tui.screens.picker import PickerScreen
 from piloting import Session, run
 from samples import arguments, empty, faulty, launched, live
 from textual.widgets import Input

@@ -24,7 +24,8 @@ from bot_console.tui.panes.graph_view import (
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.screens.facts import FactsScreen, Section
 from bot_console.tui.widgets.diagram_view import LARGE, DiagramView
-from bot_console.tui.widgets.prompt import Prompt
+from bot_console.tui.widgets.prompt.common import filter_line
+from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.words import Words
 from textual.app import ComposeResult
 
@@ -122,7 +123,7 @@ class GraphPane(Pane):
 
     def action_filter(self) -> None:
         """Ask for a filter."""
-        self.query_one(Prompt).open("filter", "filter", self._words, _wrong)
+        self.ask(filter_line(self._words, self._apply))
 
     def action_clear_filter(self) -> None:
         """Show everything again."""
@@ -132,21 +133,6 @@ class GraphPane(Pane):
         self._words = words
         self._view = replace(self._view, query=parse(words))
         self._draw()
-
-    def on_prompt_typed(self, event: Prompt.Typed) -> None:
-        """Filter while typing."""
-        event.stop()
-        if event.purpose == "filter" and not _wrong(event.text):
-            self._apply(event.text)
-
-    def on_prompt_closed(self, event: Prompt.Closed) -> None:
-        """The prompt was answered or given up."""
-        event.stop()
-        self._picture.focus()
-        if event.purpose == "filter":
-            self._apply(event.text or "")
-        elif event.text:
-            self._save(Path(event.text).expanduser())
 
     def action_turn_picture(self) -> None:
         """Another direction of the arrows."""
@@ -165,16 +151,11 @@ class GraphPane(Pane):
 
     def action_export(self) -> None:
         """Ask where to export to."""
-        self.query_one(Prompt).open("export", "export to (.txt .mmd .dot)", "graph.mmd")
+        self.ask_file("export to (.txt .mmd .dot)", "graph.mmd", self._save)
 
-    def _save(self, path: Path) -> None:
-        text = exported(self._shown.graph, self._picture.drawing, path.suffix)
-        try:
-            path.write_text(text, encoding="utf-8")
-        except OSError as error:
-            self.notify(f"not saved: {error}", severity="error", markup=False)
-            return
-        self.notify(f"graph saved to {path}", markup=False)
+    def _save(self, path: Path) -> str:
+        path.write_text(exported(self._shown.graph, self._picture.drawing, path.suffix), encoding="utf-8")
+        return f"graph saved to {path}"
 
 
 def node_facts(info: GraphInfo, name: str) -> list[Section]:
@@ -213,11 +194,3 @@ def topic_facts(info: GraphInfo, name: str) -> list[Section]:
 def _lines(ends: tuple[Endpoint, ...]) -> list[str]:
     width = max((len(each.name) for each in ends), default=0)
     return [f"{each.name.ljust(width)}  {', '.join(each.types)}  {each.qos}".rstrip() for each in ends]
-
-
-def _wrong(text: str) -> str:
-    try:
-        parse(text)
-    except ValueError as error:
-        return str(error)
-    return ""

@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Future
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, LaunchEvent, LaunchInfo, ProcessInfo, ProcessState, Severity
 from bot_console.tui.console.protocol import Answer
+from bot_console.tui.console.query import Query, parse
 from bot_console.tui.format import clock_text, counted, harmless
 from bot_console.tui.panes.launch_rows import ProcessRows, rows
 from bot_console.tui.panes.pane import Pane
-from bot_console.tui.screens.confirm import ConfirmScreen
 from bot_console.tui.screens.facts import FactsScreen
-from bot_console.tui.screens.launch_arguments import ArgumentsScreen
-from bot_console.tui.screens.launch_picker import PickerScreen
 from bot_console.tui.widgets.picture import Line, Picture
+from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Form, Option
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.words import Words
 from textual.app import ComposeResult
@@ -164,7 +164,8 @@ class LaunchPane(Pane):
         if verb == "kill" or (row.process is None and verb != "start"):
             names = "\n".join(each.label for each in chosen) or "nothing runs"
             question = f"{verb.capitalize()} {counted(len(chosen), 'process').replace('processs', 'processes')}?"
-            self.host.push_screen(ConfirmScreen(question, names), lambda yes: self._do(verb, chosen) if yes else None)
+            then = partial(self._do, verb, chosen)
+            self.ask(Confirmation(question, lambda _: then(), partial(self._ended, verb, chosen), reasons=names))
         else:
             self._do(verb, chosen)
 
@@ -172,6 +173,14 @@ class LaunchPane(Pane):
         for each in processes:
             answer: Future[Answer] = getattr(self.launcher, verb)(each.key)
             answer.add_done_callback(lambda done: self.host.call_later(self._answered, done))
+
+    def _ended(self, verb: str, processes: Sequence[ProcessInfo]) -> str:
+        """Why a verb makes no sense any more: none of its processes is there, or has anything left to stop."""
+        now = {each.key: each for each in self.console.snapshot().launch.processes}
+        if any(each.key in now and not row_is_pointless(verb, now[each.key]) for each in processes):
+            return ""
+        who = processes[0].label if len(processes) == 1 else "All of them"
+        return f"{who} ended meanwhile; nothing was done."
 
     def _answered(self, done: Future[Answer]) -> None:
         error = done.exception()
@@ -184,11 +193,18 @@ class LaunchPane(Pane):
         if self.launcher is None or self._why_not:
             self.notify(self._why_not or "There is no launcher.", severity="warning", markup=False)
             return
-        self.host.push_screen(PickerScreen(self.launcher.files()), self._chosen)
+        self.ask(
+            Choice(
+                "Open a launch file",
+                self._chosen,
+                find=partial(files_for, self.launcher.files()),
+                hint="words of its name, or a path",
+                empty="No launch files in the workspace; type a path.",
+            )
+        )
 
-    def _chosen(self, path: str | None) -> None:
-        if path:
-            self.run_worker(self._ask(path), exclusive=True, group="launch", exit_on_error=False)
+    def _chosen(self, path: str) -> None:
+        self.run_worker(self._ask(path), exclusive=True, group="launch", exit_on_error=False)
 
     async def _ask(self, path: str) -> None:
         """Read the arguments beside the event loop: a launch file is a program."""
@@ -201,12 +217,12 @@ class LaunchPane(Pane):
             self.host.push_screen(FactsScreen("This launch file cannot be read", [("", str(error).splitlines())]))
             return
         if arguments:
-            self.host.push_screen(ArgumentsScreen(path, arguments), partial(self._launch, path))
+            self.ask(Form(f"Launch {Path(path).name}", partial(self._launch, path), arguments=arguments))
         else:
             self._launch(path, {})
 
-    def _launch(self, path: str, values: Mapping[str, str] | None) -> None:
-        if values is not None and self.launcher is not None:
+    def _launch(self, path: str, values: Mapping[str, str]) -> None:
+        if self.launcher is not None:
             self._read = ""
             answer = self.launcher.launch(path, values)
             answer.add_done_callback(lambda done: self.host.call_later(self._launched, done))
@@ -216,6 +232,18 @@ class LaunchPane(Pane):
         shown = self.console.snapshot().launch.problem
         if done.exception() is not None or not shown or done.result().text != shown:
             self._answered(done)
+
+
+def files_for(files: Sequence[str], typed: str) -> Sequence[Option]:
+    """The launch files that the typed words match; where none does, what was typed is a path."""
+    try:
+        query = parse(typed)
+    except ValueError:
+        query = Query()
+    found = [each for each in files if query.matches(each)]
+    if not found and typed.strip():
+        found = [str(Path(typed.strip()).expanduser())]
+    return [Option(Path(each).name, str(Path(each).parent), each) for each in found]
 
 
 def row_is_pointless(verb: str, process: ProcessInfo) -> bool:

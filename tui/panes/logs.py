@@ -9,11 +9,11 @@ from pathlib import Path
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, LogFilter, LogRecord, LogState, Severity
 from bot_console.tui.console.protocol import Console
-from bot_console.tui.console.query import parse
 from bot_console.tui.format import LETTERS, clock_text, harmless
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.screens.detail import DetailScreen
-from bot_console.tui.widgets.prompt import Prompt
+from bot_console.tui.widgets.prompt.common import filter_line
+from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.words import Words
 from rich.segment import Segment
@@ -195,22 +195,10 @@ class LogsPane(Pane):
 
     def action_filter(self) -> None:
         """Ask for a filter."""
-        self.query_one(Prompt).open("filter", "filter", self._which.words, _wrong)
+        self.ask(filter_line(self._which.words, self._filter))
 
-    def on_prompt_typed(self, event: Prompt.Typed) -> None:
-        """Filter while typing."""
-        event.stop()
-        if event.purpose == "filter" and not _wrong(event.text):
-            self._search(replace(self._which, words=event.text))
-
-    def on_prompt_closed(self, event: Prompt.Closed) -> None:
-        """The prompt was answered or given up."""
-        event.stop()
-        self._list.focus()
-        if event.purpose == "filter":
-            self._search(replace(self._which, words=event.text or ""))
-        elif event.text:
-            self._save(Path(event.text).expanduser())
+    def _filter(self, words: str) -> None:
+        self._search(replace(self._which, words=words))
 
     def action_exclude(self) -> None:
         """Hide the lines of this line's node."""
@@ -255,24 +243,12 @@ class LogsPane(Pane):
 
     def action_save(self) -> None:
         """Ask where to save."""
-        self.query_one(Prompt).open("save", "save these lines to", "log.txt")
+        self.ask_file("save these lines to", "log.txt", self._save)
 
-    def _save(self, path: Path) -> None:
+    def _save(self, path: Path) -> str:
         records = (self.console.log(seq) for seq in self._list.seqs)
         lines = [
             f"[{each.severity.name}] [{each.stamp / 1e9:.9f}] [{each.node}]: {each.text}" for each in records if each
         ]
-        try:
-            path.write_text("\n".join([*lines, ""]), encoding="utf-8")
-        except OSError as error:
-            self.notify(f"not saved: {error}", severity="error", markup=False)
-            return
-        self.notify(f"{len(lines)} lines saved to {path}", markup=False)
-
-
-def _wrong(text: str) -> str:
-    try:
-        parse(text)
-    except ValueError as error:
-        return str(error)
-    return ""
+        path.write_text("\n".join([*lines, ""]), encoding="utf-8")
+        return f"{len(lines)} lines saved to {path}"

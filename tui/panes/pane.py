@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, ClassVar
 
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Console, Launcher
 from bot_console.tui.format import harmless
+from bot_console.tui.screens.door import screen_for
+from bot_console.tui.widgets.prompt.common import file_line
+from bot_console.tui.widgets.prompt.line import Prompt
+from bot_console.tui.widgets.prompt.question import Line, Question
+from rich.text import Text
 from textual.app import App
 from textual.containers import Container
 from textual.message import Message
@@ -47,7 +54,7 @@ class Pane(Container):
         """Write into the lower edge of the frame; setting the same text again would draw the whole pane."""
         if text != self._caption:
             self._caption = text
-            self.border_subtitle = harmless(text).replace("[", r"\[")
+            self.border_subtitle = Text(harmless(text))
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Draw what is new in the snapshot; compare parts by identity and do nothing where they are the same."""
@@ -55,6 +62,24 @@ class Pane(Container):
 
     def tick(self) -> None:
         """Ten times a second, also while hidden: what does not come with a snapshot, such as samples and time-outs."""
+
+    def ask(self, question: Question[Any]) -> None:
+        """Ask the person something: a line at the foot of the pane, what needs more room over all panes."""
+        if isinstance(question, Line):
+            self.query_one(Prompt).ask(question)
+        else:
+            self.host.push_screen(screen_for(question))
+
+    def ask_file(self, label: str, name: str, write: Callable[[Path], str]) -> None:
+        """Ask for a file to write; `write` gives what to tell then, or raises `OSError`."""
+
+        def save(text: str) -> None:
+            try:
+                self.notify(write(Path(text.strip()).expanduser()), markup=False)
+            except OSError as error:
+                self.notify(f"not saved: {error}", severity="error", markup=False)
+
+        self.ask(file_line(label, name, save))
 
     def focus_target(self) -> None:
         """Take the keyboard: focus the part of the pane that the keys are for."""

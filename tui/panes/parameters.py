@@ -13,7 +13,9 @@ from bot_console.tui.console.query import parse
 from bot_console.tui.format import command_of, harmless, parse_value, range_text, value_text
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.parameter_rows import Row, View, rows
-from bot_console.tui.widgets.prompt import Prompt
+from bot_console.tui.widgets.prompt.common import file_line, filter_line
+from bot_console.tui.widgets.prompt.line import Prompt
+from bot_console.tui.widgets.prompt.question import Line
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.words import Words
 from rich.segment import Segment
@@ -199,8 +201,24 @@ class ParametersPane(Pane):
         else:
             limits = range_text(parameter.range, parameter.kind)
             label = f"{parameter.name} ({', '.join(each for each in (parameter.kind.word, limits) if each)})"
-            text = _field_text(parameter)
-            self.query_one(Prompt).open("edit", label, text, partial(_wrong, parameter))
+            self.ask(
+                Line(
+                    label,
+                    partial(self._set_text, parameter),
+                    partial(self._gone, parameter),
+                    text=_field_text(parameter),
+                    check=partial(_wrong, parameter),
+                )
+            )
+
+    def _gone(self, parameter: ParameterInfo) -> str:
+        """Why a parameter cannot be set any more."""
+        tree = self.console.snapshot().parameters.get(parameter.node)
+        if tree is None:
+            return f"{parameter.node} has left; {parameter.name} was not set."
+        if tree.get(parameter.name) is None and not tree.problem:
+            return f"{parameter.node} has no parameter {parameter.name} any more; it was not set."
+        return ""
 
     def _set(self, parameter: ParameterInfo, value: Value, source: ChangeSource = ChangeSource.EDIT) -> None:
         answer = self.console.set_parameters(parameter.node, {parameter.name: value}, source)
@@ -255,27 +273,12 @@ class ParametersPane(Pane):
 
     def action_filter(self) -> None:
         """Ask for a filter."""
-        self.query_one(Prompt).open("filter", "filter", self._filter, _bad_filter)
+        given_up = partial(self._filter_is, "")
+        self.ask(replace(filter_line(self._filter, self._apply_filter), then=self._filter_is, given_up=given_up))
 
-    def on_prompt_typed(self, event: Prompt.Typed) -> None:
-        """Filter while typing."""
-        event.stop()
-        if event.purpose == "filter" and not _bad_filter(event.text):
-            self._apply_filter(event.text)
-
-    def on_prompt_closed(self, event: Prompt.Closed) -> None:
-        """The prompt was answered or given up."""
-        event.stop()
-        self._list.focus()
-        parameter = self._at()
-        if event.purpose == "filter":
-            self._apply_filter(event.text or "")
-            self._to_first_match()
-        elif event.text is not None and event.purpose == "save":
-            answer = self.console.save_parameters(event.text)
-            self.notify(answer.text, severity="information" if answer.ok else "error", markup=False)
-        elif event.text is not None and event.purpose == "edit" and parameter is not None:
-            self._set_text(parameter, event.text)
+    def _filter_is(self, text: str) -> None:
+        self._apply_filter(text)
+        self._to_first_match()
 
     def _set_text(self, parameter: ParameterInfo, text: str) -> None:
         # A text with control characters is shown without them; left as it is, it stays what it was.
@@ -337,7 +340,11 @@ class ParametersPane(Pane):
 
     def action_save(self) -> None:
         """Ask where to save."""
-        self.query_one(Prompt).open("save", "save all parameters to", "parameters.yaml")
+        self.ask(file_line("save all parameters to", "parameters.yaml", self._save))
+
+    def _save(self, path: str) -> None:
+        answer = self.console.save_parameters(path)
+        self.notify(answer.text, severity="information" if answer.ok else "error", markup=False)
 
     def on_resize(self) -> None:
         """Fewer lines of detail where there is little room."""
@@ -351,14 +358,6 @@ def _field_text(parameter: ParameterInfo) -> str:
 def _wrong(parameter: ParameterInfo, text: str) -> str:
     try:
         parse_value(text, parameter)
-    except ValueError as error:
-        return str(error)
-    return ""
-
-
-def _bad_filter(text: str) -> str:
-    try:
-        parse(text)
     except ValueError as error:
         return str(error)
     return ""

@@ -11,7 +11,8 @@ from bot_console.tui.console.model import ConsoleSnapshot, JournalState
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.plot_parts import DEFAULTS, WINDOWS, Timeline, limits_of, wrong_limits
 from bot_console.tui.widgets.picture import Line, Picture
-from bot_console.tui.widgets.prompt import Prompt
+from bot_console.tui.widgets.prompt.line import Prompt
+from bot_console.tui.widgets.prompt.question import Line as Asked
 from textual.app import ComposeResult
 
 LEAST_FRAME = 8
@@ -134,8 +135,12 @@ class PlotPane(Pane):
 
     def action_add(self) -> None:
         """Ask for a path."""
-        prompt = self.query_one(Prompt)
-        prompt.open("add", "plot", "/", suggestions=[each for each in self.console.plottable() if each.isprintable()])
+        known = [each for each in self.console.plottable() if each.isprintable()]
+        self.ask(Asked("plot", self._add_all, text="/", suggestions=known))
+
+    def _add_all(self, paths: str) -> None:
+        for path in paths.split(","):
+            self.add(path)
 
     def add(self, path: str) -> None:
         """Plot a path, or say why not."""
@@ -208,46 +213,28 @@ class PlotPane(Pane):
         """Ask for the limits of the values."""
         now = self._timeline.limits
         text = f"{now[0]:g} {now[1]:g}" if now else ""
-        self.query_one(Prompt).open("limits", "least and greatest value (empty: automatic)", text, wrong_limits)
+        label = "least and greatest value (empty: automatic)"
+        self.ask(Asked(label, self._limit, text=text, check=wrong_limits))
+
+    def _limit(self, text: str) -> None:
+        self._timeline.limits = limits_of(text)
+        self.draw()
 
     def action_export(self) -> None:
         """Ask where the samples go."""
-        self.query_one(Prompt).open("csv", "save samples to", "plot.csv")
+        self.ask_file("save samples to", "plot.csv", self._save_samples)
 
     def action_picture(self) -> None:
         """Ask where the picture goes."""
-        self.query_one(Prompt).open("picture", "save picture to (.txt .html)", "plot.html")
+        self.ask_file("save picture to (.txt .html)", "plot.html", self._save_picture)
 
-    def on_prompt_typed(self, event: Prompt.Typed) -> None:
-        """Nothing happens before the answer."""
-        event.stop()
+    def _save_samples(self, path: Path) -> str:
+        from bot_console.tui.panes.plot_save import samples
 
-    def on_prompt_closed(self, event: Prompt.Closed) -> None:
-        """The prompt was answered or given up."""
-        event.stop()
-        self.focus()
-        text = event.text
-        if text is None:
-            return
-        if event.purpose == "add":
-            for path in text.split(","):
-                self.add(path)
-        elif event.purpose == "limits":
-            self._timeline.limits = limits_of(text)
-            self.draw()
-        else:
-            self._save(event.purpose, Path(text).expanduser())
+        return f"{samples(path, self._timeline.curves)} samples saved to {path}"
 
-    def _save(self, what: str, path: Path) -> None:
-        from bot_console.tui.panes.plot_save import picture, samples
+    def _save_picture(self, path: Path) -> str:
+        from bot_console.tui.panes.plot_save import picture
 
-        timeline = self._timeline
-        try:
-            if what == "csv":
-                count = samples(path, timeline.curves)
-                self.notify(f"{count} samples saved to {path}", markup=False)
-            else:
-                picture(path, timeline.curves, timeline.axes(120))
-                self.notify(f"picture saved to {path}", markup=False)
-        except OSError as error:
-            self.notify(f"not saved: {error}", severity="error", markup=False)
+        picture(path, self._timeline.curves, self._timeline.axes(120))
+        return f"picture saved to {path}"

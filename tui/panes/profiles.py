@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from concurrent.futures import Future
+from functools import partial
 from typing import Any
 
 from bot_console.tui import keymap
@@ -12,7 +13,7 @@ from bot_console.tui.console.protocol import Answer
 from bot_console.tui.format import counted
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.profile_rows import DifferenceRows, ProfileRows, entries, turns_safety_off
-from bot_console.tui.screens.confirm import ConfirmScreen
+from bot_console.tui.widgets.prompt.question import Confirmation
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.words import Words
 from textual.app import ComposeResult
@@ -125,11 +126,18 @@ class ProfilesPane(Pane):
             self._apply(profile.name, reset_world)
             return
 
-        def answered(yes: bool | None) -> None:
-            if yes:
-                self._apply(profile.name, reset_world)
+        self.ask(
+            Confirmation(
+                f"Apply {profile.name}?",
+                lambda _: self._apply(profile.name, reset_world),
+                gone=partial(self._gone, profile.name),
+                reasons="\n".join(reasons),
+            )
+        )
 
-        self.host.push_screen(ConfirmScreen(f"Apply {profile.name}?", "\n".join(reasons)), answered)
+    def _gone(self, name: str) -> str:
+        there = any(each.name == name for each in self.console.snapshot().profiles)
+        return "" if there else f"The profile {name} is not there any more; nothing was applied."
 
     def _apply(self, name: str, reset_world: bool) -> None:
         self._told = f"applying {name} ..."

@@ -17,7 +17,7 @@ class FactsScreen(Overlay):
     """Sections one below the other; an empty one is left out."""
 
     def __init__(self, title: str, sections: Sequence[Section]) -> None:
-        super().__init__(harmless(title))
+        super().__init__(title)
         self._sections = sections
 
     def content(self) -> Iterable[RenderableType]:

@@ -5,18 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import ClassVar
 
+from bot_console.tui import keymap
 from bot_console.tui.keymap import TABLE, Key, key_text
 from bot_console.tui.screens.overlay import Overlay
 from rich.console import RenderableType
 from rich.table import Table
 from rich.text import Text
-from textual.binding import Binding, BindingType
+from textual.binding import BindingType
 
 
 class HelpScreen(Overlay):
     """What a pane is for, and its keys, then those that work everywhere."""
 
-    BINDINGS: ClassVar[list[BindingType]] = [Binding("question_mark,f1", "dismiss", "Close")]
+    BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("help")]
 
     def __init__(self, scope: str, title: str, text: str) -> None:
         super().__init__(title or "Help")

@@ -2,32 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from pathlib import Path
 from typing import ClassVar
 
+from bot_console.tui import keymap
 from bot_console.tui.console.model import LaunchArgument
 from bot_console.tui.format import harmless
+from bot_console.tui.screens.question import QuestionScreen
+from bot_console.tui.widgets.prompt.question import Form
+from rich.text import Text
 from textual.app import ComposeResult
-from textual.binding import Binding, BindingType
+from textual.binding import BindingType
 from textual.containers import Vertical, VerticalScroll
-from textual.screen import ModalScreen
 from textual.suggester import SuggestFromList
 from textual.widgets import Input, Static
 
 
-class ArgumentsScreen(ModalScreen["dict[str, str] | None"]):
-    """The values that differ from their defaults, or None when nothing shall be launched."""
+class ArgumentsScreen(QuestionScreen[dict[str, str]]):
+    """Asks for the arguments; the answer are the values that differ from their defaults."""
 
-    BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("escape", "give_up", "Close"),
-        Binding("down,tab", "step(1)", "Next", show=False, priority=True),
-        Binding("up,shift+tab", "step(-1)", "Previous", show=False, priority=True),
-        Binding("ctrl+n", "choice(1)", "Next choice", show=False, priority=True),
-        Binding("pagedown", "choice(1)", "Next choice", show=False, priority=True),
-        Binding("pageup", "choice(-1)", "Previous choice", show=False, priority=True),
-        Binding("ctrl+q,ctrl+c", "app.quit", "Quit", show=False, priority=True),
-    ]
+    BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("form")]
     DEFAULT_CSS = """
     ArgumentsScreen { align: center middle; }
     ArgumentsScreen #form { width: 90%; max-width: 100; height: auto; max-height: 90%; background: $panel;
@@ -42,15 +35,15 @@ class ArgumentsScreen(ModalScreen["dict[str, str] | None"]):
     ArgumentsScreen #wrong { color: $warning; height: auto; }
     """
 
-    def __init__(self, path: str, arguments: Sequence[LaunchArgument]) -> None:
-        super().__init__()
-        self._path = path
-        self._arguments = arguments
+    def __init__(self, form: Form) -> None:
+        super().__init__(form)
+        self._form = form
+        self._arguments = form.arguments
 
     def compose(self) -> ComposeResult:
         """Name, value and description of each argument."""
         with Vertical(id="form") as box:
-            box.border_title = "Launch " + harmless(Path(self._path).name).replace("[", r"\[")
+            box.border_title = Text(harmless(self._form.label))
             box.border_subtitle = "↑↓ move · enter launches · esc closes"
             with VerticalScroll(can_focus=False):
                 for each in self._arguments:
@@ -74,7 +67,7 @@ class ArgumentsScreen(ModalScreen["dict[str, str] | None"]):
         """Begin at the first argument that has to be given."""
         fields = list(self.query(Input))
         needed = (at for at, each in enumerate(self._arguments) if each.default is None)
-        fields[next(needed, 0)].focus()
+        self.set_focus(fields[next(needed, 0)])
 
     def _at(self) -> int:
         fields = list(self.query(Input))
@@ -83,7 +76,7 @@ class ArgumentsScreen(ModalScreen["dict[str, str] | None"]):
     def action_step(self, step: int) -> None:
         """The next argument, or the one before."""
         fields = list(self.query(Input))
-        fields[(self._at() + step) % len(fields)].focus()
+        self.set_focus(fields[(self._at() + step) % len(fields)])
 
     def action_choice(self, step: int) -> None:
         """The next of the values that the launch file allows."""
@@ -114,17 +107,13 @@ class ArgumentsScreen(ModalScreen["dict[str, str] | None"]):
         if wrong:
             self.query_one("#wrong", Static).update(harmless("; ".join(wrong)))
             return
-        self.dismiss(
+        self.answer(
             {
                 each.name: values[each.name]
                 for each in self._arguments
                 if values[each.name] != harmless(each.default or "")
             }
         )
-
-    def action_give_up(self) -> None:
-        """Launch nothing."""
-        self.dismiss(None)
 
 
 def choices_line(argument: LaunchArgument, value: str) -> str:

@@ -14,7 +14,7 @@ class OutputScreen(Overlay):
     """A command and its output, as printed."""
 
     def __init__(self, command: str, output: str) -> None:
-        super().__init__(harmless(command))
+        super().__init__(command)
         self._output = output
 
     def content(self) -> Iterable[RenderableType]:

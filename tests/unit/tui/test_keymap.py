@@ -8,18 +8,39 @@ import pytest
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.keymap import TABLE, Key
 from bot_console.tui.pane_table import PANES
+from bot_console.tui.screens.confirm import ConfirmScreen
+from bot_console.tui.screens.help import HelpScreen
+from bot_console.tui.screens.launch_arguments import ArgumentsScreen
+from bot_console.tui.screens.overlay import Overlay
+from bot_console.tui.screens.picker import PickerScreen
+from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.widgets.diagram_view import DiagramView
 from bot_console.tui.widgets.row_list import RowList
 
-OWNERS = {"app": BotConsoleApp, "list": RowList, "diagram": DiagramView, **{each.id: each.load() for each in PANES}}
+SCREENS = {
+    "overlay": Overlay,
+    "help": HelpScreen,
+    "question": QuestionScreen,
+    "confirm": ConfirmScreen,
+    "picker": PickerScreen,
+    "form": ArgumentsScreen,
+}
+OWNERS = {
+    "app": BotConsoleApp,
+    "list": RowList,
+    "diagram": DiagramView,
+    **SCREENS,
+    **{each.id: each.load() for each in PANES},
+}
 KEYS = [(scope, key) for scope, keys in TABLE.items() for key in keys]
 STOLEN = {"ctrl+x", "ctrl+b", "ctrl+a", "ctrl+s", "ctrl+z", "ctrl+h", "ctrl+i", "ctrl+m", "ctrl+j"}
 
 
 @pytest.mark.parametrize(("scope", "key"), KEYS, ids=[key.id for _, key in KEYS])
 def test_the_action_exists_and_the_key_is_usable(scope: str, key: Key) -> None:
-    name = re.match(r"\w+", key.action)
-    assert name and hasattr(OWNERS[scope], f"action_{name[0]}")
+    name = re.match(r"\w+", key.action.removeprefix("app."))
+    owner = BotConsoleApp if key.action.startswith("app.") else OWNERS[scope]
+    assert name and hasattr(owner, f"action_{name[0]}")
     keys = key.keys.split(",")
     assert not STOLEN & set(keys)
     assert not [each for each in keys if re.fullmatch(r"f\d+", each) and each != "f1"]

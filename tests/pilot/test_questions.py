@@ -1,0 +1,160 @@
+"""Questions carry their answer: bound to what they were asked about, closed when it leaves, typed into at any speed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import MappingProxyType
+
+import pytest
+from bot_console.tui.panes.parameters import ParameterRows, ParametersPane
+from bot_console.tui.screens.confirm import ConfirmScreen
+from bot_console.tui.screens.picker import PickerScreen
+from bot_console.tui.widgets.prompt.line import Prompt
+from piloting import NAMES, Session, run
+from samples import live
+from textual import events
+from textual.keys import _character_to_key
+
+
+def rows(session: Session) -> ParameterRows:
+    return session.pane(ParametersPane).query_one(ParameterRows)
+
+
+def asked(session: Session) -> list[tuple[object, ...]]:
+    return [each[1:] for each in session.console.asked if each[0] == "set"]
+
+
+def prompt(session: Session) -> Prompt:
+    return session.pane(ParametersPane).query_one(Prompt)
+
+
+async def at_once(session: Session, text: str) -> None:
+    """Type without waiting for anything in between, as a fast hand or a busy machine does."""
+    for letter in text:
+        special = {"\r": "enter", "\x1b": "escape"}.get(letter)
+        key = special or NAMES.get(letter) or _character_to_key(letter)
+        session.app.post_message(events.Key(key, None if special else letter))
+    for _ in range(3):
+        await session.settle()
+
+
+async def edit(session: Session, name: str) -> None:
+    await session.press("1")
+    found = rows(session)
+    found.cursor = next(i for i, row in enumerate(found.rows) if row.parameter and row.parameter.name == name)
+    await session.press("e")
+    assert prompt(session).is_open
+
+
+def without(session: Session, node: str) -> None:
+    trees = session.console.current.parameters
+    session.console.change(parameters=MappingProxyType({name: tree for name, tree in trees.items() if name != node}))
+
+
+def test_a_value_goes_to_the_parameter_that_was_asked_about_wherever_the_cursor_is_by_then() -> None:
+    async def play(session: Session) -> None:
+        await edit(session, "max_speed")
+        rows(session).cursor += 2
+        await session.type("2")
+        await session.press("enter")
+        assert asked(session) == [("/robot_navigator", {"max_speed": 2.0})]
+
+    run(live(), play)
+
+
+@pytest.mark.parametrize("gone", ["node", "parameter"])
+def test_an_edit_closes_by_itself_when_its_subject_leaves(gone: str) -> None:
+    async def play(session: Session) -> None:
+        await edit(session, "max_speed")
+        if gone == "node":
+            without(session, "/robot_navigator")
+        else:
+            trees = dict(session.console.current.parameters)
+            tree = trees["/robot_navigator"]
+            left = tuple(each for each in tree.parameters if each.name != "max_speed")
+            trees["/robot_navigator"] = replace(tree, parameters=left)
+            session.console.change(parameters=MappingProxyType(trees))
+        await session.settle()
+        assert not prompt(session).is_open and "was not set" in session.text().replace("\n", " ")
+        assert session.app.focused is rows(session)
+        await session.press("enter")
+        assert asked(session) == []
+
+    run(live(), play, (120, 30))
+
+
+def test_a_subject_that_leaves_in_the_last_moment_is_noticed_by_the_answer() -> None:
+    async def play(session: Session) -> None:
+        await edit(session, "max_speed")
+        without(session, "/robot_navigator")
+        await at_once(session, "2\r")
+        assert asked(session) == [] and not prompt(session).is_open
+
+    run(live(), play)
+
+
+def test_the_question_whether_to_kill_closes_when_the_process_has_ended() -> None:
+    async def play(session: Session) -> None:
+        await session.press("8", "down", "down", "K")
+        assert isinstance(session.app.screen, ConfirmScreen)
+        launch = session.console.current.launch
+        session.console.change(launch=replace(launch, processes=()))
+        session.app.pull()
+        await session.settle()
+        assert len(session.app.screen_stack) == 1
+        assert "ended meanwhile" in session.text()
+        assert session.launcher.asked == []
+
+    run(live(), play, (120, 30))
+
+
+def test_letters_typed_after_the_filter_key_belong_to_the_filter() -> None:
+    async def play(session: Session) -> None:
+        await session.press("2")
+        await at_once(session, "/quit 1 z! done\r")
+        assert "/quit 1 z! done" in session.text()
+        assert session.app.return_code is None and not session.console.current.drive.stopped
+
+    run(live(), play)
+
+
+def test_letters_typed_after_the_edit_key_are_the_value_and_what_follows_enter_is_a_command() -> None:
+    async def play(session: Session) -> None:
+        await edit(session, "max_speed")
+        await session.press("escape")
+        await at_once(session, "e2.5\rj")
+        assert asked(session) == [("/robot_navigator", {"max_speed": 2.5})]
+        assert rows(session).current.name != "max_speed"
+
+    run(live(), play)
+
+
+def test_letters_typed_after_the_palette_key_belong_to_the_palette() -> None:
+    async def play(session: Session) -> None:
+        await at_once(session, ":node graph")
+        assert isinstance(session.app.screen, PickerScreen) and "node graph" in session.text()
+        await at_once(session, "\r")
+        assert [each.id for each in session.app.visible_panes()] == ["graph"]
+        await at_once(session, ":ros2 node list\r")
+        assert "/robot_navigator" in session.text() and ("run", "ros2 node list") in session.console.asked
+
+    run(live(), play)
+
+
+@pytest.mark.parametrize("keys", [":\r\r", ":\x1b\x1b", ":xyzzy\r\r", "?qq", ":?\r\x1b\r", "8o\r\r", "8o\x1b\x1b\x1b"])
+def test_a_key_pressed_twice_closes_one_thing(keys: str) -> None:
+    async def play(session: Session) -> None:
+        await at_once(session, keys)
+        assert session.app._exception is None
+        assert session.app.screen_stack
+
+    run(live(), play)
+
+
+def test_no_key_is_held_up_by_one_that_has_ended() -> None:
+    async def play(session: Session) -> None:
+        for keys in ("?", "\x1b", ":", "\x1b", "/", "x", "\r", "/", "\x1b", "8", "o", "\x1b", "3", "\r", "\x1b"):
+            await at_once(session, keys)
+            assert session.app._keyboard._under_way == 0, keys
+
+    run(live(), play)

@@ -1,0 +1,74 @@
+"""Keys in the order in which they were typed: the next one waits until all has happened that the last one does.
+
+Textual hands a key to what has the keyboard at that moment, and what a key opens takes the keyboard a little later:
+letters typed fast, or on a busy machine, would be commands instead of text.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Awaitable, Callable, Sequence
+from functools import partial
+from typing import TypeAlias
+
+from textual import events
+from textual.app import App
+from textual.dom import DOMNode
+
+PATIENCE = 1.0
+"""Seconds after which a key that has not ended, for instance since its widget was removed, holds up no other."""
+
+PASSES = 2
+"""A key goes from what has the keyboard up to the app, where its binding acts; then once more what the action sent."""
+
+Typed: TypeAlias = "events.Key | events.Paste"
+
+
+class Keyboard:
+    """Hands keys on one by one."""
+
+    def __init__(self, app: App[None], deliver: Callable[[Typed], Awaitable[None]]) -> None:
+        self._app = app
+        self._deliver = deliver
+        self._waiting: deque[Typed] = deque()
+        self._under_way = 0
+        """Which key is being dealt with; 0 when none is."""
+        self._count = 0
+
+    async def typed(self, event: Typed) -> None:
+        """Deal with a key now, or when those before it are done."""
+        self._waiting.append(event)
+        if not self._under_way:
+            await self._next()
+        elif len(self._waiting) == 1:
+            self._be_patient()
+
+    async def _next(self) -> None:
+        while self._waiting and not self._under_way:
+            event = self._waiting.popleft()
+            self._count += 1
+            self._under_way = number = self._count
+            target = self._app.focused or self._app.screen
+            await self._deliver(event)
+            self._follow(number, [*target.ancestors_with_self] * PASSES)
+            if self._waiting:
+                self._be_patient()
+
+    def _be_patient(self) -> None:
+        self._app.set_timer(PATIENCE, partial(self._done, self._under_way))
+
+    def _follow(self, number: int, path: Sequence[DOMNode]) -> None:
+        """Wait for each on the path to deal with what it has received up to now."""
+        for at, node in enumerate(path):
+            if node.is_running and node.call_later(self._follow, number, path[at + 1 :]):
+                return
+        screen = self._app.screen if self._app.screen_stack else None
+        if screen is not None and not screen.is_mounted and screen.is_attached:
+            screen.call_later(self._follow, number, ())
+        else:
+            self._app.call_later(self._done, number)
+
+    async def _done(self, number: int) -> None:
+        if number == self._under_way:
+            self._under_way = 0
+            await self._next()

@@ -1,0 +1,103 @@
+"""Choosing one of several things, narrowed by typing."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import ClassVar
+
+from bot_console.tui import keymap
+from bot_console.tui.format import harmless
+from bot_console.tui.screens.question import QuestionScreen
+from bot_console.tui.widgets.prompt.question import Choice, Option
+from bot_console.tui.widgets.row_list import RowList
+from bot_console.tui.widgets.words import Words
+from rich.segment import Segment
+from rich.text import Text
+from textual.app import ComposeResult
+from textual.binding import BindingType
+from textual.containers import Vertical
+from textual.widgets import Input
+
+
+class OptionRows(RowList):
+    """Options: the title first, what is said about it after that."""
+
+    can_focus = False
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.options: Sequence[Option] = ()
+
+    def row_count(self) -> int:
+        """How many options there are."""
+        return len(self.options)
+
+    def row(self, index: int, width: int) -> list[Segment]:
+        """One option."""
+        option = self.options[index]
+        chosen = index == self.cursor
+        style = self.get_component_rich_style("row-list--strong" if chosen else "row-list--plain", partial=True)
+        dim = self.get_component_rich_style("row-list--dim", partial=True)
+        return [
+            Segment(f"{'▸' if chosen else ' '} {harmless(option.title)}  ", style),
+            Segment(harmless(option.about), dim),
+        ]
+
+
+class PickerScreen(QuestionScreen[str]):
+    """Asks for one of several options."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("picker")]
+    DEFAULT_CSS = """
+    PickerScreen { align: center middle; }
+    PickerScreen Vertical { width: 90%; max-width: 110; height: 70%; background: $panel; border: round $primary;
+                            padding: 0 1; }
+    PickerScreen Input { border: none; height: 1; padding: 0; background: $panel; margin-bottom: 1; }
+    PickerScreen Input:focus { border: none; }
+    PickerScreen RowList { background: $panel; }
+    PickerScreen Words { background: $panel; padding: 0; }
+    """
+
+    def __init__(self, choice: Choice) -> None:
+        super().__init__(choice)
+        self._choice = choice
+
+    def compose(self) -> ComposeResult:
+        """What is typed, and the options that match."""
+        with Vertical() as box:
+            box.border_title = Text(harmless(self._choice.label))
+            box.border_subtitle = "enter takes it · esc closes"
+            yield Input(placeholder=self._choice.hint)
+            yield OptionRows()
+            yield Words()
+
+    def on_mount(self) -> None:
+        """Typing narrows."""
+        self.set_focus(self.query_one(Input))
+        self._show("")
+
+    def on_input_changed(self, event: Input.Changed) -> None:
+        """Show the options that match."""
+        self._show(event.value)
+
+    def _show(self, typed: str) -> None:
+        rows = self.query_one(OptionRows)
+        rows.options = self._choice.find(typed)
+        rows.set_reactive(RowList.cursor, 0)
+        rows.rows_changed()
+        rows.show_cursor()
+        self.query_one(Words).say("" if rows.options else self._choice.empty)
+
+    def on_input_submitted(self, event: Input.Submitted) -> None:
+        """Take the option at the cursor."""
+        event.stop()
+        rows = self.query_one(OptionRows)
+        if rows.cursor < len(rows.options):
+            option = rows.options[rows.cursor]
+            self.answer(option.value or option.title)
+
+    def action_move(self, step: int) -> None:
+        """Another option."""
+        rows = self.query_one(OptionRows)
+        rows.action_cursor(step)
+        rows.refresh()

@@ -1,0 +1,35 @@
+"""A question that lies over the panes."""
+
+from __future__ import annotations
+
+from typing import ClassVar, TypeVar
+
+from bot_console.tui import keymap
+from bot_console.tui.widgets.prompt.question import Asker, Question
+from textual.binding import BindingType
+from textual.screen import ModalScreen
+
+A = TypeVar("A")
+
+
+class QuestionScreen(Asker[A], ModalScreen[None]):
+    """Holds a question until it is answered; leaves the screen by itself when what it is about has left."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("question")]
+    AUTO_FOCUS = ""
+
+    def __init__(self, question: Question[A]) -> None:
+        super().__init__()
+        self._question = question
+
+    def close(self) -> None:
+        """Leave the screen."""
+        self.dismiss()
+
+    def tell(self, why: str) -> None:
+        """Say why it closes, on the screen below."""
+        self.notify(why, severity="warning", markup=False)
+
+    def action_give_up(self) -> None:
+        """Close without an answer."""
+        self.give_up()

@@ -1,0 +1,27 @@
+"""Lines that many panes ask for: a filter, the name of a file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from bot_console.tui.console.query import parse
+from bot_console.tui.widgets.prompt.question import Line
+
+
+def wrong_filter(text: str) -> str:
+    """What is wrong with the words of a filter; empty when nothing is."""
+    try:
+        parse(text)
+    except ValueError as error:
+        return str(error)
+    return ""
+
+
+def filter_line(words: str, apply: Callable[[str], object]) -> Line:
+    """Ask for a filter that is applied while it is typed; giving up takes it away."""
+    return Line("filter", apply, given_up=lambda: apply(""), text=words, check=wrong_filter, typed=apply)
+
+
+def file_line(label: str, name: str, then: Callable[[str], object]) -> Line:
+    """Ask for the name of a file to write."""
+    return Line(label, then, text=name, check=lambda text: "" if text.strip() else "a file name is needed")

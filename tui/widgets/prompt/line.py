@@ -1,0 +1,85 @@
+"""A one-line prompt that appears at the foot of a pane: for a value, a filter, a file name."""
+
+from __future__ import annotations
+
+from bot_console.tui.format import harmless
+from bot_console.tui.widgets.prompt.question import Asker, Line
+from textual.app import ComposeResult
+from textual.containers import Horizontal
+from textual.events import Key
+from textual.suggester import SuggestFromList
+from textual.widget import Widget
+from textual.widgets import Input, Label
+
+
+class Prompt(Asker[str], Horizontal):
+    """A label, a text field, and room for what is wrong with the text."""
+
+    DEFAULT_CSS = """
+    Prompt { height: 1; display: none; background: $panel; }
+    Prompt.open { display: block; }
+    Prompt Label { color: $text-muted; padding: 0 1; width: auto; }
+    Prompt Input { border: none; height: 1; padding: 0; background: $panel; width: 1fr; }
+    Prompt Input:focus { border: none; }
+    Prompt .wrong { color: $warning; padding: 0 1; }
+    """
+
+    _line: Line | None = None
+    _before: Widget | None = None
+
+    def compose(self) -> ComposeResult:
+        """Label, field, complaint."""
+        yield Label("", markup=False, id="prompt-label")
+        yield Input(id="prompt-input", select_on_focus=True)
+        yield Label("", markup=False, classes="wrong", id="prompt-wrong")
+
+    def ask(self, line: Line) -> None:
+        """Ask; a question that is open already is given up."""
+        self.give_up()
+        self._question = self._line = line
+        self.query_one("#prompt-label", Label).update(harmless(line.label))
+        field = self.query_one("#prompt-input", Input)
+        suggestions = line.suggestions
+        field.suggester = SuggestFromList(suggestions, case_sensitive=False) if suggestions else None
+        field.select_on_focus = not suggestions
+        field.value = line.text
+        field.cursor_position = len(line.text)
+        self._complain(line.text)
+        self.add_class("open")
+        self._before = self.screen.focused
+        # At once, not by `focus`, which comes after the keys that are already on their way.
+        self.screen.set_focus(field)
+
+    def _complain(self, text: str) -> str:
+        wrong = self._line.check(text) if self._line else ""
+        self.query_one("#prompt-wrong", Label).update(harmless(wrong))
+        return wrong
+
+    def on_input_changed(self, event: Input.Changed) -> None:
+        """Check while typing."""
+        event.stop()
+        if self.is_open and self._line and not self._complain(event.value):
+            self._line.typed(event.value)
+
+    def on_input_submitted(self, event: Input.Submitted) -> None:
+        """Answer."""
+        event.stop()
+        if self.is_open and not self._complain(event.value):
+            self.answer(event.value)
+
+    def key_escape(self, event: Key) -> None:
+        """Give up; the list that has the keyboard then takes the same key for one of its own, so it ends here."""
+        if self.is_open:
+            event.stop()
+            self.give_up()
+
+    def close(self) -> None:
+        """Vanish, and give the keyboard back to whom it was taken from."""
+        self.remove_class("open")
+        if self.screen.focused is self.query_one("#prompt-input", Input):
+            self.screen.set_focus(self._before)
+        self._before = None
+
+    def tell(self, why: str) -> None:
+        """Say why it closes."""
+        self.notify(why, severity="warning", markup=False)

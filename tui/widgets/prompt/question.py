@@ -1,0 +1,135 @@
+"""A question that carries its answer: what is asked, of what, and what is to happen then."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Generic, TypeVar
+
+from bot_console.tui.console.model import LaunchArgument
+
+A = TypeVar("A")
+
+
+def _nothing(*_: object) -> None:
+    """For those who do not want to know."""
+
+
+def _all_well(*_: str) -> str:
+    return ""
+
+
+def _none(_: str) -> Sequence[Option]:
+    return ()
+
+
+@dataclass(frozen=True)
+class Question(Generic[A]):
+    """What is asked, bound to the thing asked about: nobody looks up afterwards what was meant."""
+
+    label: str
+    then: Callable[[A], object]
+    """Called once, with the answer."""
+
+    gone: Callable[[], str] = _all_well
+    """Why nobody can answer any more, for instance that a node has left; empty while it makes sense to ask."""
+
+    given_up: Callable[[], object] = _nothing
+    """Called once, instead of `then`."""
+
+
+@dataclass(frozen=True)
+class Line(Question[str]):
+    """A line of text: a value, a filter, the name of a file."""
+
+    text: str = ""
+    check: Callable[[str], str] = _all_well
+    """What is wrong with a text, in words; empty when nothing is."""
+
+    typed: Callable[[str], object] = _nothing
+    """Called with each text on the way that has nothing wrong with it."""
+
+    suggestions: Sequence[str] = ()
+    """The first that begins as the text does is shown dim; the right arrow key takes it."""
+
+
+@dataclass(frozen=True)
+class Confirmation(Question[None]):
+    """Whether something shall be done; only yes is an answer."""
+
+    reasons: str = ""
+    """Why it is asked, line by line."""
+
+
+@dataclass(frozen=True)
+class Option:
+    """One of the things to choose from."""
+
+    title: str
+    about: str = ""
+    """Said dim after the title: a folder, a key."""
+
+    value: str = ""
+    """What is answered; empty: the title."""
+
+
+@dataclass(frozen=True)
+class Choice(Question[str]):
+    """One of several things, narrowed by typing."""
+
+    find: Callable[[str], Sequence[Option]] = _none
+    """The options for what was typed, the best first."""
+
+    hint: str = ""
+    """Said in the empty field."""
+
+    empty: str = ""
+    """Said where nothing is found."""
+
+
+@dataclass(frozen=True)
+class Form(Question[dict[str, str]]):
+    """Values for the arguments of a launch file; those that differ from their defaults are the answer."""
+
+    arguments: Sequence[LaunchArgument] = ()
+
+
+class Asker(Generic[A]):
+    """What shows a question. It is answered, given up, or closes because its subject has left: one of these, once."""
+
+    _question: Question[A] | None = None
+
+    def close(self) -> None:
+        """Take the question from the screen."""
+        raise NotImplementedError
+
+    def tell(self, why: str) -> None:
+        """Say why the question closes by itself."""
+        raise NotImplementedError
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it asks."""
+        return self._question is not None
+
+    def answer(self, answer: A) -> None:
+        """Close, and do what the question is for."""
+        if self.look() and self._question is not None:
+            question, self._question = self._question, None
+            self.close()
+            question.then(answer)
+
+    def give_up(self) -> None:
+        """Close without an answer."""
+        question, self._question = self._question, None
+        if question is not None:
+            self.close()
+            question.given_up()
+
+    def look(self) -> bool:
+        """Whether the question still makes sense; when its subject has left it closes and says so."""
+        why = self._question.gone() if self._question else ""
+        if why:
+            self.give_up()
+            self.tell(why)
+        return not why
