@@ -46,8 +46,11 @@ class PublisherEndpoint(Protocol):
         """Give a sign of life."""
         ...
 
-    def publish_own(self, message: Any) -> None:
-        """Publish a message that is well formed and that nobody else holds; it need not be copied."""
+    def publish_own(self, message: Any) -> bool:
+        """Publish a message that is well formed and that nobody else holds; it need not be copied.
+
+        False when the publisher is closed: then nobody gets it.
+        """
         ...
 
     def publish_raw(self, data: bytes) -> None:

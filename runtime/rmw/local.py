@@ -73,14 +73,18 @@ class LocalPublisher:
             target.queue.append((given, stamp, number, expires))
             target.notify()
 
-    def publish_own(self, message: Any) -> None:
-        """Publish a message that is well formed and that nobody else holds: it is not copied where that is needless."""
+    def publish_own(self, message: Any) -> bool:
+        """Publish a message that is well formed and that nobody else holds: it is not copied where that is needless.
+
+        False when the publisher is closed.
+        """
         if self.targets:
             self.publish(message)
         elif self.open:
             self._number += 1
             if self.history is not None:
                 self.history.append((message, self._now(), self._number))
+        return self.open
 
     def publish_raw(self, data: bytes) -> None:
         """Give serialized data as it is, or as a message to subscriptions that want one."""

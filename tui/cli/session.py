@@ -21,7 +21,7 @@ from bot_console.tui.cli.workspaces import choose, launch_environment, launch_fi
 from bot_console.tui.console.connection import RosConsole
 from bot_console.tui.console.launcher import RosLauncher
 from bot_console.tui.console.model import LaunchInfo, Severity
-from bot_console.tui.console.process_output import FORMAT_VARIABLE, MARKED_FORMAT
+from bot_console.tui.console.process_output import marking
 
 ROOT = Path(__file__).resolve().parents[2]
 SWITCH_INTERVAL = 0.0005
@@ -32,9 +32,8 @@ READY = 20.0
 LINE_LIMIT = 15.0
 """Seconds after which a `ros2` line that does not end by itself is interrupted, as by Ctrl-C."""
 
-ENVIRONMENT = {"OVERRIDE_LAUNCH_PROCESS_OUTPUT": "own_log", FORMAT_VARIABLE: MARKED_FORMAT}
-"""Launch does not repeat on its screen what processes print, since the console reads that from launch's events; and
-loggers mark their lines, so that these are told from what is merely printed."""
+ENVIRONMENT = {"OVERRIDE_LAUNCH_PROCESS_OUTPUT": "own_log"}
+"""Launch does not repeat on its screen what processes print, since the console reads that from launch's events."""
 
 LAUNCH_LINE = re.compile(r"\[([A-Z]+)\] \[([^\]]+)\]: (.*)")
 LEVELS = {"DEBUG": Severity.DEBUG, "WARNING": Severity.WARN, "ERROR": Severity.ERROR, "CRITICAL": Severity.FATAL}
@@ -53,7 +52,9 @@ class Session:
             active_profile="" if options.launch else options.profile,
             run_line=run_line,
         )
-        self.launcher = RosLauncher(self.console.record, self.console.printed, launch_files, self._spawn, find_vitals)
+        self.launcher = RosLauncher(
+            self.console.record, self.console.printed, launch_files, self._spawn, find_vitals, self.console.heard
+        )
         self.app = BotConsoleApp(
             self.console, self.launcher, start_pane=options.pane, on_first_frame=self._on_first_frame
         )
@@ -140,7 +141,7 @@ class Launching:
             elif text.strip():
                 printed(Severity.INFO, "launch", text.rstrip("\n"))
 
-        self._process.start(target, env={**env, **ENVIRONMENT}, stdout=tell, stderr=tell)
+        self._process.start(target, env={**env, **ENVIRONMENT, **marking(env)}, stdout=tell, stderr=tell)
 
     def join(self, timeout: float | None = None) -> object:
         """Wait for the end, at most so many seconds."""

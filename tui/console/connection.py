@@ -35,7 +35,6 @@ from bot_console.tui.console.protocol import Answer, Samples
 if TYPE_CHECKING:
     from bot_console.tui.console.log_store import LogStore
     from bot_console.tui.console.node import ConsoleNode
-    from bot_console.tui.console.process_output import Once
 
 T = TypeVar("T")
 STARTING = "the console is still connecting to the ROS system"
@@ -66,7 +65,6 @@ class RosConsole:
         self._run_line = run_line
         self._node: ConsoleNode | None = None
         self._logs: LogStore | None = None
-        self._once: Once | None = None
         self._problem = ""
         self._ready = threading.Event()
         self._thread = threading.Thread(target=self._serve, name="bot-console", daemon=True)
@@ -81,12 +79,10 @@ class RosConsole:
         try:
             from bot_console.tui.console.log_store import LogStore
             from bot_console.tui.console.node import ConsoleNode
-            from bot_console.tui.console.process_output import Once
             from bot_console.tui.console.profiles import find
 
             self._logs = LogStore()
-            self._once = Once(self._logs.add)
-            self._node = ConsoleNode(self._once)
+            self._node = ConsoleNode(self._logs.add)
             self._profiles = find(self._profile_folders)
             self._ready.set()
             if self._closed:
@@ -106,9 +102,13 @@ class RosConsole:
         return self._ready.wait(timeout) and self._node is not None
 
     def record(self, stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:
-        """Take a log record that a process wrote to its console; it shows once, though `/rosout` brings it too."""
-        if self._once:
-            self._once.record(stamp, severity, name, text, site)
+        """Take a log record that a process wrote to its console and that `/rosout` does not bring."""
+        if self._logs:
+            self._logs.add(stamp, severity, name, text, site)
+
+    def heard(self, name: str) -> bool:
+        """Whether `/rosout` has brought a line of the logger of that name."""
+        return self._node is not None and name in self._node.loggers
 
     def printed(self, severity: int, label: str, text: str) -> None:
         """Take a line that a process printed."""

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-import sysconfig
 import traceback
 from collections.abc import Callable, Iterator, Sequence
-from pathlib import Path
 from types import FrameType, TracebackType
 from typing import Any, TypeAlias
+
+from bot_console.tui.console.user_code import library_folders
 
 ENDLESS = "launch files include each other without end"
 
@@ -76,24 +76,13 @@ def _causes(error: BaseException) -> Iterator[BaseException]:
 
 def _user_line(error: BaseException) -> tuple[str, int] | None:
     """The innermost line that is neither launch's nor a library's."""
-    libraries = _library_folders()
+    libraries = library_folders()
     lines = [
         (frame.filename, frame.lineno)
         for frame in traceback.extract_tb(error.__traceback__)
         if frame.lineno and not frame.filename.startswith(("<", *libraries))
     ]
     return lines[-1] if lines else None
-
-
-def _library_folders() -> tuple[str, ...]:
-    import launch_ros
-
-    import launch
-
-    folders = [str(Path(module.__file__).parent.parent) for module in (launch, launch_ros) if module.__file__]
-    folders += [sysconfig.get_path(name) for name in ("stdlib", "purelib", "platlib")]
-    folders.append(str(Path(__file__).parents[2]))
-    return tuple(dict.fromkeys(each for folder in folders for each in (folder, str(Path(folder).resolve()))))
 
 
 def _frames(trace: TracebackType | None) -> Iterator[FrameType]:
@@ -127,7 +116,7 @@ def _entity_line(causes: Sequence[BaseException], file_of: Callable[[Any], str])
     """Where the innermost action that was being executed was made, if it says so, else the file that it stands in."""
     from launch import Action
 
-    libraries = _library_folders()
+    libraries = library_folders()
     found: Place | None = None
     for frame in (frame for error in causes for frame in _frames(error.__traceback__)):
         entity = frame.f_locals.get("self")

@@ -37,6 +37,7 @@ class LaunchedProcess:
         self._ran = False
         self._told = False
         self._again = False
+        self._fault = ""
         self._waiting: list[tuple[str, Future[Answer]]] = []
 
     @property
@@ -106,8 +107,9 @@ class LaunchedProcess:
         self._settle(STARTS, Answer(True, f"{self.info.label} runs, pid {pid}"))
         return Order.NOTHING
 
-    def exited(self, code: int, respawns: bool) -> Order:
-        """It has ended; `respawns` says that launch will start it again by itself."""
+    def exited(self, code: int, respawns: bool, fault: str = "") -> Order:
+        """It has ended; `respawns` says that launch will start it again by itself, `fault` which exception it left."""
+        self._fault = fault
         self._alive = False
         self.info = replace(self.info, exit_code=code, pid=None, cpu=None)
         if not respawns:
@@ -115,7 +117,7 @@ class LaunchedProcess:
         if any(verb == "stop" for verb, _ in self._waiting):
             return Order.NOTHING  # it ended by itself just before; launch is told already not to start it again
         self._told = False
-        why = f"{_reason(code)}; launch starts it again" if code else ""
+        why = f"{self._why(code)}; launch starts it again" if code else ""
         self.info = replace(self.info, state=ProcessState.STARTING, problem=why)
         self._settle(("stop", "kill"), Answer(True, f"{self.info.label} has ended, and launch starts it again"))
         return Order.NOTHING
@@ -136,13 +138,17 @@ class LaunchedProcess:
         if self.info.state not in ENDED:
             fine = code is None or (code in INTERRUPTED if self._told else code == 0)
             state = ProcessState.EXITED if fine else ProcessState.CRASHED
-            self.info = replace(self.info, state=state, problem="" if fine else _reason(code or 0))
+            self.info = replace(self.info, state=state, problem="" if fine else self._why(code or 0))
         ended = "" if code is None else f", exit code {code}"
         self._settle(("stop", "kill"), Answer(True, f"{self.info.label} has ended{ended}"))
         if self._again:
             return self._start()
         self._settle(STARTS, Answer(False, f"{self.info.label} has ended{ended}"))
         return Order.NOTHING
+
+    def _why(self, code: int) -> str:
+        """Why it has ended, by the exception where it left one."""
+        return _reason(code) if code < 0 or not self._fault else self._fault
 
     def abandoned(self, where: str) -> None:
         """Code of it goes on although it was killed."""

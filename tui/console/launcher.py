@@ -53,13 +53,18 @@ class RosLauncher:
         files: Callable[[], Sequence[str]] = tuple,
         spawn: Callable[[Callable[[], None]], Joinable] | None = None,
         vitals: FindVitals = lambda pid: None,
+        heard: Callable[[str], bool] = lambda name: True,
     ) -> None:
-        """`spawn` starts the thread of a launch, in a way that keeps what launch itself prints off the screen."""
+        """`spawn` starts the thread of a launch, in a way that keeps what launch itself prints off the screen.
+
+        `heard` says whether `/rosout` has brought a line of the logger of that name.
+        """
         self._record = record
         self._printed = printed
         self._files_of_workspace = files
         self._spawn = spawn or _thread
         self._find_vitals = vitals
+        self._heard = heard
         self._listener = Listener(self._started, self._output, self._exited, self._over, self._ending, self._fault)
         self._lock = threading.RLock()
         self._held: dict[str, _Held] = {}
@@ -87,6 +92,8 @@ class RosLauncher:
         now = time.monotonic()
         for held in self._held.values():
             info = held.process.info
+            if held.output is not None and held.process.alive:
+                held.output.settle()
             if held.share is not None and held.process.alive:
                 self._dirty |= held.process.uses(held.share.share(now))
             elif held.vitals is not None and info.exit_code == KILLED and info.state is not ProcessState.ABANDONED:
@@ -226,7 +233,7 @@ class RosLauncher:
         with self._lock:
             held = self._by_action.get(event.action) or self._found(run, event, context)
             held.vitals, held.share = vitals, ProcessorShare(vitals, time.monotonic()) if vitals else None
-            held.output = ProcessOutput(event.process_name, self._record, self._printed)
+            held.output = ProcessOutput(event.process_name, self._record, self._printed, self._heard)
             order = held.process.started(event.process_name, event.pid, nodes)
             times = held.process.info.restarts
             self._tell(f"{held.process.info.label} started{f' again ({times})' if times else ''}, pid {event.pid}")
@@ -260,7 +267,8 @@ class RosLauncher:
             if held.output is not None:
                 held.output.close()
             future = event.action.get_asyncio_future()
-            order = held.process.exited(event.returncode, respawns=future is not None and not future.done())
+            respawns = future is not None and not future.done()
+            order = held.process.exited(event.returncode, respawns, held.output.fault if held.output else "")
             held.share = None
             bad = held.process.info.state is ProcessState.CRASHED or held.process.info.problem
             text = f"{held.process.info.label} ended, exit code {event.returncode}"

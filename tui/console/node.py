@@ -28,7 +28,7 @@ from bot_console.tui.console.parameter_file import save
 from bot_console.tui.console.parameter_mirror import ParameterMirror
 from bot_console.tui.console.parameter_setter import ParameterSetter
 from bot_console.tui.console.plot_watch import PlotWatch
-from bot_console.tui.console.process_output import Once
+from bot_console.tui.console.process_output import Add
 from bot_console.tui.console.profiles import differences
 from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.world_watch import WorldWatch
@@ -36,16 +36,21 @@ from rcl_interfaces.msg import Log, LoggerLevel
 from rcl_interfaces.srv import SetLoggerLevels
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 
 NAME = "_bot_console"
-ROSOUT = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+ROSOUT = QoSProfile(
+    history=HistoryPolicy.KEEP_ALL,
+    reliability=ReliabilityPolicy.RELIABLE,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+)
+"""All is kept until the log has it: a node that logs faster than the console reads loses no line."""
 
 
 class ConsoleNode:
     """Watches a ROS system and acts on it for the panes; its methods may be called from any thread."""
 
-    def __init__(self, once: Once) -> None:
+    def __init__(self, log: Add) -> None:
         self.context = Context()
         rclpy.init(args=[], context=self.context)
         self.node = rclpy.create_node(
@@ -57,7 +62,9 @@ class ConsoleNode:
         )
         self.executor = SingleThreadedExecutor(context=self.context)
         self.executor.add_node(self.node)
-        self._once = once
+        self._log = log
+        self.loggers: set[str] = set()
+        """Names of the loggers that `/rosout` has brought lines of."""
         self.journal = Journal()
         self.calls = Calls(self.node, self.executor)
         self.plots = PlotWatch(self.node)
@@ -93,7 +100,8 @@ class ConsoleNode:
     def _on_log(self, message: Log) -> None:
         stamp = message.stamp.sec * 1_000_000_000 + message.stamp.nanosec
         site = message.file, message.function, message.line
-        self._once.record(stamp, _number(message.level), message.name, message.msg, site)
+        self.loggers.add(message.name)
+        self._log(stamp, _number(message.level), message.name, message.msg, site)
 
     def call(self, service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:
         """Call a service of any type."""

@@ -114,7 +114,7 @@ class ProcessRows(RowList):
         if process.cpu is not None and width >= 60:
             columns.append(f"  {process.cpu:.0%} CPU")
         nodes = "  " + " ".join(process.nodes) if width >= 90 and process.nodes else ""
-        if process.problem and process.exit_code is None:
+        if process.problem and (process.exit_code is None or width >= 60):
             columns.append(f"  {harmless(process.problem)}")
         plain = None if process.state is ProcessState.RUNNING else self._style(style)
         head = [Segment(name[: len(indent) + 1], self._style(style)), Segment(name[len(indent) + 1 :], plain)]

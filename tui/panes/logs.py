@@ -111,7 +111,7 @@ class LogsPane(Pane):
             self._tell()
             return
         self._problem = ""
-        self._next = self._state.end
+        self._next = max(self._next, self._state.end, new[-1] + 1 if new else 0)
         if new:
             self._list.seqs.extend(new)
         if new or not self._list.seqs:

@@ -12,6 +12,9 @@ DEFAULT_FORMAT = "[{severity}] [{time}] [{name}]: {message}"
 NAMES = {0: "UNSET", 10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}
 COLOURS = {10: "\033[32m", 20: "\033[0m", 30: "\033[33m", 40: "\033[31m", 50: "\033[31m"}
 RESET = "\033[0m"
+ENVELOPE_VARIABLE = "BOT_CONSOLE_LOG_ENVELOPE"
+"""A format around each line, where `{line}` stands for the line as the usual format makes it: set by who captures the
+output of a process and wants to tell what a logger wrote from what was merely printed."""
 NANO = 1_000_000_000
 _ESCAPES = {"\\a": "\a", "\\b": "\b", "\\n": "\n", "\\r": "\r", "\\t": "\t"}
 _TOKEN = re.compile(r"\{([a-z_]+)\}")
@@ -26,6 +29,7 @@ _FIELDS = {
     "time": "{6}.{7:09d}",
     "time_as_nanoseconds": "{8}",
     "date_time_with_ms": "{9}",
+    "on_rosout": "{10}",
 }
 
 
@@ -44,26 +48,46 @@ class Formatter:
         """The formatter that the calling process's environment asks for."""
         environment = os.environ
         return cls(
-            environment.get("RCUTILS_CONSOLE_OUTPUT_FORMAT", ""),
+            _in_envelope(environment.get("RCUTILS_CONSOLE_OUTPUT_FORMAT", ""), environment.get(ENVELOPE_VARIABLE, "")),
             environment.get("RCUTILS_COLORIZED_OUTPUT", ""),
             to_stdout=environment.get("RCUTILS_LOGGING_USE_STDOUT") == "1",
         )
 
-    def line(self, severity: int, name: str, text: str, file: str, function: str, line: int, stamp_ns: int) -> str:
-        """One message as it is printed, without colours and line end."""
+    def line(
+        self,
+        severity: int,
+        name: str,
+        text: str,
+        file: str,
+        function: str,
+        line: int,
+        stamp_ns: int,
+        on_rosout: bool = False,
+    ) -> str:
+        """One message as it is printed, without colours and line end; `on_rosout` says whether it went there too."""
         seconds, nanoseconds = divmod(stamp_ns, NANO)
         level = NAMES.get(severity, "UNKNOWN")
         if self._simple:
             return f"[{level}] [{seconds:010d}.{nanoseconds:09d}] [{name}]: {text}"
         dated = _dated(seconds, nanoseconds) if self._dated else ""
         return self._template.format(
-            level, name, text, file, function, line, f"{seconds:010d}", nanoseconds, stamp_ns, dated
+            level, name, text, file, function, line, f"{seconds:010d}", nanoseconds, stamp_ns, dated, int(on_rosout)
         )
 
-    def write(self, severity: int, name: str, text: str, file: str, function: str, line: int, stamp_ns: int) -> None:
+    def write(
+        self,
+        severity: int,
+        name: str,
+        text: str,
+        file: str,
+        function: str,
+        line: int,
+        stamp_ns: int,
+        on_rosout: bool = False,
+    ) -> None:
         """Print one message."""
         stream = sys.stdout if self._to_stdout else sys.stderr
-        out = self.line(severity, name, text, file, function, line, stamp_ns)
+        out = self.line(severity, name, text, file, function, line, stamp_ns, on_rosout)
         if self._coloured(stream):
             out = f"{COLOURS.get(severity, RESET)}{out}{RESET}"
         try:
@@ -75,6 +99,13 @@ class Formatter:
         if self._colours in ("0", "1"):
             return self._colours == "1"
         return bool(stream.isatty())
+
+
+def _in_envelope(pattern: str, envelope: str) -> str:
+    """The pattern, put into the envelope unless it is in it already."""
+    if not envelope or pattern.startswith(envelope.partition("{line}")[0]):
+        return pattern
+    return envelope.replace("{line}", pattern or DEFAULT_FORMAT)
 
 
 def _template(pattern: str) -> str:

@@ -12,8 +12,8 @@ from rclpy.impl.log_format import Formatter
 UNSET = 0
 INFO = 20
 
-Say = Callable[[int, str, str, str, str, int, int], None]
-"""Gets severity, logger, text, file, function, line and time (ns)."""
+Say = Callable[[int, str, str, str, str, int, int], bool]
+"""Gets severity, logger, text, file, function, line and time (ns); says whether it went out."""
 
 
 class LogState:
@@ -52,12 +52,11 @@ class LogState:
         return self.default or INFO
 
     def say(self, severity: int, name: str, text: str, file: str, function: str, line: int, stamp_ns: int) -> None:
-        """Write a line to the console and to `/rosout`."""
-        if self.stdout:
-            self.formatter.write(severity, name, text, file, function, line, stamp_ns)
+        """Write a line to `/rosout` and to the console, which is told whether the first was done."""
         publish = self.rosout.get(name)
-        if publish is not None:
-            publish(severity, name, text, file, function, line, stamp_ns)
+        sent = publish is not None and publish(severity, name, text, file, function, line, stamp_ns)
+        if self.stdout:
+            self.formatter.write(severity, name, text, file, function, line, stamp_ns, sent)
 
 
 _state: ProcessLocal[LogState] = ProcessLocal(LogState)

@@ -23,13 +23,13 @@ class Rosout:
         self._endpoint = self._publisher._endpoint
         logging.register_rosout(self._name, self._say)
 
-    def _say(self, severity: int, name: str, text: str, file: str, function: str, line: int, stamp_ns: int) -> None:
+    def _say(self, severity: int, name: str, text: str, file: str, function: str, line: int, stamp_ns: int) -> bool:
         message = self._log()
         stamp = message._stamp
         stamp._sec, stamp._nanosec = divmod(stamp_ns, NANO)
         message._level = severity
         message._name, message._msg, message._file, message._function, message._line = name, text, file, function, line
-        self._endpoint.publish_own(message)
+        return self._endpoint.publish_own(message)
 
     def close(self) -> None:
         """Say nothing more."""

@@ -1,0 +1,84 @@
+"""A traceback in the log: the exception first, then the user's own frames; libraries folded."""
+
+import sysconfig
+
+from bot_console.tui.console.tracebacks import TRACEBACK, Printed, Traceback
+
+LIBRARY = sysconfig.get_path("stdlib")
+LINES = [
+    TRACEBACK,
+    f'  File "{LIBRARY}/runpy.py", line 88, in _run_code',
+    "    exec(code, run_globals)",
+    '  File "/home/u/ws/robot/node.py", line 40, in main',
+    "    rclpy.spin(node)",
+    f'  File "{LIBRARY}/threading.py", line 9, in run',
+    "    self._target()",
+    f'  File "{LIBRARY}/queue.py", line 10, in get',
+    '  File "/home/u/ws/robot/node.py", line 12, in on_scan',
+    "    speed = table['speed']",
+    "            ~~~~~^^^^^^^^^",
+    "KeyError: 'speed'",
+]
+
+
+def printed(lines: list[str]) -> list[tuple[int, str]]:
+    got: list[tuple[int, str]] = []
+    stream = Printed("node-1", lambda severity, label, text: got.append((severity, text)), stderr=True)
+    for line in lines:
+        stream.line(line)
+    stream.close()
+    return got
+
+
+def test_the_exception_is_first_and_the_users_frames_follow() -> None:
+    assert printed(["before", *LINES, "after"]) == [
+        (30, "before"),
+        (40, "KeyError: 'speed'\n"
+             '  File "/home/u/ws/robot/node.py", line 12, in on_scan\n'
+             "    speed = table['speed']\n"
+             "  (2 calls in libraries)\n"
+             '  File "/home/u/ws/robot/node.py", line 40, in main\n'
+             "    rclpy.spin(node)\n"
+             "  (1 call in libraries)"),
+        (30, "after"),
+    ]  # fmt: skip
+
+
+def test_the_reason_names_the_users_line() -> None:
+    assert Traceback(LINES).reason == "KeyError: 'speed' (node.py:12)"
+
+
+def test_without_a_frame_of_the_users_all_are_shown() -> None:
+    found = Traceback([LINES[0], *LINES[1:3], "OSError: no"])
+    assert found.reason == "OSError: no"
+    assert "runpy.py" in found.text()
+
+
+def test_a_syntax_error_keeps_its_place() -> None:
+    text = Traceback(
+        [TRACEBACK, '  File "/home/u/a.py", line 3', "    def x(", "         ^", "SyntaxError: bad"]
+    ).text()
+    assert text.startswith("SyntaxError: bad\n")
+    assert 'File "/home/u/a.py", line 3' in text
+
+
+def test_a_chain_names_what_came_before() -> None:
+    link = "During handling of the above exception, another exception occurred:"
+    (_, first), (_, second) = printed([*LINES, link, TRACEBACK, *LINES[3:5], "ValueError: bad"])
+    assert first.startswith("KeyError")
+    assert second.splitlines()[:2] == ["ValueError: bad", "  while handling KeyError: 'speed'"]
+
+
+def test_a_fault_is_what_was_printed_last() -> None:
+    stream = Printed("node-1", lambda *each: None, stderr=True)
+    for line in LINES:
+        stream.line(line)
+    assert stream.fault == "KeyError: 'speed' (node.py:12)"
+    stream.line("went on")
+    assert not stream.fault
+
+
+def test_one_that_was_cut_off_is_shown_as_far_as_it_came() -> None:
+    (severity, text), = printed(LINES[:5])  # fmt: skip
+    assert severity == 40
+    assert "rclpy.spin(node)" in text
