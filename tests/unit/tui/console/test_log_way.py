@@ -1,6 +1,7 @@
 """The way of a log line, end to end: every line once, whichever ways it has, at full rate and at the end."""
 
 import itertools
+import os
 import time
 from collections import Counter
 
@@ -53,7 +54,10 @@ def run(console, folder, entities):
     path = folder / "system.launch.py"
     path.write_text(HEAD.replace("{entities}", entities))
     launcher = RosLauncher(
-        console.record, console.printed, spawn=lambda target: Launching(target, console.printed), heard=console.heard
+        console.record,
+        console.printed,
+        spawn=lambda target: Launching(target, console.printed, os.environ),
+        heard=console.heard,
     )
     try:
         assert launcher.launch(str(path), {}).result(PATIENCE).ok
