@@ -16,15 +16,23 @@ from bot_console.runtime.rmw.zenoh.domain_folder import domain_folder
 from bot_console.runtime.rmw.zenoh.joining import folder_lock
 from bot_console.runtime.rmw.zenoh.settings import session_settings
 from bot_console.runtime.rmw.zenoh.sockets import Socket, live_sockets, own_socket
+from bot_console.runtime.rmw.zenoh.watch import Watch
 
 if TYPE_CHECKING:
     import zenoh
+
+ATTENDANCE = "@bot_console/"
+"""Begin of the token that each session shows; the begin of its id follows."""
 
 Received = Callable[[bytes, "bytes | None"], None]
 """Called with the payload and the attachment of a sample."""
 
 TokenSeen = Callable[[str, bool], None]
 """Called with the key of a liveliness token, and whether it came (or went)."""
+
+
+class SessionError(RuntimeError):
+    """A session cannot be opened."""
 
 
 class Declared:
@@ -43,9 +51,16 @@ class Declared:
 class Publisher(Declared):
     """Sends payloads to the subscribers of a key."""
 
-    def put(self, payload: bytes, attachment: bytes) -> None:
-        """Send one sample; waits at most `WAIT_BEFORE_DROP` for a link that is full."""
-        self.inner.put(payload, attachment=attachment)
+    def put(self, payload: bytes, attachment: bytes) -> bool:
+        """Send one sample; waits at most `WAIT_BEFORE_DROP` for a link that is full.
+
+        False where it could not be sent, because the session is closed or just rejoins.
+        """
+        try:
+            self.inner.put(payload, attachment=attachment)
+        except _errors():
+            return False
+        return True
 
     def is_matched(self) -> bool:
         """Whether anybody subscribes."""
@@ -94,30 +109,65 @@ class Session:
     def __init__(self, domain: int) -> None:
         self.domain = domain
         self.zid = f"{secrets.randbits(128) | 1 << 127:032x}"
-        """The session's id: 32 hexadecimal digits, the first not 0."""
-        self._lock = threading.Lock()
+        """The session's id: 32 hexadecimal digits, the first not 0. It stays the same when the session rejoins."""
+        self.on_rejoin: Callable[[], None] = lambda: None
+        """Called when the session was opened anew: what was kept for late subscribers is to be published again."""
+        self._lock = threading.RLock()
         self._declared: dict[Declared, None] = {}
-        self._open()
+        self._watch: Watch | None = None
+        self._ended = False
+        folder = domain_folder(domain)
+        with folder_lock(folder):
+            self._join(folder)
+        self.declare_token(ATTENDANCE + self.zid[:8])
 
-    def _open(self) -> None:
+    def _join(self, folder: str) -> None:
         import zenoh
 
-        folder = domain_folder(self.domain)
-        self.socket: Socket = own_socket(folder, self.zid)
-        with folder_lock(folder):
-            self.joined = tuple(live_sockets(folder))
-            """The sockets that were there, and that this session connects to."""
-            settings = session_settings(self.zid, self.socket.path, [each.path for each in self.joined])
+        self.socket = own_socket(folder, self.zid)
+        self.joined: tuple[Socket, ...] = tuple(live_sockets(folder))
+        """The sockets that were there, and that this session connects to."""
+        settings = session_settings(self.zid, self.socket.path, [each.path for each in self.joined])
+        try:
             self._zenoh = zenoh.open(zenoh.Config.from_json5(json.dumps(settings)))
+        except zenoh.ZError as error:
+            raise SessionError(f"cannot listen on {self.socket.path}: {error}") from None
+
+    def watch(self) -> None:
+        """Look after the session's place in the mesh for as long as it is open; not for short-lived programs."""
+        self._watch = self._watch or Watch(self)
+
+    def rejoin(self, needed: Callable[[str], bool]) -> None:
+        """Open the session anew where that is `needed` (asked with the folder's lock held), and declare all again."""
+        folder = domain_folder(self.domain)
+        with folder_lock(folder), self._lock:
+            if self._ended or not needed(folder):
+                return
+            self._zenoh.close()
+            self._join(folder)
+            for each in self._declared:
+                each.inner = each.declare(self._zenoh)
+        self.on_rejoin()
 
     def close(self) -> None:
         """Leave the mesh; what was declared is gone. A second time does nothing."""
-        self._zenoh.close()
+        if self._watch:
+            self._watch.end()
+        with self._lock:
+            self._ended = True
+            if not self._zenoh.is_closed():
+                self._zenoh.close()
+                self.socket.remove()
+
+    def leave(self) -> None:
+        """Take the socket out of the folder, for a process that ends at once and does not wait for `close`."""
+        if self._watch:
+            self._watch.end()
         self.socket.remove()
 
     def is_closed(self) -> bool:
         """Whether it was closed."""
-        return self._zenoh.is_closed()
+        return self._ended
 
     def declare_publisher(self, key: str, *, reliable: bool = True, cache: int = 0) -> Publisher:
         """Make a publisher; with a `cache` late subscribers get as many of its last samples."""
@@ -250,6 +300,14 @@ class Session:
             )
         )
 
+    def attendance(self) -> set[str]:
+        """The first eight digits of the ids of the sessions that answer now."""
+        answered: set[str] = set()
+        done = threading.Event()
+        self.ask_tokens(ATTENDANCE + "*", lambda key: answered.add(key.removeprefix(ATTENDANCE)), done.set, 0.1)
+        done.wait(1.0)
+        return answered
+
     def _declare(self, thing: Any) -> Any:
         with self._lock:
             thing.inner = thing.declare(self._zenoh)
@@ -259,16 +317,24 @@ class Session:
     def forget(self, thing: Declared) -> None:
         """Take back what was declared."""
         with self._lock:
-            if self._declared.pop(thing, 0) is None:
+            if thing in self._declared:
+                del self._declared[thing]
                 thing.inner.undeclare()
 
 
 def open_session(domain: int) -> Session:
     """Join the mesh of a domain: listen on a socket in its folder and connect to all others there.
 
-    Raises `FolderRefusedError` and `PathTooLongError`, whose texts say how to mend it.
+    Raises `FolderRefusedError`, `PathTooLongError` and `SessionError`, whose texts say how to mend it.
     """
     return Session(domain)
+
+
+def _errors() -> type[Exception]:
+    """The class of Zenoh's errors; only asked for when something was raised."""
+    import zenoh
+
+    return zenoh.ZError
 
 
 def _bytes(data: Any) -> bytes | None:
