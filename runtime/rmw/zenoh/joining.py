@@ -14,7 +14,7 @@ PATIENCE = 0.2
 """How long one try for the lock lasts, in s; then it is looked at who holds it."""
 
 LONGEST_WAIT = 10.0
-"""After this time, in s, a process goes on without the lock, whoever holds it."""
+"""After this time, in s, a process goes on without the lock where the system does not tell who holds it."""
 
 
 @contextlib.contextmanager
@@ -28,7 +28,8 @@ def folder_lock(folder: str) -> Iterator[None]:
     try:
         deadline = time.monotonic() + LONGEST_WAIT
         while not _taken(handle, PATIENCE):
-            if _holder_is_stopped(handle) or time.monotonic() > deadline:
+            holder = _holder(handle)
+            if is_stopped(holder) if holder else time.monotonic() > deadline:
                 break
         yield
     finally:
@@ -48,12 +49,12 @@ def _taken(handle: int, patience: float) -> bool:
         time.sleep(0.003)
 
 
-def _holder_is_stopped(handle: int) -> bool:
-    """Whether the process that holds the lock is frozen, as far as the system tells."""
+def _holder(handle: int) -> int | None:
+    """The process that holds the lock; None where the system does not tell."""
     inode = f":{os.fstat(handle).st_ino}"
     try:
         with open("/proc/locks") as file:
-            rows = [line.split() for line in file if "FLOCK" in line]
+            rows = [line.split() for line in file]
     except OSError:
-        return False
-    return any(is_stopped(int(row[4])) for row in rows if row[1] == "FLOCK" and row[5].endswith(inode))
+        return None
+    return next((int(row[4]) for row in rows if row[1] == "FLOCK" and row[5].endswith(inode)), None)

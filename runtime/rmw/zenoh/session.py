@@ -7,7 +7,7 @@ Nothing may fork once a session was opened.
 from __future__ import annotations
 
 import json
-import secrets
+import os
 import threading
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
@@ -108,7 +108,7 @@ class Session:
 
     def __init__(self, domain: int) -> None:
         self.domain = domain
-        self.zid = f"{secrets.randbits(128) | 1 << 127:032x}"
+        self.zid = f"{int.from_bytes(os.urandom(16), 'big') | 1 << 127:032x}"
         """The session's id: 32 hexadecimal digits, the first not 0. It stays the same when the session rejoins."""
         self.on_rejoin: Callable[[], None] = lambda: None
         """Called when the session was opened anew: what was kept for late subscribers is to be published again."""

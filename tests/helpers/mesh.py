@@ -1,0 +1,77 @@
+"""Real processes that join a domain, told by lines what to do."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+
+PATIENCE = 60.0
+"""How long (s) anything may take on a busy machine."""
+
+
+class Member:
+    """A process with a session; see `mesh_member.py` for the words it understands."""
+
+    def __init__(self) -> None:
+        program = os.path.join(os.path.dirname(__file__), "mesh_member.py")
+        self.process = subprocess.Popen(
+            [sys.executable, program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+        )
+        self.zid = ""
+
+    def wait_until_joined(self) -> Member:
+        """Wait for the process to have a session."""
+        self.zid = self.read()
+        return self
+
+    def tell(self, word: str) -> None:
+        """Let it do something."""
+        assert self.process.stdin
+        self.process.stdin.write(word + "\n")
+        self.process.stdin.flush()
+
+    def read(self) -> str:
+        """The next line that it has written."""
+        assert self.process.stdout
+        line = self.process.stdout.readline()
+        assert line, f"the process ended with {self.process.wait()}"
+        return line.strip()
+
+    def ask(self, word: str) -> set[str]:
+        """What it answers to a word."""
+        self.tell(word)
+        return set(self.read().split())
+
+    def signal(self, number: int) -> None:
+        """Send it a signal."""
+        self.process.send_signal(number)
+
+    def end(self) -> None:
+        """Kill it."""
+        self.process.kill()
+        self.process.communicate()
+
+
+@contextlib.contextmanager
+def members(count: int) -> Iterator[list[Member]]:
+    """This many processes that were started at one moment and have joined."""
+    started = [Member() for _ in range(count)]
+    try:
+        yield [each.wait_until_joined() for each in started]
+    finally:
+        for each in started:
+            each.end()
+
+
+def eventually(true: Callable[[], bool]) -> bool:
+    """Whether something gets true in time."""
+    deadline = time.monotonic() + PATIENCE
+    while not true():
+        if time.monotonic() > deadline:
+            return False
+        time.sleep(0.02)
+    return True

@@ -1,0 +1,95 @@
+"""The folder in which the processes of a domain meet belongs to one user alone."""
+
+from __future__ import annotations
+
+import os
+import stat
+import subprocess
+import sys
+
+import pytest
+from bot_console.runtime.rmw.zenoh.domain_folder import FolderRefusedError, base_folder, domain_folder
+from bot_console.runtime.rmw.zenoh.session import open_session
+from bot_console.runtime.rmw.zenoh.sockets import LONGEST_PATH, PathTooLongError
+
+NOBODY = 65534
+
+
+def test_it_is_named_after_the_user_in_the_temporary_folder_whatever_tmpdir_says(monkeypatch):
+    monkeypatch.delenv("BOT_CONSOLE_SOCKET_DIR")
+    monkeypatch.setenv("TMPDIR", "/var")
+    assert base_folder() == f"/tmp/bot-console-{os.geteuid()}"
+
+
+def test_it_is_made_for_the_user_alone_one_per_domain(socket_folder):
+    old = os.umask(0)
+    try:
+        assert domain_folder(7) == os.path.join(socket_folder, "7")
+    finally:
+        os.umask(old)
+    for path in (socket_folder, domain_folder(7)):
+        assert stat.S_IMODE(os.stat(path).st_mode) == 0o700
+
+
+def test_one_that_is_open_to_others_is_refused_with_the_command_that_mends_it(socket_folder):
+    domain_folder(0)
+    os.chmod(socket_folder, 0o755)
+    with pytest.raises(FolderRefusedError) as refused:
+        domain_folder(0)
+    assert str(refused.value) == (
+        f"{socket_folder} is open to other users (mode 0755): run `chmod 700 {socket_folder}`; "
+        "or set BOT_CONSOLE_SOCKET_DIR to another folder of yours"
+    )
+
+
+def test_a_link_and_a_file_in_its_place_are_refused(socket_folder, tmp_path):
+    os.symlink(tmp_path, socket_folder)
+    with pytest.raises(FolderRefusedError, match="is a symbolic link"):
+        domain_folder(0)
+    os.unlink(socket_folder)
+    with open(socket_folder, "w"):
+        pass
+    with pytest.raises(FolderRefusedError, match="is not a folder"):
+        domain_folder(0)
+    os.unlink(socket_folder)
+
+
+def test_a_folder_that_cannot_be_made_is_told(monkeypatch):
+    monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", "/proc/nowhere/at/all")
+    with pytest.raises(FolderRefusedError, match="cannot make the folder /proc/nowhere/at/all"):
+        domain_folder(0)
+
+
+def test_a_socket_whose_path_would_be_too_long_is_told_before_anything_is_made(monkeypatch, socket_folder):
+    monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", f"{socket_folder}{'x' * LONGEST_PATH}")
+    with pytest.raises(PathTooLongError, match="set BOT_CONSOLE_SOCKET_DIR to a shorter folder"):
+        open_session(0)
+    os.rmdir(f"{socket_folder}{'x' * LONGEST_PATH}/0")
+    os.rmdir(f"{socket_folder}{'x' * LONGEST_PATH}")
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can become another user")
+def test_a_second_user_is_denied(socket_folder):
+    session = open_session(0)
+    os.chmod(os.path.dirname(socket_folder), 0o711)
+    program = f"""
+import os, socket
+os.setgroups([]); os.setgid({NOBODY}); os.setuid({NOBODY})
+try:
+    socket.socket(socket.AF_UNIX).connect({session.socket.path!r})
+except PermissionError:
+    print("denied")
+from bot_console.runtime.rmw.zenoh.domain_folder import FolderRefusedError, domain_folder
+try:
+    domain_folder(0)
+except FolderRefusedError as error:
+    print(error)
+"""
+    code = "import bot_console.runtime.rmw.zenoh.domain_folder\n" + program
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    session.close()
+    assert result.stdout.splitlines() == [
+        "denied",
+        f"{socket_folder} belongs to another user (uid 0): ask its owner to remove it; "
+        "or set BOT_CONSOLE_SOCKET_DIR to another folder of yours",
+    ]

@@ -1,0 +1,126 @@
+"""Real processes in one domain: every pair talks, and none that is killed or frozen holds up another."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import time
+
+import pytest
+from helpers.mesh import Member, eventually, members
+
+
+def all_linked(present: list[Member]) -> bool:
+    ids = {each.zid for each in present}
+    return all(each.ask("linked") >= ids - {each.zid} for each in present)
+
+
+def every_pair_talks(present: list[Member]) -> bool:
+    """Whether what each says is heard by all others; said again until then, as links are made in the background."""
+    ids = {each.zid for each in present}
+
+    def heard() -> bool:
+        for each in present:
+            each.ask("call")
+        return all(each.ask("heard") >= ids - {each.zid} for each in present)
+
+    return eventually(lambda: all_linked(present)) and eventually(heard)
+
+
+def sockets_of(folder: str) -> set[str]:
+    return {name for name in os.listdir(os.path.join(folder, "0")) if not name.endswith(".lock")}
+
+
+def test_those_that_start_at_one_moment_all_meet():
+    with members(8) as present:
+        assert every_pair_talks(present)
+
+
+@pytest.mark.soak
+@pytest.mark.timeout(600)
+def test_fifty_that_start_at_one_moment_all_meet_ten_times(monkeypatch, socket_folder):
+    for round_number in range(10):
+        monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", f"{socket_folder}{round_number}")
+        with members(50) as present:
+            assert every_pair_talks(present)
+
+
+def test_a_killed_process_is_gone_and_its_socket_is_removed_by_the_next(socket_folder):
+    with members(3) as (one, two, killed):
+        assert every_pair_talks([one, two, killed])
+        killed.end()
+        assert eventually(lambda: one.ask("linked") == {two.zid})
+        with members(1) as [late]:
+            assert every_pair_talks([one, two, late])
+            assert len(sockets_of(socket_folder)) == 3
+
+
+def test_a_folder_full_of_dead_sockets_is_cleaned(socket_folder):
+    with members(6) as dead:
+        for each in dead:
+            each.end()
+    assert len(sockets_of(socket_folder)) == 6
+    with members(2) as present:
+        assert every_pair_talks(present)
+        assert len(sockets_of(socket_folder)) == 2
+
+
+def test_beside_a_frozen_process_others_join_talk_and_leave(socket_folder):
+    with members(2) as (frozen, one):
+        assert every_pair_talks([frozen, one])
+        frozen.signal(signal.SIGSTOP)
+        began = time.monotonic()
+        with members(1) as [late]:
+            assert every_pair_talks([one, late])
+            for each in (one, late):
+                each.tell("exit")
+                assert float(each.read()) < 5.0  # the library's own settings: 10 s
+        assert time.monotonic() - began < 30.0
+
+
+def test_a_thawed_process_is_found_by_those_that_came_meanwhile():
+    with members(1) as [frozen]:
+        frozen.signal(signal.SIGSTOP)
+        with members(2) as late:
+            assert every_pair_talks(late)
+            frozen.signal(signal.SIGCONT)
+            assert every_pair_talks([frozen, *late])
+
+
+def test_a_process_whose_socket_was_taken_away_is_found_again(socket_folder):
+    with members(2) as (one, two):
+        assert every_pair_talks([one, two])
+        for name in os.listdir(os.path.join(socket_folder, "0")):
+            os.unlink(os.path.join(socket_folder, "0", name))
+        assert eventually(lambda: len(sockets_of(socket_folder)) == 2)
+        with members(1) as [late]:
+            assert every_pair_talks([one, two, late])
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/net/tcp"), reason="the system does not list its sockets in /proc")
+def test_no_port_is_opened():
+    with members(2) as present:
+        assert every_pair_talks(present)
+        for each in present:
+            pid = each.process.pid
+            assert local_sockets(pid, "unix")
+            assert {kind: local_sockets(pid, kind) for kind in PORTS} == {kind: set() for kind in PORTS}
+
+
+PORTS = ("tcp", "tcp6", "udp", "udp6", "udplite", "udplite6", "raw", "raw6", "packet", "icmp", "icmp6")
+
+
+def local_sockets(pid: int, kind: str) -> set[str]:
+    """The inodes of the sockets of this kind that a process has open."""
+    open_ones: set[str] = set()
+    for name in os.listdir(f"/proc/{pid}/fd"):
+        with contextlib.suppress(FileNotFoundError):
+            open_ones.add(os.readlink(f"/proc/{pid}/fd/{name}"))
+    try:
+        with open(f"/proc/{pid}/net/{kind}") as table:
+            words = {word for line in table for word in line.split()}
+    except FileNotFoundError:
+        return set()
+    inodes = {each.removeprefix("socket:[").removesuffix("]") for each in open_ones if each.startswith("socket:[")}
+    return inodes & words
