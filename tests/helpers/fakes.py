@@ -268,10 +268,10 @@ class FakeConsole:
         if not Path(path).is_absolute():
             return Answer(True, f"saved to {path}")
         try:
-            count = save(Path(path), self.current.parameters, tuple(nodes))
+            saved = save(Path(path), self.current.parameters, tuple(nodes))
         except (OSError, ValueError) as error:
             return Answer(False, f"not saved: {error}")
-        return Answer(True, f"{count} parameters saved to {path}")
+        return Answer(True, saved.text(Path(path)))
 
     def run_line(self, line: str) -> Future[str]:
         self.asked.append(("run", line))

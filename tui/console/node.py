@@ -7,7 +7,6 @@ import importlib
 from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Future
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 import rclpy
@@ -32,6 +31,7 @@ from bot_console.tui.console.process_output import Add
 from bot_console.tui.console.profiles import differences
 from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.world_watch import WorldWatch
+from bot_console.tui.save_file import NotSaved, typed_path
 from rcl_interfaces.msg import Log, LoggerLevel
 from rcl_interfaces.srv import SetLoggerLevels
 from rclpy.context import Context
@@ -175,12 +175,11 @@ class ConsoleNode:
 
     def save(self, path: str, nodes: Sequence[str]) -> Answer:
         """Write parameters to a file."""
-        place = Path(path).expanduser()
         try:
-            count = save(place, self.parameters.trees, tuple(nodes))
-        except (OSError, ValueError) as error:
+            place = typed_path(path)
+            return Answer(True, save(place, self.parameters.trees, tuple(nodes)).text(place))
+        except NotSaved as error:
             return Answer(False, f"not saved: {error}")
-        return Answer(True, f"{count} parameters saved to {place}")
 
 
 def refused(wanted: Iterable[tuple[str, str, Value]], why: str) -> tuple[SetOutcome, ...]:

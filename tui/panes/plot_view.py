@@ -126,8 +126,9 @@ def short_number(value: float, step: float = 0.0) -> str:
         value = 0.0
     digits = 0 if step >= 1 else (min(5, -math.floor(math.log10(step) + 1e-9)) if step else 3)
     plain = abs(value) < 1e5 and not 0 < abs(value) < 1e-4
-    forms = (f"{value:.{digits}f}" if plain else "", f"{value:.1e}", f"{value:.0e}")
-    return next(form for form in forms if form and (len(form) <= 7 or form is forms[-1]))
+    forms = [f"{value:.{each}f}" for each in range(digits, -1, -1)] if plain else []
+    forms += [f"{value:.1e}", f"{value:.0e}"]
+    return next(form for form in forms if len(form) <= 7 or form is forms[-1])
 
 
 def _time_axis(marks: Sequence[Mark], axes: Axes, across: int) -> list[Line]:
