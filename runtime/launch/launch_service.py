@@ -7,6 +7,7 @@ import logging
 import threading
 import traceback
 from collections.abc import Iterable
+from concurrent.futures import Future
 from typing import Any
 
 import launch.logging
@@ -41,6 +42,7 @@ class LaunchService:
         self.__loop: asyncio.AbstractEventLoop | None = None
         self.__task: asyncio.Task[int] | None = None
         self.__guard = threading.Lock()
+        self.__on_their_way: dict[Future[None], Any] = {}
         self.__stop_wanted: str | None = None
         self.__failure: Exception | None = None
 
@@ -69,13 +71,39 @@ class LaunchService:
         self.emit_event(IncludeLaunchDescription(launch_description))
 
     def emit_event(self, event: Any) -> None:
-        """Put an event into the queue, from any thread."""
+        """Put an event into the queue; while the service runs, block until its loop has taken it.
+
+        Raises `RuntimeError` in the thread of that loop, where upstream waits for itself for ever.
+        """
         with self.__guard:
             loop = self.__loop
-            if loop is not None and loop is not _running_loop():
-                loop.call_soon_threadsafe(self.__context.emit_event_sync, event)
+            if loop is _running_loop() and loop is not None:
+                raise RuntimeError(
+                    "LaunchService.emit_event() waits for the loop of the launch, so it cannot be called in it: "
+                    "return the action EmitEvent(event=...) from the handler, or use context.emit_event_sync(event)"
+                )
+            if loop is None:
+                self.__context.emit_event_sync(event)
                 return
-        self.__context.emit_event_sync(event)
+            taken: Future[None] = Future()
+            self.__on_their_way[taken] = event
+            loop.call_soon_threadsafe(self.__take, taken)
+        taken.result()
+
+    def __take(self, taken: Future[None]) -> None:
+        with self.__guard:
+            event = self.__on_their_way.pop(taken, None)
+        if event is not None:
+            self.__context.emit_event_sync(event)
+            taken.set_result(None)
+
+    def __stop_taking(self) -> None:
+        """The loop ends; what is still on its way is for the next run."""
+        with self.__guard:
+            self.__loop = self.__task = None
+            left = list(self.__on_their_way)
+        for taken in left:
+            self.__take(taken)
 
     def run(self, *, shutdown_when_idle: bool = True) -> int:
         """Run in a loop of its own until the end; 1 when any exception came up to here, else 0."""
@@ -94,8 +122,7 @@ class LaunchService:
         try:
             return await self.__run(shutdown_when_idle)
         finally:
-            with self.__guard:
-                self.__loop = self.__task = None
+            self.__stop_taking()
             self.__context._set_asyncio_loop(None)
             self.__running.release()
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import threading
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
@@ -141,11 +142,11 @@ class LaunchRun:
 
     def start(self, make: Callable[[], Any], failed: Callable[[str], None]) -> None:
         """Run what `make` gives, out of the scope of whatever the launch file has set; `failed` is told why not."""
+        from launch.events import IncludeLaunchDescription
+
         from launch import LaunchDescription
 
-        with self._lock:
-            if self._service is not None:
-                self._service.include_launch_description(LaunchDescription([self._guarded(make, failed)]))
+        self.emit(IncludeLaunchDescription(LaunchDescription([self._guarded(make, failed)])))
 
     def _guarded(self, make: Callable[[], Any], failed: Callable[[str], None]) -> Any:
         """A process whose failure to start is no failure of the launch."""
@@ -156,10 +157,20 @@ class LaunchRun:
         return GroupAction([start], scoped=True, forwarding=False)
 
     def emit(self, event: Any) -> None:
-        """Put an event into the queue."""
+        """Put an event into the queue, without waiting for the launch: `LaunchService.emit_event` would.
+
+        The caller may hold what the launch is just waiting for.
+        """
         with self._lock:
-            if self._service is not None:
-                self._service.emit_event(event)
+            service = self._service
+        if service is None:
+            return
+        loop = service.event_loop
+        if loop is None:
+            service.context.emit_event_sync(event)
+            return
+        with contextlib.suppress(RuntimeError):  # it is over
+            loop.call_soon_threadsafe(service.context.emit_event_sync, event)
 
     def shut_down(self) -> None:
         """End all of it, or never begin."""

@@ -6,6 +6,7 @@ import asyncio
 import re
 import sys
 import threading
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -382,3 +383,58 @@ def test_the_first_lines_are_always_the_same(run: Launch) -> None:
     first, second = run([]).lines
     assert first.startswith("[INFO] [launch]: All log files can be found below ")
     assert second == "[INFO] [launch]: Default logging verbosity is set to INFO"
+
+
+class _Heard(Event):
+    """An event of a test."""
+
+
+def _while_it_runs(act: Callable[[LaunchService], Any], *handlers: Any) -> tuple[int, list[Any]]:
+    """Call something in another thread while a service runs; its exit code and what the call gave."""
+    service = LaunchService(noninteractive=True)
+    given: list[Any] = []
+
+    def other() -> None:
+        given.append(act(service))
+        service.shutdown()
+
+    thread = threading.Thread(target=other)
+
+    def begin(context: Any) -> None:
+        thread.start()
+
+    entities = [*(RegisterEventHandler(each) for each in handlers), OpaqueFunction(function=begin)]
+    service.include_launch_description(LaunchDescription(entities))
+    code = service.run(shutdown_when_idle=False)
+    thread.join()
+    return code, given
+
+
+def test_emitting_from_another_thread_returns_when_the_loop_has_taken_the_event() -> None:
+    begun, free = threading.Event(), threading.Event()
+
+    def held_up(context: Any) -> None:
+        begun.set()
+        free.wait(10.0)
+
+    def act(service: LaunchService) -> list[bool]:
+        service.emit_event(_Heard())
+        begun.wait(10.0)  # the handler holds up the loop now
+        second = threading.Thread(target=service.emit_event, args=(_Heard(),))
+        second.start()
+        second.join(0.1)
+        waits = second.is_alive()
+        free.set()
+        second.join(10.0)
+        return [waits, second.is_alive()]
+
+    handler = EventHandler(matcher=lambda event: isinstance(event, _Heard), entities=OpaqueFunction(function=held_up))
+    assert _while_it_runs(act, handler) == (0, [[True, False]])
+
+
+def test_emitting_in_the_loop_is_refused_instead_of_waiting_for_itself(log_lines: list[str]) -> None:
+    service = LaunchService(noninteractive=True)
+    inside = OpaqueFunction(function=lambda context: service.emit_event(_Heard()))
+    service.include_launch_description(LaunchDescription([inside]))
+    assert service.run() == 1
+    assert "return the action EmitEvent(event=...)" in "\n".join(log_lines)
