@@ -109,6 +109,21 @@ def is_embedded(name: str) -> bool:
     return name in PACKAGES or os.path.isdir(os.path.join(GENERATED, name))
 
 
+def embedded_names() -> list[str]:
+    """All top-level names that `install` leads somewhere: the runtime's, ours, the workspace's interfaces."""
+    generated = (each.name for each in os.scandir(GENERATED) if each.is_dir())
+    return sorted({*PACKAGES, *generated, *OWN_PACKAGES, *interface_folders()})
+
+
+def give_way(name: str) -> None:
+    """Put the runtime in place of a stand-in module, which is just being imported from a folder of such."""
+    folder = os.path.dirname(os.fspath(sys.modules[name].__file__ or ""))
+    sys.path[:] = [each for each in sys.path if each != folder]
+    install()
+    del sys.modules[name]
+    importlib.import_module(name)
+
+
 def node_modules(folders: Sequence[str | os.PathLike[str]] = ()) -> FreshModules:
     """Modules for one start of a node: what lies in `folders`, and our own nodes, anew; the embedded runtime is shared.
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from bot_console.runtime.child_environment import child_environment
 from launch.child.child import Child, Output
 from launch.child.forked_child import start_forked_child
 from launch.child.node_child import start_node_child
@@ -24,6 +25,8 @@ async def start_child(
     output: Output,
 ) -> Child:
     """Run a command, or the Python program that it is; raises what starting it raises, above all `OSError`."""
+    if program is None or own_process:
+        env = child_environment(env)
     if program is None:
         return await start_os_child(command, shell=shell, emulate_tty=emulate_tty, env=env, cwd=cwd, output=output)
     if own_process:

@@ -1,0 +1,84 @@
+"""Processes that a launch starts by the interpreter or a shell find `rclpy`, `launch`, messages and `ros2`."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+if os.name != "posix":
+    pytest.skip("needs a shell", allow_module_level=True)
+
+from bot_console.runtime.child_environment import child_environment
+from bot_console.runtime.workspace import discover
+from bot_console.runtime.workspace.discover import Workspace, default_folders
+from launch.actions import ExecuteProcess
+from launch_ros.actions import Node
+from launching import Launch
+
+PROGRAM = """
+from child_shapes.msg import Corner
+from std_msgs.msg import String
+import launch.actions, rclpy, sys
+
+rclpy.init()
+node = rclpy.create_node("child")
+node.create_publisher(String, "text", 1).publish(String(data="x"))
+print(Corner(x=1.0), rclpy.__name__, launch.__file__.endswith("runtime/launch/__init__.py"), sys.argv[1:])
+"""
+SAID = "child_shapes.msg.Corner(x=1.0) rclpy True ['a']"
+
+
+@pytest.fixture
+def program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+    package = tmp_path / "src" / "child_shapes"
+    (package / "msg").mkdir(parents=True)
+    (package / "msg" / "Corner.msg").write_text("float64 x\n")
+    (package / "package.xml").write_text("<package format='3'><name>child_shapes</name></package>")
+    monkeypatch.setattr(discover, "_current", [Workspace(default_folders(tmp_path))])
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "node.py"
+    path.write_text(PROGRAM)
+    return str(path)
+
+
+@pytest.mark.parametrize("python", ["python3", sys.executable])
+@pytest.mark.parametrize("kind", ["process", "node", "shell"])
+def test_a_program_by_its_interpreter(run: Launch, program: str, python: str, kind: str) -> None:
+    action: Any = {
+        "process": lambda: ExecuteProcess(cmd=[python, program, "a"], output="screen"),
+        "node": lambda: Node(executable=shutil.which(python), arguments=[program, "a"], output="screen"),
+        "shell": lambda: ExecuteProcess(cmd=[f"true && {python} {program} a"], shell=True, output="screen"),
+    }[kind]()
+    text = run([action]).text
+    assert SAID.removesuffix("]") in text, text
+
+
+def test_ros2_in_a_line_that_needs_a_shell(run: Launch, program: str) -> None:
+    line = "true; ros2 interface show child_shapes/msg/Corner | tr x y"
+    assert "float64 y" in run([ExecuteProcess(cmd=[line], shell=True, output="screen")]).text
+
+
+def test_neither_the_launch_nor_what_it_tells_has_it(run: Launch, program: str) -> None:
+    before = [os.environ.get(name) for name in ("PATH", "PYTHONPATH")]
+    process = ExecuteProcess(cmd=["env"], output="screen", env={"PATH": "/bin:/usr/bin", "OWN": "1"})
+    text = run([process]).text
+    assert "OWN=1" in text and "HOME=" not in text
+    assert dict(process.env or {}) == {"PATH": "/bin:/usr/bin", "OWN": "1"}
+    assert [os.environ.get(name) for name in ("PATH", "PYTHONPATH")] == before
+
+
+def test_it_is_added_once(program: str) -> None:
+    once = child_environment({"PATH": "/bin", "PYTHONPATH": "/mine"})
+    assert child_environment(once) == once and once["PYTHONPATH"].endswith("/mine")
+
+
+def test_without_it_nothing_is_found(program: str) -> None:
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    done = subprocess.run([sys.executable, program], env=environment, capture_output=True, text=True, check=False)
+    assert "No module named" in done.stderr
