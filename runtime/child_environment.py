@@ -43,10 +43,12 @@ class ChildEnvironment:
     """Folders of this process for its children: executables, and a stand-in for each embedded package."""
 
     def added_to(self, env: Mapping[str, str]) -> dict[str, str]:
-        """An environment with the folders first on both paths."""
+        """An environment with the folders first on both paths; one without PATH was not inherited, and stays."""
+        if "PATH" not in env:
+            return dict(env)
         return {
             **env,
-            "PATH": _joined([str(self._executables), *_venv()], env.get("PATH", os.defpath)),
+            "PATH": _joined([str(self._executables), *_venv()], env["PATH"]),
             "PYTHONPATH": _joined([str(self._stand_ins), *source_folders()], env.get("PYTHONPATH", "")),
         }
 

@@ -75,6 +75,7 @@ def test_neither_the_launch_nor_what_it_tells_has_it(run: Launch, program: str) 
 
 def test_it_is_added_once(program: str) -> None:
     once = child_environment({"PATH": "/bin", "PYTHONPATH": "/mine"})
+    assert child_environment({"OWN": "1"}) == {"OWN": "1"}
     assert child_environment(once) == once and once["PYTHONPATH"].endswith("/mine")
 
 
