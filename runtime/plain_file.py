@@ -3,11 +3,21 @@
 from __future__ import annotations
 
 import ast
+import sys
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 QUIET = (ast.Import, ast.ImportFrom, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef, ast.Assign, ast.AnnAssign)
 """Statements that only define something."""
+
+QT = ("rqt_gui", "rqt_gui_py", "python_qt_binding", "qt_gui")
+QT_PLUGIN = (
+    "{} is a plug-in of rqt and draws with Qt, which a terminal does not have: bot-console does not load it. What its "
+    "buttons do can be done here: set parameters in the pane Parameters, plot topics in Plot, and call services by a "
+    "ros2 line after a colon. The file is for rqt on a machine with ROS 2; what it does without Qt can be a node"
+)
+"""What becomes of plug-ins of rqt."""
 
 
 @dataclass(frozen=True)
@@ -28,6 +38,8 @@ def examine(path: Path) -> PlainFile:
         return PlainFile(f"{path}:{error.lineno}: {error.msg}")
     except ValueError as error:
         return PlainFile(f"{path} is not a Python file: {error}")
+    if _imports_qt(tree):
+        return PlainFile(QT_PLUGIN.format(path))
     mains = [each for each in tree.body if isinstance(each, ast.FunctionDef) and each.name == "main"]
     hint = ""
     if len(mains) > 1:
@@ -41,6 +53,16 @@ def examine(path: Path) -> PlainFile:
     return PlainFile(hint=hint, calls_main=True) if mains else PlainFile(_no_main(path, tree))
 
 
+def then_main(runs: Callable[[], object]) -> Callable[[], None]:
+    """What runs a file and then the `main()` that it defines, as `ros2 run` would."""
+
+    def run() -> None:
+        runs()
+        sys.exit(sys.modules["__main__"].main())
+
+    return run
+
+
 def _no_main(path: Path, tree: ast.Module) -> str:
     nodes = [each.name for each in tree.body if isinstance(each, ast.ClassDef) and _is_node(each)]
     made = f"{nodes[0]}()" if nodes else "YourNode()"
@@ -49,6 +71,12 @@ def _no_main(path: Path, tree: ast.Module) -> str:
         f"{path} has no main() and starts nothing, so there is nothing to run (ros2 run cannot start it either).{also} "
         f"Add: def main(): rclpy.init(); rclpy.spin({made}) - and below it: if __name__ == '__main__': main()"
     )
+
+
+def _imports_qt(tree: ast.Module) -> bool:
+    names = [each.module or "" for each in tree.body if isinstance(each, ast.ImportFrom)]
+    names += [each.name for node in tree.body if isinstance(node, ast.Import) for each in node.names]
+    return any(name.partition(".")[0] in QT for name in names)
 
 
 def _is_node(definition: ast.ClassDef) -> bool:

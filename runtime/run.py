@@ -31,17 +31,18 @@ def run_package(package: str, words: Sequence[str]) -> int:
     """Run an executable of a package; `words` are its name and its arguments."""
     from ament_index_python.packages import PackageNotFoundError
     from bot_console.runtime.workspace.executables import executables
+    from bot_console.runtime.workspace.not_found import no_executable, no_package
 
     try:
         found = executables(package)
     except (PackageNotFoundError, ValueError):
-        return _refuse(f"Package '{package}' not found, and there is no such file")
-    choices = ", ".join(sorted(found)) or "none"
+        return _refuse(no_package(package))
     if not words or words[0].startswith("-"):
+        choices = ", ".join(sorted(found)) or "none"
         return _refuse(f"name an executable of package '{package}' as well; it has: {choices}")
     name, *arguments = words
     if name not in found:
-        return _refuse(f"No executable found: '{name}' is not in package '{package}', which has: {choices}")
+        return _refuse(no_executable(package, name))
     runs = program(found[name])
     if runs is not None:
         return _run(runs, [name, *arguments])
@@ -52,7 +53,7 @@ def run_package(package: str, words: Sequence[str]) -> int:
 
 def run_file(path: Path, words: Sequence[str]) -> int:
     """Run a Python file as `python FILE` does; where it only defines `main()`, that is called as `ros2 run` would."""
-    from bot_console.runtime.plain_file import examine
+    from bot_console.runtime.plain_file import examine, then_main
 
     if not path.is_file():
         return _refuse(f"{path} does not exist")
@@ -62,15 +63,7 @@ def run_file(path: Path, words: Sequence[str]) -> int:
     if found.hint:
         print(f"[WARN] [bot-console]: {found.hint}", file=sys.stderr)
     runs = python_file(path)
-    return _run(_then_main(runs) if found.calls_main else runs, [str(path), *words])
-
-
-def _then_main(runs: Program) -> Program:
-    def run() -> None:
-        runs()
-        sys.exit(sys.modules["__main__"].main())
-
-    return run
+    return _run(then_main(runs) if found.calls_main else runs, [str(path), *words])
 
 
 def _run(runs: Program, argv: Sequence[str]) -> int:

@@ -11,6 +11,7 @@ from typing import Any
 
 from ament_index_python.packages import PackageNotFoundError, get_package_prefix
 from bot_console.runtime.importer import node_modules
+from bot_console.runtime.plain_file import examine, then_main
 from bot_console.runtime.process import entry_point_program, file_program
 from bot_console.runtime.workspace.discover import Workspace, use, workspace
 from bot_console.runtime.workspace.executables import Executable, executables
@@ -39,7 +40,9 @@ def program_of(package: str | None, path: str) -> PythonProgram | None:
         return None
     folders = [os.path.dirname(os.path.abspath(path)), *_above_packages(path), *_prefix_folders(package)]
     is_ours = os.path.realpath(path).startswith(str(ROOT / "nodes") + os.sep)
-    return _program("python_file", is_ours, path, [*folders, *source_folders()])
+    only_a_file = package is None and path.endswith(".py")
+    calls_main = only_a_file and examine(Path(path)).calls_main
+    return _program("python_file", is_ours, path, [*folders, *source_folders()], calls_main)
 
 
 def _program(kind: str, is_ours: bool, *arguments: Any) -> PythonProgram:
@@ -59,10 +62,11 @@ def entry_point(workspace_folders: Sequence[str], function: str, folders: Sequen
     return entry_point_program(function, node_modules(folders))
 
 
-def python_file(workspace_folders: Sequence[str], path: str, folders: Sequence[str]) -> Program:
-    """The program of a file whose modules lie in folders."""
+def python_file(workspace_folders: Sequence[str], path: str, folders: Sequence[str], calls_main: bool) -> Program:
+    """The program of a file whose modules lie in folders; where it only defines `main()`, that is called."""
     _find_packages_in(workspace_folders)
-    return file_program(path, node_modules(folders))
+    runs = file_program(path, node_modules(folders))
+    return then_main(runs) if calls_main else runs
 
 
 def _find_packages_in(folders: Sequence[str]) -> None:

@@ -77,7 +77,7 @@ class Bench:
             lambda *record: None,
             lambda *line: self.printed.append(line),
             files=lambda: tuple(str(each) for each in sorted(folder.glob("*.launch.*"))),
-            spawn=lambda target: Spawned(target, self.launch_output),
+            spawn=lambda target, file: Spawned(target, self.launch_output),
             vitals=find_vitals,
         )
 

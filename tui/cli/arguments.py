@@ -38,6 +38,9 @@ class Options:
     fast: bool = False
     duration: float | None = None
     seed: int | None = None
+    world: str = ""
+    simulator: bool | None = None
+    """Whether the simulated robot runs beside a launch file; None: when its nodes want a robot and nobody gives one."""
     log_to: Path | None = None
 
 
@@ -50,6 +53,8 @@ def parse(words: Sequence[str]) -> Options:
     if given.pane not in named:
         parser.error(f"there is no pane '{given.pane}'; panes: {', '.join(sorted(named))}")
     profile, pairs = _profile_and_pairs(parser, given)
+    if given.simulator is not None and not given.launch:
+        parser.error("--simulator and --no-simulator go with --launch: the robot system brings its own robot")
     if given.fast and not given.headless:
         parser.error("--fast goes with --headless: a screen shows real time")
     if given.duration is not None and not given.duration > 0:
@@ -64,6 +69,8 @@ def parse(words: Sequence[str]) -> Options:
         fast=given.fast,
         duration=given.duration,
         seed=given.seed,
+        world=given.world or "",
+        simulator=given.simulator,
     )
 
 
@@ -92,6 +99,7 @@ def profile_names() -> list[str]:
     return sorted(path.stem for path in folder.glob("*.yaml"))
 
 
+SIMULATOR_HELP = "whether the simulated robot runs beside it; else it does when nodes want a robot and nobody gives one"
 _RQT_PANES = {"rqt": "overview", "rqt_graph": "graph", "rqt_plot": "plot", "rqt_console": "logs",
               "rqt_reconfigure": "parameters", "rqt_robot_steering": "steering", "rviz2": "world"}  # fmt: skip
 
@@ -120,6 +128,8 @@ def _parser() -> argparse.ArgumentParser:
     add("--profile", metavar="NAME", help="the same as PROFILE")
     add("--duration", type=float, metavar="S", help="with --headless: seconds to run")
     add("--seed", type=int, metavar="N", help="seed of the world")
+    add("--world", metavar="NAME", help="world of the simulated robot")
+    add("--simulator", action=argparse.BooleanOptionalAction, help=SIMULATOR_HELP)
     add("--version", action="version", version=f"bot-console {installed_version()}")
     return parser
 

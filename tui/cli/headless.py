@@ -11,14 +11,16 @@ import sys
 import time
 from collections.abc import Generator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.importer import install
 from bot_console.runtime.process import MAIN, NodeProcess, on_notice, stepped
 from bot_console.tui.cli.arguments import Options
-from bot_console.tui.cli.workspaces import choose, launch_environment
+from bot_console.tui.cli.workspaces import choose
 
-ROOT = Path(__file__).resolve().parents[2]
+if TYPE_CHECKING:
+    from bot_console.tui.cli.headless_launches import Launches
+
 DURATION = 60.0
 """Seconds of a run for which no duration is given."""
 GRACE = 5.0
@@ -35,23 +37,18 @@ def run(options: Options) -> int:
     duration = DURATION if options.duration is None else options.duration
     began = time.perf_counter()
     with _time(options) as clock, _notices():
+        from bot_console.tui.cli.headless_launches import Launches
         from bot_console.tui.cli.observer import Observer
 
         observer = Observer(duration)
         watching = NodeProcess("observer", clock)
         watching.start(observer.run, argv=["observer"])
-        launch = NodeProcess("launch", clock)
-        launch.start(
-            lambda: sys.exit(_launch(options)),
-            argv=["launch"],
-            env=launch_environment(options.launch),
-            stdout=_to_stderr,
-            stderr=_to_stderr,
-        )
+        launches = Launches(options, clock)
+        launches.begin()
         with contextlib.suppress(KeyboardInterrupt):
-            _wait_for(observer, launch, clock.steady_ns() + round((duration + GRACE) * 1e9))
+            _wait_for(observer, launches, clock.steady_ns() + round((duration + GRACE) * 1e9))
         report = observer.report()
-        launch.stop(GRACE)
+        launches.stop(GRACE)
         watching.stop(GRACE)
         report["deterministic"] = bool(getattr(clock, "deterministic", False))
         stalls = getattr(clock, "stalls", [])
@@ -59,12 +56,17 @@ def run(options: Options) -> int:
     if stalls:
         report["stalls"] = stalls
     print(json.dumps(report, indent=2))
-    return 0 if observer.complete else _no_report(launch)
+    return 0 if observer.complete else _no_report(launches)
 
 
-def _no_report(launch: NodeProcess) -> int:
-    ended = f"; the launch had ended with exit code {launch.exit_code}" if launch.exit_code is not None else ""
-    print(f"no simulator has answered the question for its report{ended}; the log above says why", file=sys.stderr)
+def _no_report(launches: Launches) -> int:
+    code = launches.exit_code
+    ended = f"; the launch had ended with exit code {code}" if code is not None else ""
+    unwanted = "" if launches.has_robot else "; no simulator was started beside it, --simulator starts one"
+    print(
+        f"no simulator has answered the question for its report{ended}{unwanted}; the log above says more",
+        file=sys.stderr,
+    )
     return 1
 
 
@@ -87,34 +89,7 @@ def _notices() -> Generator[None]:
         forget()
 
 
-def _wait_for(observer: Any, launch: NodeProcess, deadline_ns: int) -> None:
-    """Until the report is there, the launch has ended, or it is too late."""
-    clock = MAIN.clock
-    forget = launch.on_exit(lambda _: observer.done.set())
-    try:
-        observer.done.wait(max(0.0, (deadline_ns - clock.steady_ns()) * 1e-9))
-    finally:
-        forget()
-
-
-def _launch(options: Options) -> int:
-    """Run the launch file; in its own node process."""
-    from launch.actions import IncludeLaunchDescription
-    from launch.launch_description_sources import AnyLaunchDescriptionSource
-
-    from launch import LaunchDescription, LaunchService
-
-    path = options.launch or str(ROOT / "launch" / "robot_system.launch.py")
-    arguments = dict(options.launch_arguments)
-    if not options.launch:
-        arguments = {"profile": options.profile, **arguments}
-        if options.seed is not None:
-            arguments.setdefault("seed", str(options.seed))
-    service = LaunchService(noninteractive=True)
-    include = IncludeLaunchDescription(AnyLaunchDescriptionSource(path), launch_arguments=arguments.items())
-    service.include_launch_description(LaunchDescription([include]))
-    return service.run()
-
-
-def _to_stderr(text: str) -> None:
-    sys.__stderr__.write(text) if sys.__stderr__ else None
+def _wait_for(observer: Any, launches: Launches, deadline_ns: int) -> None:
+    """Until the report is there, all launches have ended, or it is too late."""
+    launches.on_end(observer.done.set)
+    observer.done.wait(max(0.0, (deadline_ns - MAIN.clock.steady_ns()) * 1e-9))

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import argparse
 import shlex
+import sys
 from pathlib import Path
 
-from bot_console.tui.cli.arguments import Options
-from bot_console.tui.cli.workspaces import tell_whose
-
-PROGRAM_LAUNCH = Path(__file__).resolve().parents[2] / "launch" / "program.launch.py"
-WANTS_ROBOT = (b"cmd_vel", b"LaserScan", b"Odometry")
-"""A file with one of these gets the simulated robot beside it."""
+from bot_console.runtime.workspace.choices import executable_names, package_names
+from bot_console.runtime.workspace.not_found import no_executable, no_package
+from bot_console.runtime.workspace.own import PAGE_NAME
+from bot_console.tui.cli.arguments import SIMULATOR_HELP, Options
+from bot_console.tui.cli.workspaces import PROGRAM_LAUNCH, tell_whose
 
 
 def run(words: list[str]) -> int:
@@ -24,9 +24,13 @@ def run(words: list[str]) -> int:
         from bot_console.runtime.run import main
 
         return main(rest)
-    if not rest or not Path(rest[0]).is_file():
-        parser.error("--watch and --headless take a file: bot-console run --watch FILE.py")
-    options = _options(given, Path(rest[0]).resolve(), rest[1:])
+    if not rest:
+        parser.error("name a file or a package: bot-console run --watch FILE.py, or PACKAGE EXECUTABLE")
+    program, problem = _program(rest)
+    if problem:
+        print(problem, file=sys.stderr)
+        return 1
+    options = _options(given, program)
     if given.headless:
         from bot_console.tui.cli.headless import run as run_headless
 
@@ -36,19 +40,40 @@ def run(words: list[str]) -> int:
     return show(options)
 
 
-def _options(given: argparse.Namespace, program: Path, words: list[str]) -> Options:
-    simulator = given.simulator
-    if simulator is None:
-        text = program.read_bytes()
-        simulator = any(each in text for each in WANTS_ROBOT)
-    arguments = {"program": str(program), "words": shlex.join(words), "simulator": str(simulator).lower()}
-    if given.world:
-        arguments["world"] = given.world
-    if given.seed is not None:
-        arguments["seed"] = str(given.seed)
+def _program(words: list[str]) -> tuple[dict[str, str], str]:
+    """What `program.launch.py` is launched with, and why that cannot be; the words are as `run` takes them."""
+    from bot_console.runtime.importer import install
+
+    install()
+    if words[0].endswith(".py") or Path(words[0]).is_file():
+        return {"program": str(Path(words[0]).resolve()), "words": shlex.join(words[1:])}, _fault(Path(words[0]))
+    package, executable, *rest = [*words, ""]
+    names = executable_names(package)
+    if package not in (*package_names(), PAGE_NAME):
+        return {}, no_package(package)
+    if not executable or executable.startswith("-"):
+        return {}, f"name an executable of package '{package}' as well; it has: {', '.join(names) or 'none'}"
+    arguments = {"package": package, "program": executable, "words": shlex.join(rest[:-1])}
+    return arguments, "" if executable in names else no_executable(package, executable)
+
+
+def _fault(file: Path) -> str:
+    from bot_console.runtime.plain_file import examine
+
+    if not file.is_file():
+        return f"{file} does not exist"
+    found = examine(file)
+    if found.hint:
+        print(f"[WARN] [bot-console]: {found.hint}", file=sys.stderr)
+    return found.problem
+
+
+def _options(given: argparse.Namespace, program: dict[str, str]) -> Options:
     return Options(
         launch=str(PROGRAM_LAUNCH),
-        launch_arguments=arguments,
+        launch_arguments=program,
+        simulator=given.simulator,
+        world=given.world or "",
         headless=given.headless,
         fast=given.fast,
         duration=given.duration,
@@ -77,5 +102,5 @@ def _parser() -> argparse.ArgumentParser:
     add("--duration", type=float, metavar="S", help="with --headless: seconds to run")
     add("--seed", type=int, metavar="N", help="seed of the simulated world")
     add("--world", metavar="NAME", help="world of the simulated robot")
-    add("--simulator", action=argparse.BooleanOptionalAction, help="whether the simulated robot runs beside it")
+    add("--simulator", action=argparse.BooleanOptionalAction, help=SIMULATOR_HELP)
     return parser

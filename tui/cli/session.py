@@ -14,13 +14,14 @@ from types import FrameType
 from bot_console.runtime.importer import install
 from bot_console.runtime.process import NodeProcess, on_notice
 from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.cli import robot_beside
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.hangup import hangup_as_signal
 from bot_console.tui.cli.vitals import find_vitals
-from bot_console.tui.cli.workspaces import choose, launch_environment, launch_files
+from bot_console.tui.cli.workspaces import SYSTEM_LAUNCH, choose, launch_environment, launch_files
 from bot_console.tui.console.connection import RosConsole
 from bot_console.tui.console.launcher import RosLauncher
-from bot_console.tui.console.model import LaunchInfo, Severity
+from bot_console.tui.console.model import LaunchInfo, ProcessState, Severity
 from bot_console.tui.console.process_output import marking
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -45,6 +46,7 @@ class Session:
     def __init__(self, options: Options) -> None:
         self._options = options
         self._closed = False
+        self._looking: NodeProcess | None = None
         self._forget_notices: Callable[[], None] = lambda: None
         self.console = RosConsole(
             launch_info=self._launch_info,
@@ -86,18 +88,24 @@ class Session:
         options = self._options
         if options.launch:
             self.launcher.launch(options.launch, options.launch_arguments)
+            self._looking = robot_beside.begin(options, self._running, self._start_robot)
             return
-        arguments = {"profile": options.profile, **options.launch_arguments}
-        if options.seed is not None:
-            arguments["seed"] = str(options.seed)
-        self.launcher.launch(str(ROOT / "launch" / "robot_system.launch.py"), arguments)
+        arguments = {"profile": options.profile, **robot_beside.arguments(options), **options.launch_arguments}
+        self.launcher.launch(SYSTEM_LAUNCH, arguments)
 
     def _on_notice(self, process: NodeProcess, text: str) -> None:
         self.console.printed(Severity.WARN, process.name, text)
 
-    def _spawn(self, target: Callable[[], None]) -> Launching:
+    def _spawn(self, target: Callable[[], None], file: str) -> Launching:
         """A launch is a node process too, so that what it prints goes to the log."""
-        return Launching(target, self.console.printed, launch_environment(self._options.launch))
+        return Launching(target, self.console.printed, launch_environment(file))
+
+    def _start_robot(self, why: str) -> None:
+        self.console.printed(Severity.INFO, "bot-console", why)
+        self.launcher.launch(robot_beside.LAUNCH_FILE, robot_beside.arguments(self._options))
+
+    def _running(self) -> int:
+        return sum(each.state is ProcessState.RUNNING for each in self.launcher.info().processes)
 
     @contextlib.contextmanager
     def _ended_by_signals(self) -> Generator[None]:
@@ -121,6 +129,8 @@ class Session:
         self._closed = True
         self.console.all_stop(True)
         threading.Event().wait(LAST_WORD)
+        if self._looking is not None:
+            self._looking.stop()
         self.launcher.close()
         self._forget_notices()
         self.console.close()  # whose own zero is the last word to a robot that outlives this program

@@ -7,10 +7,14 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from bot_console.runtime.workspace.choices import launch_file_paths
 from bot_console.runtime.workspace.discover import Workspace, default_folders, use, workspace
 from bot_console.runtime.workspace.own import FIRST_VARIABLE, NAME, PAGE_NAME, ROOT, is_own
 
-ENDINGS = (".launch.py", ".launch.xml", ".launch.yaml", ".launch.yml", "_launch.py", "_launch.xml", "_launch.yaml")
+PROGRAM_LAUNCH = ROOT / "launch" / "program.launch.py"
+"""Runs what a person has named, which is not ours."""
+SYSTEM_LAUNCH = str(ROOT / "launch" / "robot_system.launch.py")
+"""What `bot-console` starts."""
 
 
 def choose(folders: Sequence[Path]) -> None:
@@ -20,11 +24,12 @@ def choose(folders: Sequence[Path]) -> None:
 
 
 def launch_environment(file: str) -> dict[str, str]:
-    """The environment of a launch. One of our own launch files, or none, starts our nodes whatever the workspace holds.
+    """The environment of a launch. A launch file of ours starts our nodes whatever the workspace holds.
 
     That may be a package of our name, such as one that was exported and changed.
     """
-    ours = not file or Path(file).resolve().parent == ROOT / "launch"
+    path = Path(file).resolve()
+    ours = path.parent == ROOT / "launch" and path != PROGRAM_LAUNCH
     return {**os.environ, FIRST_VARIABLE: "1"} if ours else dict(os.environ)
 
 
@@ -37,15 +42,5 @@ def tell_whose(package: str) -> None:
 
 
 def launch_files() -> tuple[str, ...]:
-    """The launch files of all packages."""
-    found: list[str] = []
-    for name in workspace().packages:
-        share = workspace().share(name)
-        if share:
-            below = sorted(each for each in share.rglob("*") if each.name.endswith(ENDINGS) or _in_launch(each))
-            found += map(str, below)
-    return tuple(found)
-
-
-def _in_launch(path: Path) -> bool:
-    return path.parent.name == "launch" and path.suffix in (".py", ".xml", ".yaml", ".yml")
+    """The launch files of all packages of the workspace."""
+    return tuple(str(path) for name in workspace().packages for path in launch_file_paths(name))

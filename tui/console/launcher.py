@@ -51,11 +51,11 @@ class RosLauncher:
         record: Add,
         printed: Callable[[int, str, str], None],
         files: Callable[[], Sequence[str]] = tuple,
-        spawn: Callable[[Callable[[], None]], Joinable] | None = None,
+        spawn: Callable[[Callable[[], None], str], Joinable] | None = None,
         vitals: FindVitals = lambda pid: None,
         heard: Callable[[str], bool] = lambda name: True,
     ) -> None:
-        """`spawn` starts the thread of a launch, in a way that keeps what launch itself prints off the screen.
+        """`spawn` starts the thread of a launch of a file, and keeps what launch itself prints off the screen.
 
         `heard` says whether `/rosout` has brought a line of the logger of that name.
         """
@@ -129,13 +129,14 @@ class RosLauncher:
             name = Path(path).name
             again = sum(Path(each).name == name for each in self._files)
             run = LaunchRun(name if again == 1 else f"{name} ({again})", self._listener)
+            run.path = path
             self._unanswered[run] = outcome
             self._begin(run, lambda: run.run_file(path, given))
         return outcome
 
     def _begin(self, run: LaunchRun, work: Callable[[], str]) -> None:
         self._runs[run] = None
-        self._runs[run] = self._spawn(lambda: self._serve(run, work))
+        self._runs[run] = self._spawn(lambda: self._serve(run, work), run.path)
 
     def _serve(self, run: LaunchRun, work: Callable[[], str]) -> None:
         try:
@@ -224,7 +225,8 @@ class RosLauncher:
         if not held.run.ending:
             held.run.start(make, failed)
             return
-        run = held.run = LaunchRun(held.run.title, self._listener)
+        file, run = held.run.path, LaunchRun(held.run.title, self._listener)
+        run.path, held.run = file, run
         self._begin(run, lambda: run.run_action(make, failed))
 
     def _started(self, run: LaunchRun, event: Any, context: Any) -> None:
@@ -316,7 +318,7 @@ class RosLauncher:
                 thread.join(max(0.0, deadline - time.monotonic()))
 
 
-def _thread(target: Callable[[], None]) -> threading.Thread:
+def _thread(target: Callable[[], None], file: str) -> threading.Thread:
     thread = threading.Thread(target=target, name="launch", daemon=True)
     thread.start()
     return thread

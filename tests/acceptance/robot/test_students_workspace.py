@@ -67,6 +67,14 @@ def test_a_file_of_theirs_runs_beside_our_simulator(name, workspace):
 
 
 @pytest.mark.parametrize("name", NAMES)
+def test_an_executable_of_theirs_runs_beside_our_simulator(name, workspace):
+    report = headless(workspace, "--duration", "4", name, "robot_node", command=("run",))
+    assert f"theirs: {name}" in report["log"]
+    assert "a scan" in report["log"]
+    assert report["deterministic"]
+
+
+@pytest.mark.parametrize("name", NAMES)
 def test_a_package_that_is_named_is_the_workspaces(name, workspace):
     line = [sys.executable, "-m", "bot_console.tui", "run", name, "safety_node"]
     done = subprocess.run(line, cwd=workspace, capture_output=True, text=True, check=False)

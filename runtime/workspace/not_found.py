@@ -1,0 +1,34 @@
+"""What to say when a package or an executable is not there: which are, and what to add."""
+
+from __future__ import annotations
+
+from bot_console.runtime.workspace.choices import executable_names, package_names
+from bot_console.runtime.workspace.discover import workspace
+
+
+def no_package(package: str) -> str:
+    """For a package that nobody has."""
+    folders = ", ".join(map(str, workspace().folders)) or "no folder"
+    return (
+        f"Package '{package}' not found, and there is no such file. There are: {', '.join(package_names())}. "
+        f"Packages are folders with a package.xml; looked for in {folders}"
+    )
+
+
+def no_executable(package: str, name: str) -> str:
+    """For a package without that executable."""
+    has = ", ".join(executable_names(package)) or "none"
+    return f"No executable found: '{name}' is not in package '{package}', which has: {has}{_to_add(package, name)}"
+
+
+def _to_add(package: str, name: str) -> str:
+    source = workspace().packages.get(package)
+    if source is None or not (source.folder / "setup.py").is_file():
+        return ""
+    if source.problem:
+        return f". Its setup.py cannot be read: {source.problem}"
+    module = name.removesuffix(".py")
+    there = any((path / f"{module}.py").is_file() for path in source.modules.values())
+    first = f"{module}.py is there; add" if there else f"Write {package}/{module}.py with a main(), and add"
+    line = f"'{module} = {package}.{module}:main'"
+    return f". {first} {line} to 'console_scripts' in {source.folder / 'setup.py'}"

@@ -1,0 +1,108 @@
+"""A launch file whose nodes want a robot gets the simulated one beside it, and nothing else does."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))
+from headless import headless
+
+NODES = {
+    "driver": "node.create_publisher(Twist, 'cmd_vel', 10), "
+    "node.create_subscription(LaserScan, 'scan', lambda scan: made[0].publish(twist), 10)",
+    "watcher": "node.create_subscription(Odometry, 'odom', lambda odometry: None, 10),",
+    "lidar": "node.create_publisher(LaserScan, 'scan', 10),",
+    "blind": "node.create_publisher(Twist, 'velocity', 10),",
+}
+NODE = """import rclpy
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import LaserScan
+
+twist = Twist()
+twist.linear.x = 0.2
+twist.angular.z = 0.3
+rclpy.init()
+node = rclpy.create_node({name!r})
+made = ({endpoints})
+rclpy.spin(node)
+"""
+LAUNCH = """from launch import LaunchDescription
+from launch.actions import TimerAction
+from launch_ros.actions import Node
+
+def generate_launch_description():
+    return LaunchDescription({entities})
+"""
+BESIDE = "the simulated robot runs beside it"
+
+
+def write(folder, *entities):
+    """A launch file of nodes; `driver` stands for the one of that name, other entities for themselves."""
+    for name, endpoints in NODES.items():
+        (folder / f"{name}.py").write_text(NODE.format(name=name, endpoints=endpoints))
+    actions = [f"Node(executable={str(folder / each)!r} + '.py')" if each in NODES else each for each in entities]
+    (folder / "mine.launch.py").write_text(LAUNCH.format(entities=f"[{', '.join(actions)}]"))
+
+
+def run(folder, *words, seconds="6"):
+    words = ("--headless", "--fast", "--duration", seconds, "--launch", "mine.launch.py", *words)
+    line = [sys.executable, "-m", "bot_console.tui", *words]
+    return subprocess.run(line, cwd=folder, capture_output=True, text=True, check=False)
+
+
+def test_nodes_that_want_a_robot_drive_ours_and_each_run_is_the_same(tmp_path):
+    write(tmp_path, "driver", "watcher")
+    words = ("--duration", "8", "--seed", "3", "--world", "warehouse", "--launch", "mine.launch.py")
+    first, second = (headless(tmp_path, *words) for _ in range(2))
+    assert f"{BESIDE}, since nobody gives /scan to /driver, nobody gives /odom to /watcher" in first["log"]
+    assert first["log"].count(BESIDE) == 1
+    assert "nobody obeys /cmd_vel of /driver" in first["log"]
+    assert (first["world"], first["seed"]) == ("warehouse", 3)
+    assert first["distance"] > 0.5
+    assert first["deterministic"] and second["deterministic"]
+    assert (first["digest"], first["duration"]) == (second["digest"], second["duration"])
+
+
+def test_a_node_that_starts_late_is_seen(tmp_path):
+    write(tmp_path, "TimerAction(period=5.0, actions=[Node(executable='driver.py')])")
+    report = headless(tmp_path, "--duration", "12", "--launch", "mine.launch.py")
+    assert report["distance"] > 0.2
+
+
+@pytest.mark.parametrize(
+    "entities",
+    [
+        ("driver", "lidar"),
+        ("blind",),
+        ("Node(executable='driver.py', namespace='other')",),
+        ("Node(executable='driver.py', remappings=[('scan', 'laser'), ('cmd_vel', 'velocity')])",),
+    ],
+    ids=["somebody gives it", "nobody wants it", "in a namespace", "remapped"],
+)
+def test_no_robot_where_none_is_wanted(tmp_path, entities):
+    write(tmp_path, *entities)
+    done = run(tmp_path)
+    assert done.returncode == 1
+    assert BESIDE not in done.stderr
+    assert "no simulator was started beside it, --simulator starts one" in done.stderr
+
+
+def test_no_simulator_where_it_is_turned_off(tmp_path):
+    write(tmp_path, "driver")
+    done = run(tmp_path, "--no-simulator")
+    assert (done.returncode, BESIDE in done.stderr) == (1, False)
+
+
+def test_simulator_where_it_is_asked_for(tmp_path):
+    write(tmp_path, "blind")
+    report = headless(tmp_path, "--duration", "2", "--launch", "mine.launch.py", "--simulator")
+    assert report["duration"] == 2.0
+
+
+def test_no_two_robots_when_the_launch_brings_one(tmp_path):
+    bringing = "Node(package='bot_console_robot', executable='simulator_node', name='simulator')"
+    write(tmp_path, "driver", bringing)
+    assert BESIDE not in headless(tmp_path, "--duration", "4", "--launch", "mine.launch.py")["log"]

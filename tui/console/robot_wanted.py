@@ -1,0 +1,54 @@
+"""What the nodes of a ROS system lack of a robot: its scans, its odometry, somebody who obeys their velocities."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+SOURCES = {"/scan": "sensor_msgs/msg/LaserScan", "/odom": "nav_msgs/msg/Odometry"}
+"""What a robot publishes, by resolved names; under another name or type our simulator cannot give it."""
+VELOCITY, TWIST = "/cmd_vel", "geometry_msgs/msg/Twist"
+
+
+def robot_wanted(node: Any) -> str:
+    """Why a robot is wanted in the system that `node` sees, for people; empty where one is there or nobody wants it.
+
+    Who publishes one of a robot's topics is a robot, a bag or a stand-in: a second one would contradict it.
+    """
+    if any(node.get_publishers_info_by_topic(topic) for topic in SOURCES):
+        return ""
+    reasons = [
+        f"nobody gives {topic} to {_listed(wanting)}"
+        for topic, kind in SOURCES.items()
+        if (wanting := _visible(node.get_subscriptions_info_by_topic(topic), kind))
+    ]
+    drivers = _visible(node.get_publishers_info_by_topic(VELOCITY), TWIST)
+    if drivers and not _visible(node.get_subscriptions_info_by_topic(VELOCITY), TWIST):
+        reasons.append(f"nobody obeys {VELOCITY} of {_listed(drivers)}")
+    return ", ".join(reasons)
+
+
+def endpoints(node: Any) -> object:
+    """All of the graph that bears on `robot_wanted`: equal as long as nothing of that has changed."""
+    topics = (*SOURCES, VELOCITY)
+    found = [each for topic in topics for each in _both(node, topic)]
+    return sorted(node.get_node_names_and_namespaces()), [(each.node_name, each.topic_type) for each in found]
+
+
+def visible_nodes(node: Any) -> int:
+    """How many nodes there are, without tools and the console."""
+    return sum(not name.startswith("_") for name in node.get_node_names())
+
+
+def _both(node: Any, topic: str) -> Iterable[Any]:
+    yield from node.get_publishers_info_by_topic(topic)
+    yield from node.get_subscriptions_info_by_topic(topic)
+
+
+def _visible(found: Iterable[Any], kind: str) -> list[str]:
+    names = (f"{each.node_namespace.rstrip('/')}/{each.node_name}" for each in found if each.topic_type == kind)
+    return sorted({name for name in names if not name.rpartition("/")[2].startswith("_")})
+
+
+def _listed(names: list[str]) -> str:
+    return " and ".join(names) if len(names) < 3 else f"{names[0]} and {len(names) - 1} others"
