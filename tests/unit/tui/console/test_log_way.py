@@ -56,7 +56,7 @@ def run(console, folder, entities):
     launcher = RosLauncher(
         console.record,
         console.printed,
-        spawn=lambda target: Launching(target, console.printed, os.environ),
+        spawn=lambda target, file: Launching(target, console.printed, os.environ),
         heard=console.heard,
     )
     try:
