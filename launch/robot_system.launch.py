@@ -26,7 +26,7 @@ def generate_launch_description():
     use_sim_time = {"use_sim_time": ParameterValue(LaunchConfiguration("use_sim_time"), value_type=bool)}
     follow_route = {"follow_route": ParameterValue(LaunchConfiguration("follow_route"), value_type=bool)}
 
-    def robot_node(executable, name, remappings=(), extra=None):
+    def robot_node(executable, name, remappings=(), extra=None, **options):
         return Node(
             package=PACKAGE,
             executable=executable,
@@ -34,6 +34,7 @@ def generate_launch_description():
             output="screen",
             parameters=[config_file, use_sim_time, *([extra] if extra else [])],
             remappings=list(remappings),
+            **options,
         )
 
     return LaunchDescription(
@@ -61,7 +62,8 @@ def generate_launch_description():
             ),
             OpaqueFunction(function=make_simulator),
             robot_node("sensor_node", "sensor_handler"),
-            robot_node("safety_node", "safety_monitor"),
+            # Without it the robot stands, locked; when it is back a person releases it.
+            robot_node("safety_node", "safety_monitor", respawn=True, respawn_delay=1.0),
             robot_node("controller_node", "motion_controller", [("cmd_vel", "cmd_vel_nav")], follow_route),
             robot_node("telemetry_node", "telemetry_publisher"),
             OpaqueFunction(function=make_navigator),

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +14,10 @@ FRONT = math.radians(60.0)
 """Half the angle ahead, in rad, in which things stand in the way of driving on."""
 WITNESSES = 2
 """Beams that must see a thing; a single one may be dust."""
+LEAST, MOST = 1e-6, 4 * math.pi
+"""Angles (rad) between and of beams that a sensor can mean."""
+EDGE = 1e-6
+"""Radians that float32 angles may be off."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,42 +42,56 @@ class Verdict:
 
 
 class Arbiter:
-    """Keeps the newest command of each source; the first source with a fresh one drives."""
+    """Keeps the newest command of each source; the first source with a fresh one drives.
 
-    def __init__(self, sources: Sequence[str], lifetime_ns: int) -> None:
-        self._sources = tuple(sources)
+    Each source has a clock of its own (ns): a person's commands age in steady time, a simulated robot's with its world.
+    """
+
+    def __init__(self, sources: Mapping[str, Callable[[], int]], lifetime_ns: int) -> None:
+        self._clocks = dict(sources)
         self._lifetime = lifetime_ns
         self._newest: dict[str, Command] = {}
 
-    def offer(self, source: str, linear: float, angular: float, now: int) -> None:
+    def offer(self, source: str, linear: float, angular: float) -> None:
         """Take a command; one that is not finite counts as a stop."""
         if not (math.isfinite(linear) and math.isfinite(angular)):
             linear = angular = 0.0
-        self._newest[source] = Command(source, linear, angular, now)
+        self._newest[source] = Command(source, linear, angular, self._clocks[source]())
 
-    def choose(self, now: int) -> Command | None:
-        """The command that drives now; None when all are older than their lifetime."""
-        for source in self._sources:
+    def choose(self, *withheld: str) -> Command | None:
+        """The command that drives now; None when all are older than their lifetime, or from sources that may not."""
+        for source, clock in self._clocks.items():
             command = self._newest.get(source)
-            if command and now - command.stamp <= self._lifetime:
+            if command and source not in withheld and 0 <= clock() - command.stamp <= self._lifetime:
                 return command
         return None
 
 
-def nearest_ahead(ranges: npt.NDArray[np.float32], first: float, increment: float) -> float:
+def nearest_ahead(ranges: npt.NDArray[np.float32], first: float, increment: float) -> float | None:
     """The distance in m to what stands ahead, seen by two beams at least; `inf` when nothing does.
 
-    A return of `-inf` (nearer than the sensor can measure) is distance 0.
+    `first` and `increment` are the angles (rad) of the first beam and between two; beams may turn either way and begin
+    anywhere. A return of `-inf` (nearer than the sensor can measure) is distance 0. None for a scan that cannot tell:
+    angles that are none, or fewer than two beams ahead that measured anything.
     """
-    if increment <= 0.0 or len(ranges) < WITNESSES:
-        return math.inf
-    low = max(0, math.ceil((-FRONT - first) / increment))
-    high = math.floor((FRONT - first) / increment) + 1
-    front = ranges[low:high]
+    if (
+        not (math.isfinite(first) and math.isfinite(increment))
+        or abs(first) > MOST
+        or not LEAST < abs(increment) < MOST
+    ):
+        return None
+    front = ranges[_beams_ahead(len(ranges), first, increment)]
     front = front[~np.isnan(front)]
     if len(front) < WITNESSES:
-        return math.inf
+        return None
     return max(0.0, float(np.partition(front, WITNESSES - 1)[WITNESSES - 1]))
+
+
+@lru_cache(maxsize=4)
+def _beams_ahead(count: int, first: float, increment: float) -> npt.NDArray[np.int64]:
+    """The numbers of the beams ahead; a sensor's geometry hardly ever changes."""
+    angles = first + increment * np.arange(count)
+    return np.flatnonzero(np.abs(np.remainder(angles + math.pi, 2 * math.pi) - math.pi) <= FRONT + EDGE)
 
 
 def limit(command: Command, nearest: float, emergency: float, warning: float) -> Verdict:

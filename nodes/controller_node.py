@@ -73,15 +73,20 @@ class MotionController(Node):
 
     def _on_goal(self, goal: PoseStamped) -> None:
         place = goal.pose.position
+        if not (math.isfinite(place.x) and math.isfinite(place.y)):
+            self.get_logger().warning("Goal on goal_pose ignored: its position is not a finite number")
+            return
         self._follower.follow([(place.x, place.y)])
         self.get_logger().info(f"Going to x = {place.x:.2f} m, y = {place.y:.2f} m")
 
     def _on_odometry(self, message: Odometry) -> None:
         place = message.pose.pose
-        self._pose = (place.position.x, place.position.y, _heading(place.orientation))
+        pose = (place.position.x, place.position.y, _heading(place.orientation))
+        self._pose = pose if all(map(math.isfinite, pose)) else None
 
     def _on_desired(self, message: Twist) -> None:
-        self._desired = (message.linear.x, message.angular.z)
+        wanted = (message.linear.x, message.angular.z)
+        self._desired = wanted if all(map(math.isfinite, wanted)) else (0.0, 0.0)
         self._desired_stamp = self._steady.now().nanoseconds
 
     def _control(self) -> None:

@@ -6,11 +6,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from bot_console_robot.arbitration import Arbiter, Command, Verdict, limit, nearest_ahead
+from bot_console_robot.arbitration import Arbiter, Command, Verdict, limit
 from bot_console_robot.diagnostics import ERROR, OK, WARN, status
-from bot_console_robot.parameters import accepted, number, proposed, refused
+from bot_console_robot.emergency_stop import ARBITER, BASE, EmergencyStop
+from bot_console_robot.latch import Lock
+from bot_console_robot.parameters import accepted, number, plain, proposed, refused
+from bot_console_robot.robot_time import RobotTime
 from bot_console_robot.running import CannotStart, run
-from bot_console_robot.scans import ranges_of
+from bot_console_robot.scan_watch import ScanWatch
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist
 from rcl_interfaces.msg import SetParametersResult
@@ -28,40 +31,53 @@ ZEROS = 10
 """Zero commands that are sent when the last source has died, before silence."""
 NO_COMMAND = "no fresh command"
 NO_SCAN = "no fresh scan"
+LOCKED = "emergency stop"
+STEERED = "a person holds the steering"
 
 
 class SafetyMonitor(Node):
-    """Publishes `cmd_vel`, and `diagnostics` about what was asked, what limited it and what is final."""
+    """Publishes `cmd_vel`, and `diagnostics` about what was asked, what limited it and what is final.
+
+    While the emergency stop is locked it publishes zero, again and again. While a person holds the steering only that
+    person's commands count.
+    """
 
     def __init__(self) -> None:
         super().__init__("safety_monitor")
-        self.declare_parameter(
-            "emergency_stop_distance", 0.3, number("No driving on towards a thing nearer than this (m)", 0.05, 2.0)
-        )
-        self.declare_parameter("warning_distance", 0.7, number("Slower from this distance on (m)", 0.1, 5.0))
-        self.add_on_set_parameters_callback(self._check)
-        self.add_post_set_parameters_callback(self._apply)
+        self._declare()
         self._steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self._arbiter = Arbiter((TELEOP, NAVIGATION), LIFETIME_NS)
-        self._nearest = math.inf
-        self._scan_stamp = -LIFETIME_NS - 1
+        self._robot_time = RobotTime(self, self._steady)
+        self._arbiter = Arbiter({TELEOP: self._now, NAVIGATION: self._robot_time.now}, LIFETIME_NS)
+        self._scan = ScanWatch(self._robot_time.now, LIFETIME_NS)
         self._verdict = Verdict("", (0.0, 0.0), (0.0, 0.0), NO_COMMAND, math.inf)
         self._zeros = 0
-        self._read()
-        problem = _problem(self._emergency, self._warning)
-        if problem:
-            raise CannotStart(problem)
         self._commands = self.create_publisher(Twist, "cmd_vel", 10)
         self._diagnostics = self.create_publisher(DiagnosticArray, "diagnostics", 10)
         for topic in (TELEOP, NAVIGATION):
             self.create_subscription(Twist, topic, self._listener(topic), 10)
         self.create_subscription(LaserScan, "scan", self._on_scan, 10)
+        locked = Lock(True, "safety_monitor", "its parameter start_locked is true") if self._start_locked else None
+        self._stop = EmergencyStop(self, self._steady, ARBITER, BASE, self._decide, locked)
         self.create_timer(WATCH_PERIOD, self._watch, clock=self._steady)
         self.get_logger().info(f"Watching: slower from {self._warning} m, stop at {self._emergency} m")
+
+    def _declare(self) -> None:
+        self.declare_parameter(
+            "emergency_stop_distance", 0.3, number("No driving on towards a thing nearer than this (m)", 0.05, 2.0)
+        )
+        self.declare_parameter("warning_distance", 0.7, number("Slower from this distance on (m)", 0.1, 5.0))
+        self.declare_parameter("start_locked", False, plain("Begin with the emergency stop locked"))
+        self.add_on_set_parameters_callback(self._check)
+        self.add_post_set_parameters_callback(self._apply)
+        self._read()
+        problem = _problem(self._emergency, self._warning)
+        if problem:
+            raise CannotStart(problem)
 
     def _read(self) -> None:
         self._emergency = float(self.get_parameter("emergency_stop_distance").value)
         self._warning = float(self.get_parameter("warning_distance").value)
+        self._start_locked = bool(self.get_parameter("start_locked").value)
 
     def _check(self, changes: list[Parameter]) -> SetParametersResult:
         emergency, warning = proposed(self, changes, "emergency_stop_distance", "warning_distance")
@@ -71,38 +87,38 @@ class SafetyMonitor(Node):
     def _apply(self, changes: list[Parameter]) -> None:
         self._read()
         for change in changes:
-            self.get_logger().info(f"✓ {change.name}: {change.value} m")
+            unit = "" if change.name == "start_locked" else " m"
+            self.get_logger().info(f"✓ {change.name}: {change.value}{unit}")
 
     def _listener(self, source: str) -> Callable[[Twist], None]:
         def on_command(message: Twist) -> None:
-            self._arbiter.offer(source, message.linear.x, message.angular.z, self._now())
+            self._arbiter.offer(source, message.linear.x, message.angular.z)
             self._decide()
 
         return on_command
 
     def _on_scan(self, scan: LaserScan) -> None:
-        self._nearest = nearest_ahead(ranges_of(scan), scan.angle_min, scan.angle_increment)
-        self._scan_stamp = self._now()
+        self._scan.take(scan)
         if self._verdict.final[0] > 0.0:
             self._decide()
 
     def _now(self) -> int:
         return self._steady.now().nanoseconds
 
+    def _choose(self) -> Command | None:
+        return self._arbiter.choose(*((NAVIGATION,) if self._stop.steered_by else ()))
+
     def _watch(self) -> None:
-        if self._arbiter.choose(self._now()) is None or self._verdict.limited_by == NO_SCAN:
+        if self._scan.age > LIFETIME_NS // 2:
+            self._robot_time.follow(self._scan.stamp)
+        if self._stop.lock.held or self._choose() is None or self._verdict.limited_by == NO_SCAN:
             self._decide()
         self._publish_diagnostics()
 
     def _decide(self) -> None:
-        now = self._now()
-        command = self._arbiter.choose(now)
-        if command is None:
-            verdict = Verdict("", (0.0, 0.0), (0.0, 0.0), NO_COMMAND, self._nearest)
-            self._zeros += 1
-        else:
-            verdict = self._limited(command, now)
-            self._zeros = 0
+        verdict = self._judge()
+        driven = bool(verdict.source) or verdict.limited_by == LOCKED
+        self._zeros = 0 if driven else self._zeros + 1
         changed = (verdict.source, verdict.limited_by) != (self._verdict.source, self._verdict.limited_by)
         self._verdict = verdict
         if self._zeros <= ZEROS:
@@ -111,11 +127,17 @@ class SafetyMonitor(Node):
             self._tell(verdict)
             self._publish_diagnostics()
 
-    def _limited(self, command: Command, now: int) -> Verdict:
-        if now - self._scan_stamp > LIFETIME_NS:
-            asked = (command.linear, command.angular)
-            return Verdict(command.source, asked, (0.0, 0.0), NO_SCAN, math.inf)
-        return limit(command, self._nearest, self._emergency, self._warning)
+    def _judge(self) -> Verdict:
+        command, nearest = self._choose(), self._scan.nearest
+        asked = (command.linear, command.angular) if command else (0.0, 0.0)
+        source = command.source if command else ""
+        if self._stop.lock.held:
+            return Verdict(source, asked, (0.0, 0.0), LOCKED, nearest)
+        if command is None:
+            return Verdict("", asked, (0.0, 0.0), STEERED if self._stop.steered_by else NO_COMMAND, nearest)
+        if not self._scan.fresh:
+            return Verdict(source, asked, (0.0, 0.0), NO_SCAN, math.inf)
+        return limit(command, nearest, self._emergency, self._warning)
 
     def _command(self, verdict: Verdict) -> None:
         command = Twist()
@@ -129,13 +151,13 @@ class SafetyMonitor(Node):
         elif verdict.limited_by == "warning_distance":
             log.warning(f"⚠ Slower: obstacle at {verdict.nearest:.2f} m", throttle_duration_sec=2.0)
         elif verdict.limited_by == NO_SCAN:
-            log.error("Stopped: no scan for 0.5 s, so nobody sees what is ahead. Is the LIDAR running?")
+            log.error("Stopped: no usable scan for 0.5 s, so nobody sees what is ahead. Is the LIDAR running?")
         elif verdict.limited_by == NO_COMMAND:
             log.warning("Stopped: no velocity command for 0.5 s")
 
     def _publish_diagnostics(self) -> None:
         verdict = self._verdict
-        level = {"": OK, "warning_distance": WARN, NO_COMMAND: WARN}.get(verdict.limited_by, ERROR)
+        level = {"": OK, "warning_distance": WARN, NO_COMMAND: WARN, STEERED: OK}.get(verdict.limited_by, ERROR)
         message = f"limited by {verdict.limited_by}" if verdict.limited_by else "free"
         values = {
             "source": verdict.source,

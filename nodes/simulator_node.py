@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 
 from bot_console_robot import simulator_messages as messages
+from bot_console_robot.emergency_stop import ARBITER, BASE, EmergencyStop
 from bot_console_robot.parameters import accepted, refused
 from bot_console_robot.running import CannotStart, run
 from bot_console_robot.simulation.geometry import Pose
@@ -28,11 +29,16 @@ from visualization_msgs.msg import MarkerArray
 
 CATCH_UP = 25
 """Steps made at once at most; what is missing beyond them is dropped, so that a stall does not become a storm."""
+QUIET_NS = 60_000_000_000
+"""Without a lag for so long, the next one is told again."""
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class Simulator(Node):
-    """Takes `cmd_vel` and `initialpose`; publishes what a robot would, the truth beside it, and `/clock`."""
+    """Takes `cmd_vel` and `initialpose`; publishes what a robot would, the truth beside it, and `/clock`.
+
+    While its emergency stop is locked it obeys nobody, whoever publishes on `cmd_vel`.
+    """
 
     def __init__(self) -> None:
         super().__init__("simulator")
@@ -48,6 +54,7 @@ class Simulator(Node):
         except WorldError as error:
             raise CannotStart(str(error)) from error
         self._paused = False
+        self._lagged = -QUIET_NS
         self._read_rates()
         self._create_publishers()
         self.create_subscription(Twist, "cmd_vel", self._on_command, 10)
@@ -56,6 +63,7 @@ class Simulator(Node):
         self.create_service(SetBool, "pause", self._on_pause)
         self.create_service(Trigger, "step", self._on_step)
         self.create_service(Trigger, "report", self._on_report)
+        self._stop = EmergencyStop(self, self._steady, BASE, ARBITER, self._hold)
         self._begin()
         self.create_timer(STEP, self._tick, clock=self._steady)
 
@@ -114,7 +122,14 @@ class Simulator(Node):
         for change in changes:
             self.get_logger().info(f"✓ {change.name}: {change.value}")
 
+    def _hold(self) -> None:
+        """Stop at once when the emergency stop has been locked."""
+        if self._stop.lock.held:
+            self._simulation.command(0.0, 0.0)
+
     def _on_command(self, message: Twist) -> None:
+        if self._stop.lock.held:
+            return
         try:
             self._simulation.command(message.linear.x, message.angular.z)
         except ValueError as error:
@@ -171,13 +186,22 @@ class Simulator(Node):
             return
         due = (self._steady.now().nanoseconds - self._origin) // STEP_NS - self._done
         if due > CATCH_UP:
-            missing = (due - CATCH_UP) * STEP
-            self.get_logger().warning(f"Simulation lags: {missing:.2f} s left out", throttle_duration_sec=5.0)
+            self._tell_lag((due - CATCH_UP) * STEP)
             self._done += due - CATCH_UP
             due = CATCH_UP
         for _ in range(due):
             self._advance()
         self._done += due
+
+    def _tell_lag(self, missing: float) -> None:
+        """Say so once; again only when all has been well for a while."""
+        now = self._steady.now().nanoseconds
+        if now - self._lagged > QUIET_NS:
+            self.get_logger().warning(
+                f"Simulation lags: {missing:.2f} s left out. This machine is too busy to simulate in real time; "
+                "the robot is slow, not broken"
+            )
+        self._lagged = now
 
     def _advance(self) -> None:
         simulation = self._simulation

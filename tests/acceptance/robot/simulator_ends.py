@@ -22,6 +22,8 @@ sys.setswitchinterval(0.0005)
 
 import rclpy
 from bot_console_robot import simulator_node
+from bot_console_robot.simulation.simulation import Simulation
+from bot_console_robot.worlds import find_world
 from geometry_msgs.msg import Twist
 from rcl_interfaces.srv import SetParameters
 from rclpy.context import Context
@@ -31,7 +33,7 @@ from std_srvs.srv import Trigger
 
 PATIENCE = 30.0
 WORLDS = ("indoor", "outdoor", "warehouse", "competition")
-KINDS = ("interrupt", "terminate", "kill", "stop", "reset", "world", "kill while it resets")
+KINDS = ("interrupt", "terminate", "kill", "stop", "reset", "world", "kill while it resets", "worlds come and go")
 
 
 class Person:
@@ -79,6 +81,36 @@ class Person:
         self._context.try_shutdown()
 
 
+class Kept:
+    """Holds a simulation in a cycle, as a node does, so that only the collector lets it go."""
+
+    def __init__(self, simulation: Simulation) -> None:
+        self.simulation = simulation
+        self.me = self
+
+
+def churn() -> None:
+    """A node that makes one world after the other, and collects garbage nearly all the time."""
+    with contextlib.suppress(KeyboardInterrupt):
+        while True:
+            kept = Kept(Simulation(find_world("warehouse"), 1))
+            kept.simulation.step()
+            gc.collect()
+
+
+def play_churn(chance: random.Random) -> None:
+    """Interrupt it, most likely while it collects."""
+    for _ in range(8):
+        process = NodeProcess("churn")
+        process.start(churn, stdout=_drop, stderr=_drop)
+        threading.Event().wait(chance.uniform(0.03, 0.06))
+        for _ in range(100):
+            process.interrupt()  # the interpreter drops one that comes while it finalizes an object
+            if process.wait(0.3) is not None:
+                break
+        assert not process.is_alive, process.line()
+
+
 def start(domain: int) -> NodeProcess:
     """A simulator as a launch would start it."""
     process = NodeProcess("simulator")
@@ -93,6 +125,8 @@ def _drop(_: str) -> None:
 
 def play(kind: str, domain: int, chance: random.Random) -> None:
     """One start, a little driving, and one end."""
+    if kind == "worlds come and go":
+        return play_churn(chance)
     process, person = start(domain), Person(domain)
     person.wait()
     person.drive()
@@ -112,14 +146,10 @@ def play(kind: str, domain: int, chance: random.Random) -> None:
 
 
 def main(rounds: int, seed: int) -> None:
-    """Play, four at a time, beside a thread that collects garbage all the time."""
+    """Play, four at a time, while every thread collects garbage all the time, so that ends meet collections."""
+    gc.set_threshold(30, 2, 2)
     done: Counter[str] = Counter()
-    over = threading.Event()
     rest = list(range(rounds))
-
-    def collect() -> None:
-        while not over.wait(0.002):
-            gc.collect()
 
     def work() -> None:
         with contextlib.suppress(IndexError):
@@ -130,11 +160,10 @@ def main(rounds: int, seed: int) -> None:
                 done[kind] += 1
 
     workers = [threading.Thread(target=work) for _ in range(4)]
-    for each in [*workers, threading.Thread(target=collect, daemon=True)]:
+    for each in workers:
         each.start()
     for each in workers:
         each.join()
-    over.set()
     last = [start(9000 + number) for number in range(2)]
     threading.Event().wait(0.2)
     print(json.dumps(done), flush=True)

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 PROGRAM = Path(__file__).with_name("simulator_ends.py")
-KINDS = 7
+KINDS = 8
 
 
 def ends(rounds: int, seed: int, patience: float) -> None:
@@ -26,7 +26,7 @@ def ends(rounds: int, seed: int, patience: float) -> None:
 
 @pytest.mark.timeout(120)
 def test_a_few_of_each_kind() -> None:
-    ends(14, 1, 100.0)
+    ends(16, 1, 100.0)
 
 
 @pytest.mark.soak

@@ -14,23 +14,50 @@ def scan(**at: float) -> np.ndarray:
     return ranges
 
 
+class Clock:
+    """A clock that is set."""
+
+    def __init__(self) -> None:
+        self.now = 0
+
+    def __call__(self) -> int:
+        return self.now
+
+
 def test_the_first_source_with_a_fresh_command_drives() -> None:
-    arbiter = Arbiter(("teleop", "navigation"), 500)
-    assert arbiter.choose(0) is None
-    arbiter.offer("navigation", 1.0, 0.1, 0)
-    arbiter.offer("teleop", 0.2, 0.3, 100)
-    assert arbiter.choose(100) == Command("teleop", 0.2, 0.3, 100)
-    assert arbiter.choose(500) == Command("teleop", 0.2, 0.3, 100)
-    arbiter.offer("navigation", 0.9, 0.0, 600)
-    assert arbiter.choose(601) == Command("navigation", 0.9, 0.0, 600)
-    assert arbiter.choose(1101) is None
+    clock = Clock()
+    arbiter = Arbiter({"teleop": clock, "navigation": clock}, 500)
+    assert arbiter.choose() is None
+    arbiter.offer("navigation", 1.0, 0.1)
+    clock.now = 100
+    arbiter.offer("teleop", 0.2, 0.3)
+    assert arbiter.choose() == Command("teleop", 0.2, 0.3, 100)
+    clock.now = 500
+    assert arbiter.choose() == Command("teleop", 0.2, 0.3, 100)
+    clock.now = 600
+    arbiter.offer("navigation", 0.9, 0.0)
+    clock.now = 601
+    assert arbiter.choose() == Command("navigation", 0.9, 0.0, 600)
+    assert arbiter.choose("navigation") is None
+    clock.now = 1101
+    assert arbiter.choose() is None
+
+
+def test_each_source_ages_by_its_own_clock() -> None:
+    wall, world = Clock(), Clock()
+    arbiter = Arbiter({"teleop": wall, "navigation": world}, 500)
+    arbiter.offer("teleop", 0.2, 0.0)
+    arbiter.offer("navigation", 0.9, 0.0)
+    wall.now = 5000
+    chosen = arbiter.choose()
+    assert chosen and chosen.source == "navigation"
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf])
 def test_what_is_no_number_is_a_stop(value: float) -> None:
-    arbiter = Arbiter(("a",), 500)
-    arbiter.offer("a", value, 1.0, 0)
-    command = arbiter.choose(0)
+    arbiter = Arbiter({"a": Clock()}, 500)
+    arbiter.offer("a", value, 1.0)
+    command = arbiter.choose()
     assert command is not None
     assert (command.linear, command.angular) == (0.0, 0.0)
 
@@ -48,8 +75,24 @@ def test_things_beside_the_robot_are_not_ahead() -> None:
 def test_too_near_to_measure_is_zero_and_nan_is_nothing() -> None:
     assert nearest_ahead(scan(b180=-math.inf, b181=-math.inf), FIRST, STEP) == 0.0
     assert nearest_ahead(scan(b180=math.nan, b181=math.nan), FIRST, STEP) == math.inf
-    assert nearest_ahead(np.empty(0, np.float32), FIRST, STEP) == math.inf
-    assert nearest_ahead(scan(b180=0.1, b181=0.1), FIRST, 0.0) == math.inf
+
+
+@pytest.mark.parametrize("increment", [0.0, math.nan, math.inf, -math.inf, 1e30])
+def test_angles_that_are_none_tell_nothing(increment: float) -> None:
+    assert nearest_ahead(scan(b180=0.1, b181=0.1), FIRST, increment) is None
+    assert nearest_ahead(scan(b180=0.1, b181=0.1), math.nan if math.isfinite(increment) else increment, STEP) is None
+
+
+def test_a_scan_that_measured_nothing_ahead_tells_nothing() -> None:
+    assert nearest_ahead(np.empty(0, np.float32), FIRST, STEP) is None
+    assert nearest_ahead(np.full(360, math.nan, np.float32), FIRST, STEP) is None
+
+
+def test_beams_may_turn_the_other_way_and_begin_anywhere() -> None:
+    assert nearest_ahead(scan(b180=0.2, b181=0.2), -FIRST, -STEP) == pytest.approx(0.2)
+    ahead = np.full(360, math.inf, np.float32)
+    ahead[[359, 0, 180]] = 0.4, 0.3, 0.1
+    assert nearest_ahead(ahead, 0.0, math.tau / 360) == pytest.approx(0.4), "all round, from straight ahead"
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,115 @@
+"""The emergency stop of one node on the ROS graph: requests in, its state out, latched, and other nodes' states in."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from bot_console_robot.latch import RELEASE, STOP, Latch, Lock, Request
+from bot_console_robot.stop_messages import lock_of, request_message, request_of, state_message
+from diagnostic_msgs.msg import DiagnosticStatus
+from rclpy.clock import Clock
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from std_srvs.srv import Trigger
+
+REQUESTS = "emergency_stop/request"
+ARBITER, BASE = "emergency_stop/arbiter", "emergency_stop/base"
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+WATCH_PERIOD = 0.1
+"""Seconds between two looks at who has fallen silent."""
+GONE = 3
+"""Looks in which the arbiter is not there before the base locks; all end together when a system ends."""
+
+
+class EmergencyStop:
+    """A node's latch, with the services `~/stop` and `~/release`. `changed` is called whenever its state is another."""
+
+    def __init__(
+        self, node: Node, steady: Clock, own: str, other: str, changed: Callable[[], None], lock: Lock | None = None
+    ) -> None:
+        self._node = node
+        self._steady = steady
+        self._changed = changed
+        self._latch = Latch(lock)
+        self._instance = str(steady.now().nanoseconds)
+        self._other = other
+        self._other_instance = ""
+        self._gone = 0
+        self._told = self._latch.lock.held
+        self._states = node.create_publisher(DiagnosticStatus, own, LATCHED)
+        self._requests = node.create_publisher(DiagnosticStatus, REQUESTS, 10)
+        node.create_subscription(DiagnosticStatus, REQUESTS, self._on_request, 10)
+        node.create_subscription(DiagnosticStatus, other, self._on_state, LATCHED)
+        node.create_service(Trigger, "~/stop", self._on_stop)
+        node.create_service(Trigger, "~/release", self._on_release)
+        node.create_timer(WATCH_PERIOD, self._watch, clock=steady)
+        self._publish()
+
+    @property
+    def lock(self) -> Lock:
+        """Whether the robot is held, by whom and why."""
+        return self._latch.lock
+
+    @property
+    def steered_by(self) -> str:
+        """Who holds the steering; empty when nobody does."""
+        return self._latch.steered_by
+
+    def stop(self, holder: str, reason: str) -> None:
+        """Lock."""
+        self._note(self._latch.stop(holder, reason))
+
+    def _now(self) -> int:
+        return self._steady.now().nanoseconds
+
+    def _on_request(self, message: DiagnosticStatus) -> None:
+        self._note(self._latch.request(request_of(message), self._now()))
+
+    def _on_state(self, message: DiagnosticStatus) -> None:
+        lock, instance = lock_of(message)
+        restarted = self._other_instance not in ("", instance)
+        self._other_instance = instance
+        if restarted and self._other == ARBITER:
+            self.stop(self._node.get_name(), "the safety monitor was started again while the robot ran")
+        self._note(self._latch.follow(lock))
+
+    def _on_stop(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        return self._asked(STOP, response)
+
+    def _on_release(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        return self._asked(RELEASE, response)
+
+    def _asked(self, verb: str, response: Trigger.Response) -> Trigger.Response:
+        """Do it, and let the robot's other latches hear it."""
+        request = Request(verb, f"a call of {self._node.get_name()}/{verb}", "asked for by a service call")
+        self._note(self._latch.request(request, self._now()))
+        self._requests.publish(request_message(request))
+        response.success = True
+        response.message = "locked" if self.lock.held else "released"
+        return response
+
+    def _watch(self) -> None:
+        self._note(self._latch.watch(self._now()))
+        if self._other == ARBITER and self._other_instance:
+            self._gone = 0 if self._node.count_publishers(ARBITER) else self._gone + 1
+            if self._gone == GONE:
+                self.stop(self._node.get_name(), "the safety monitor has gone")
+
+    def _note(self, changed: bool) -> None:
+        """Act on a change before it is told, so that what is told is true."""
+        if changed:
+            self._changed()
+            self._publish()
+        if self.lock.held is not self._told:
+            self._told = self.lock.held
+            self._tell()
+
+    def _tell(self) -> None:
+        log = self._node.get_logger()
+        if self.lock.held:
+            log.warning(f"Emergency stop: locked by {self.lock.holder}: {self.lock.reason}")
+        else:
+            log.info("Emergency stop: released")
+
+    def _publish(self) -> None:
+        self._states.publish(state_message(self.lock, self._node.get_name(), self._instance, self.steered_by))

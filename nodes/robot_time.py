@@ -1,0 +1,58 @@
+"""A clock by which to judge a robot that may be simulated: one that lags behind real time is slow, not broken."""
+
+from __future__ import annotations
+
+from rclpy.clock import Clock
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rosgraph_msgs.msg import Clock as ClockMessage
+
+TOPIC = "/clock"
+FAR_NS = 5_000_000_000
+"""A clock so far from a scan's stamp is another one's."""
+NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+
+
+class RobotTime:
+    """Steady time, until somebody is late and a simulator says what time it is in its world; then that.
+
+    It costs nothing before it is asked for. It never goes back, when a simulation begins anew or its clock ends.
+    """
+
+    def __init__(self, node: Node, steady: Clock) -> None:
+        self._node = node
+        self._steady = steady
+        self._subscription: object = None
+        self._anchor = 0
+        self._origin: int | None = None
+        self._simulated = 0
+        self._stamp = 0
+
+    def now(self) -> int:
+        """Nanoseconds since some moment."""
+        if self._origin is None:
+            return self._anchor + self._steady.now().nanoseconds
+        return self._anchor + self._simulated - self._origin
+
+    def follow(self, stamp: int) -> None:
+        """Go by the simulation's time from now on, if there is a simulation and what the robot sends is stamped in it.
+
+        `stamp` (ns) is that of the newest scan: a clock far from it, as of a bag that is played, is not the robot's.
+        """
+        self._stamp = stamp
+        if self._node.count_publishers(TOPIC) == 0:
+            self._leave()
+        elif self._subscription is None:
+            self._subscription = self._node.create_subscription(ClockMessage, TOPIC, self._on_clock, NEWEST)
+
+    def _leave(self) -> None:
+        if self._origin is not None:
+            self._anchor, self._origin = self.now() - self._steady.now().nanoseconds, None
+
+    def _on_clock(self, message: ClockMessage) -> None:
+        simulated = message.clock.sec * 1_000_000_000 + message.clock.nanosec
+        if abs(simulated - self._stamp) > FAR_NS:
+            self._leave()
+        elif self._origin is None or simulated < self._simulated:
+            self._anchor, self._origin = self.now(), simulated
+        self._simulated = simulated

@@ -1,0 +1,49 @@
+"""What the newest scan says is ahead, and whether it may still be believed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+from bot_console_robot.arbitration import nearest_ahead
+from bot_console_robot.scans import ranges_of
+from sensor_msgs.msg import LaserScan
+
+
+class ScanWatch:
+    """Takes scans; any field of one may hold anything, and what cannot be used counts as not seen."""
+
+    def __init__(self, clock: Callable[[], int], lifetime_ns: int) -> None:
+        self._clock = clock
+        self._lifetime = lifetime_ns
+        self._taken: int | None = None
+        self.stamp = 0
+        """When the last scan says it was taken, in ns."""
+        self.nearest = math.inf
+        """Distance in m to what was ahead in the last usable scan."""
+
+    def take(self, scan: LaserScan) -> bool:
+        """Take a scan; whether it was of use.
+
+        One that is no newer than the one before is not: it was late, or sent twice. Its time counts for the next, since
+        a simulation that is reset begins again from zero.
+        """
+        stamp = scan.header.stamp.sec * 1_000_000_000 + scan.header.stamp.nanosec
+        before, self.stamp = self.stamp, stamp
+        if stamp and stamp <= before:
+            return False
+        nearest = nearest_ahead(ranges_of(scan), scan.angle_min, scan.angle_increment)
+        if nearest is None:
+            return False
+        self.nearest, self._taken = nearest, self._clock()
+        return True
+
+    @property
+    def age(self) -> float:
+        """Nanoseconds since the last usable scan; infinite when there was none."""
+        return math.inf if self._taken is None else self._clock() - self._taken
+
+    @property
+    def fresh(self) -> bool:
+        """Whether the last usable scan still tells what is ahead."""
+        return 0 <= self.age <= self._lifetime

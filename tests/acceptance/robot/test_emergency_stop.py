@@ -1,0 +1,170 @@
+"""ALL STOP holds the robot, whoever publishes velocities and whoever has gone. A witness's odometry is the judge."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from systems import Program, System, system
+
+ROOT = Path(__file__).resolve().parents[3]
+MOVING, STANDING = 0.2, 0.02
+"""Speeds (m/s) of a robot that drives, and that odometry may show at rest."""
+BRAKING = 0.5
+"""Seconds in which it comes to rest."""
+
+WITNESS = """
+import rclpy
+from nav_msgs.msg import Odometry
+
+rclpy.init()
+node = rclpy.create_node("witness")
+node.create_subscription(Odometry, "odom", lambda message: print(message.twist.twist.linear.x), 10)
+rclpy.spin(node)
+"""
+
+DRIVER = """
+import sys
+import rclpy
+from geometry_msgs.msg import Twist
+
+rclpy.init()
+node = rclpy.create_node("second_driver")
+publisher = node.create_publisher(Twist, sys.argv[1], 10)
+
+
+def drive():
+    command = Twist()
+    command.linear.x, command.angular.z = 0.5, 0.8
+    publisher.publish(command)
+
+
+node.create_timer(0.01, drive)
+rclpy.spin(node)
+"""
+
+STEERS = """
+import rclpy
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+
+rclpy.init()
+node = rclpy.create_node("steers")
+publisher = node.create_publisher(DiagnosticStatus, "emergency_stop/request", 10)
+message = DiagnosticStatus(name="anna", hardware_id="1", values=[KeyValue(key="request", value="steer")])
+node.create_timer(0.2, lambda: publisher.publish(message))
+rclpy.spin(node)
+"""
+
+BLIND = """
+import math
+import rclpy
+from sensor_msgs.msg import LaserScan
+
+rclpy.init()
+node = rclpy.create_node("blind")
+publisher = node.create_publisher(LaserScan, "scan", 10)
+node.create_timer(0.02, lambda: publisher.publish(LaserScan(angle_increment=math.nan, ranges=[1.0] * 9)))
+rclpy.spin(node)
+"""
+
+
+class Bench:
+    """A launched robot with its witness."""
+
+    def __init__(self, running: System, launch: str) -> None:
+        self._running = running
+        self.launch = running.ros2("launch", str(ROOT / "launch" / launch))
+        self._witness = running.python("-c", WITNESS)
+        self.run(3.0)
+
+    def run(self, seconds: float) -> list[float]:
+        """Let time go by; the speeds that the witness saw in it."""
+        seen = len(self._witness.stdout)
+        self._running.run(seconds)
+        return [abs(float(each)) for each in self._witness.stdout[seen:].split()]
+
+    def drives(self, seconds: float = 3.0) -> bool:
+        """Whether it drives within so many seconds."""
+        return max(self.run(seconds)) > MOVING
+
+    def stands(self, seconds: float = 4.0) -> bool:
+        """Whether it comes to rest and stays so."""
+        self.run(BRAKING)
+        return max(self.run(seconds)) < STANDING
+
+    def call(self, service: str) -> str:
+        """What a service answers."""
+        return self._running.ask("service", "call", service, "std_srvs/srv/Trigger").stdout
+
+    def python(self, text: str, *words: str) -> Program:
+        """One more program."""
+        return self._running.python("-c", text, *words)
+
+    def kill(self, name: str) -> None:
+        """SIGKILL for a process of the launch."""
+        pid = re.findall(rf"\[{name}-\d+\]: process started with pid \[(\d+)\]", self.launch.stdout)[-1]
+        done = self._running.finish(self.python(f"import os, signal; os.kill({pid}, signal.SIGKILL)"))
+        assert done.exit == 0
+
+
+@pytest.fixture
+def bench() -> Iterator[Bench]:
+    """The whole robot system, driving."""
+    with system() as running:
+        made = Bench(running, "robot_system.launch.py")
+        assert made.drives()
+        yield made
+
+
+@pytest.mark.parametrize("topic", ["cmd_vel", "cmd_vel_nav", "cmd_vel_teleop"])
+def test_a_locked_robot_obeys_no_publisher_until_it_is_released(bench: Bench, topic: str) -> None:
+    bench.python(DRIVER, topic)
+    assert bench.drives()
+    assert "locked" in bench.call("/safety_monitor/stop")
+    assert bench.stands(8.0)
+    assert "released" in bench.call("/safety_monitor/release")
+    assert bench.drives()
+
+
+def test_a_killed_monitor_is_started_again_and_the_robot_stands_until_a_person_releases_it(bench: Bench) -> None:
+    bench.python(DRIVER, "cmd_vel")
+    bench.kill("safety_node")
+    bench.run(0.6)
+    assert bench.stands(8.0)
+    assert bench.launch.stdout.count("[safety_node") and "the safety monitor has gone" in bench.launch.stdout
+    assert len(re.findall(r"safety_node-\d+\]: process started", bench.launch.stdout)) == 2
+    bench.call("/simulator/release")
+    assert bench.drives()
+
+
+def test_steering_holds_the_program_back_and_its_silence_locks(bench: Bench) -> None:
+    person = bench.python(STEERS)
+    assert bench.stands(3.0), "the program may not drive while a person steers"
+    person.process.kill()
+    assert bench.stands(6.0)
+    assert "anna: held the steering and fell silent" in bench.launch.stdout
+    bench.call("/safety_monitor/release")
+    assert bench.drives()
+
+
+def test_scans_that_cannot_be_used_do_not_end_the_monitor(bench: Bench) -> None:
+    blind = bench.python(BLIND)
+    bench.run(2.0)
+    blind.process.kill()
+    bench.run(1.0)
+    assert bench.drives()
+    assert "process has died" not in bench.launch.stdout
+
+
+def test_a_base_without_an_arbiter_locks_itself() -> None:
+    with system() as running:
+        bench = Bench(running, "single_robot.launch.py")
+        assert bench.drives()
+        assert "locked" in bench.call("/simulator/stop")
+        assert bench.stands()
+        bench.call("/reset")
+        assert bench.stands(), "a reset releases nothing"
+        bench.call("/simulator/release")
+        assert bench.drives()

@@ -1,0 +1,98 @@
+"""A robot whose simulation lags is judged by its own time: late, but not broken."""
+
+from __future__ import annotations
+
+import itertools
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from bot_console_robot.robot_time import FAR_NS, RobotTime
+from bot_console_robot.scan_watch import ScanWatch
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import LaserScan
+
+SECOND = 1_000_000_000
+
+
+class Rig:
+    """A node on a graph with a simulator's clock, or none, and a steady clock that is set."""
+
+    def __init__(self, publishers: int = 1) -> None:
+        self.wall = 50 * SECOND
+        self.publishers = publishers
+        node: Any = SimpleNamespace(
+            count_publishers=lambda topic: self.publishers, create_subscription=lambda *given: object()
+        )
+        steady: Any = SimpleNamespace(now=lambda: SimpleNamespace(nanoseconds=self.wall))
+        self.time = RobotTime(node, steady)
+
+    def clock(self, seconds: float) -> None:
+        message = Clock()
+        message.clock.sec, message.clock.nanosec = divmod(round(seconds * SECOND), SECOND)
+        self.time._on_clock(message)
+
+
+@pytest.fixture
+def rig() -> Rig:
+    return Rig()
+
+
+def test_it_is_steady_time_until_it_is_asked_to_follow(rig: Rig) -> None:
+    began = rig.time.now()
+    rig.wall += SECOND
+    assert rig.time.now() - began == SECOND
+
+
+def test_then_only_the_simulations_seconds_count(rig: Rig) -> None:
+    rig.time.follow(7 * SECOND)
+    rig.clock(7.0)
+    began = rig.time.now()
+    rig.wall += 60 * SECOND
+    rig.clock(7.3)
+    assert rig.time.now() - began == 0.3 * SECOND
+
+
+def test_a_reset_and_the_end_of_a_simulation_do_not_turn_it_back(rig: Rig) -> None:
+    rig.time.follow(7 * SECOND)
+    seen = []
+    for seconds in (7.0, 7.5, 0.0, 0.2):
+        rig.time.follow(round(seconds * SECOND))
+        rig.clock(seconds)
+        seen.append(rig.time.now())
+    rig.publishers = 0
+    rig.time.follow(0)
+    seen.append(rig.time.now())
+    rig.wall += SECOND
+    seen.append(rig.time.now())
+    assert [b - a for a, b in itertools.pairwise(seen)] == [0.5 * SECOND, 0, 0.2 * SECOND, 0, SECOND]
+
+
+def test_a_clock_that_is_not_the_robots_is_not_followed(rig: Rig) -> None:
+    rig.time.follow(7 * SECOND + 2 * FAR_NS)
+    rig.clock(7.0)
+    began = rig.time.now()
+    rig.wall += SECOND
+    assert rig.time.now() - began == SECOND
+
+
+def test_without_a_simulation_a_scan_dies_by_the_clock_on_the_wall() -> None:
+    rig = Rig(publishers=0)
+    watch = ScanWatch(rig.time.now, SECOND // 2)
+    assert watch.take(LaserScan(angle_min=-1.0, angle_increment=0.1, ranges=[2.0] * 20)) and watch.fresh
+    rig.wall += SECOND
+    rig.time.follow(watch.stamp)
+    assert not watch.fresh
+
+
+def test_a_scan_of_a_simulation_that_lags_stays_fresh_in_its_time(rig: Rig) -> None:
+    watch = ScanWatch(rig.time.now, SECOND // 2)
+    watch.take(LaserScan(angle_min=-1.0, angle_increment=0.1, ranges=[2.0] * 20))
+    rig.wall += SECOND // 4
+    rig.time.follow(watch.stamp)
+    rig.clock(0.1)
+    rig.wall += 10 * SECOND
+    rig.clock(0.3)
+    assert watch.fresh
+    rig.clock(0.7)
+    assert not watch.fresh
