@@ -41,7 +41,7 @@ class LineCapture(io.TextIOBase):
 
     def write(self, text: str) -> int:
         """Take text; every line that it completes goes to the sink. Raises `TypeError` for anything but text."""
-        if not isinstance(text, str):
+        if not isinstance(text, str):  # pyright: ignore[reportUnnecessaryIsInstance] -- node code is not checked
             raise TypeError(f"write() argument must be str, not {type(text).__name__}")
         if self._pipe is not None:
             self._pipe.drain()

@@ -109,7 +109,7 @@ class _Inside:
 
 def _below_bootstrap(trace: TracebackType | None) -> TracebackType:
     """The traceback as `threading` would show it: its own frame that called `run` comes first."""
-    frame = sys._getframe(3)
+    frame = sys._getframe(3)  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
     return TracebackType(trace, frame, frame.f_lasti, frame.f_lineno)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from typing import Generic, TypeVar
 
@@ -26,7 +26,7 @@ def current() -> NodeProcess:
 
 
 @contextmanager
-def running_as(process: NodeProcess) -> Iterator[None]:
+def running_as(process: NodeProcess) -> Generator[None]:
     """Let the calling thread work for a node process for a while: its `current()`, output, arguments, environment."""
     before = local.process
     local.process = process

@@ -36,18 +36,18 @@ def describe(frame: FrameType) -> str:
 
 def calling_line() -> str:
     """The line of the user's code that is now at work in this thread."""
-    return describe(user_frame(sys._getframe(1)))
+    return describe(user_frame(sys._getframe(1)))  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
 
 
 def thread_line(ident: int) -> str | None:
     """The line of the user's code that a thread is in; None where the thread has ended."""
-    frame = sys._current_frames().get(ident)
+    frame = sys._current_frames().get(ident)  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
     return None if frame is None else describe(user_frame(frame))
 
 
 def is_importing(ident: int) -> bool:
     """Whether a thread is in the import machinery, or in a library's module that is being imported."""
-    frame = sys._current_frames().get(ident)
+    frame = sys._current_frames().get(ident)  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
     while frame is not None and _is_library(frame.f_code.co_filename):
         if frame.f_code.co_filename.startswith("<frozen importlib"):
             return True

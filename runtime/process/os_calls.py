@@ -24,7 +24,7 @@ _kill = os.kill
 _exit = os._exit
 _abort = os.abort
 _chdir = os.chdir
-_system = os.system
+_system = os.system  # pyright: ignore[reportDeprecated] -- node code calls it
 _signal = signal.signal
 _getsignal = signal.getsignal
 _raise_signal = signal.raise_signal
@@ -180,4 +180,4 @@ def unregister_exit(function: Callable[..., Any]) -> None:
 def _asked_by_node() -> bool:
     """Whether the caller is a file of the node: a library imported by it registers for the whole real process."""
     modules = local.process.modules
-    return _in_node() and modules is not None and sys._getframe(2).f_builtins is modules.builtins
+    return _in_node() and modules is not None and sys._getframe(2).f_builtins is modules.builtins  # pyright: ignore[reportPrivateUsage] -- documented in `sys`

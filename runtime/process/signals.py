@@ -123,7 +123,7 @@ class Signals:
     def _call_handler(self, handler: Callable[[int, Any], Any], signum: int) -> None:
         if self._pause is not None:
             self._pause.set()
-        handler(signum, sys._getframe())
+        handler(signum, sys._getframe())  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
 
     def _break_in(self, state: ThreadState, action: partial[Any]) -> None:
         """Interrupt a thread that computes: what a handler raises elsewhere is raised there."""

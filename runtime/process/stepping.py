@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from typing import Any
 
@@ -86,7 +86,7 @@ class SteppedTime:
         self.run_until(self._baton.now + round(seconds * 1e9))
 
     @contextmanager
-    def participate(self) -> Iterator[None]:
+    def participate(self) -> Generator[None]:
         """Let the calling thread, which is not of the run, take turns in it for the length of the block."""
         seat = self.seat(None)
         before = local.seat, local.waits_on
@@ -127,7 +127,7 @@ class SteppedTime:
 @contextmanager
 def stepped(
     start_system_ns: int = DEFAULT_START_NS, *, seed: int = 0, virtual_main: bool = True, stall_s: float = 1.0
-) -> Iterator[SteppedTime]:
+) -> Generator[SteppedTime]:
     """Stepped time for `MAIN` and the calling thread, which drives it; `random` and `numpy.random` start from `seed`.
 
     With `virtual_main` the calling thread is treated as a node's: its `time` module, its sleeps, waits and new threads
@@ -146,7 +146,7 @@ def stepped(
 
 
 @contextmanager
-def _seeded(seed: int) -> Iterator[None]:
+def _seeded(seed: int) -> Generator[None]:
     before = random.getstate()
     random.seed(seed)
     numpy_random: Any = sys.modules.get("numpy.random")

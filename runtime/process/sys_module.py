@@ -20,7 +20,8 @@ class RoutingStream:
     def __init__(self, name: str) -> None:
         self._name = name
         self._original = sys.__dict__[name]
-        self._real = self._original
+        self.real = self._original
+        """The stream outside of node processes."""
 
     def target(self) -> Any:
         """The stream that the calling thread means."""
@@ -29,7 +30,7 @@ class RoutingStream:
             stream = process.overrides.get(self._name) or getattr(process, self._name)
             if stream is not None:
                 return stream
-        return self._real
+        return self.real
 
     def write(self, text: str) -> int:
         """Write to the calling thread's stream."""
@@ -49,14 +50,14 @@ class RoutingStream:
         """What `sys.stdout` is to the calling thread: this stream, unless someone put another in its place."""
         if local.process.main_state is not None:
             return local.process.overrides.get(self._name, self)
-        return self if self._real is self._original else self._real
+        return self if self.real is self._original else self.real
 
     def replace(self, stream: Any) -> None:
         """`sys.stdout = stream`, for the calling thread's process alone."""
         if local.process.main_state is not None:
             local.process.overrides[self._name] = None if stream is self else stream
         else:
-            self._real = self._original if stream is self else stream
+            self.real = self._original if stream is self else stream
 
 
 class VirtualSys(VirtualModule):
@@ -102,7 +103,7 @@ def install() -> Callable[[], None]:
         restore_class()
         for name, stream in streams.items():
             if sys.__dict__[name] is stream:
-                sys.__dict__[name] = stream._real
+                sys.__dict__[name] = stream.real
 
     return uninstall
 

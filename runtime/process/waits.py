@@ -19,13 +19,14 @@ if TYPE_CHECKING:
     from .clock_source import Wakeup
 
 _condition_wait = threading.Condition.wait
-_RealSimpleQueue = queue.SimpleQueue
+_RealSimpleQueue: type[queue.SimpleQueue[Any]] = queue.SimpleQueue
 
 
 def sleep(seconds: float, /) -> None:
     """`time.sleep` on the clock of the calling thread's node process."""
     clock = local.waits_on
-    if clock is None or not isinstance(seconds, (float, SupportsIndex)) or not 0 <= seconds < threading.TIMEOUT_MAX:
+    number = isinstance(seconds, (float, SupportsIndex))  # pyright: ignore[reportUnnecessaryIsInstance] -- node code
+    if clock is None or not number or not 0 <= seconds < threading.TIMEOUT_MAX:
         real.sleep(seconds)  # raises what the interpreter raises
         return
     clock.sleep_until(clock.steady_ns() + int(float(seconds) * 1e9))
@@ -72,7 +73,7 @@ class SimpleQueue:
         """A queue for the calling thread: the built-in one outside of node processes."""
         return _RealSimpleQueue() if local.waits_on is None else super().__new__(cls)
 
-    __class_getitem__ = classmethod(GenericAlias)
+    __class_getitem__: Any = classmethod(GenericAlias)  # pyright: ignore[reportUnknownVariableType] -- as typeshed has it
 
     def __init__(self) -> None:
         self._items: deque[Any] = deque()

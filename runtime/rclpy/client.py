@@ -7,6 +7,7 @@ from functools import partial
 from typing import Any
 
 from bot_console.runtime.process import current
+from bot_console.runtime.rmw.endpoints import ClientEndpoint
 from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.entity import CLIENT, Entity
 from rclpy.impl.reexports import reexporting
@@ -30,7 +31,7 @@ class Client(Entity):
         self.srv_name = srv_name
         self.qos_profile = qos_profile
         self.context = node.context
-        self.endpoint: Any = None
+        self.endpoint: ClientEndpoint
         self._pending_requests: dict[int, Future[Any]] = {}
         self._number = 0
         self._lock = threading.Lock()

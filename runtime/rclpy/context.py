@@ -11,13 +11,15 @@ from types import TracebackType
 from typing import Any
 
 from bot_console.runtime.process import current
-from bot_console.runtime.rmw.local import local_bus
+from bot_console.runtime.rmw.bus import Bus, Thing
+from bot_console.runtime.rmw.middleware import bus_of
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.reexports import reexporting
 from rclpy.signals import remember_context
 
 DOMAIN_VARIABLE = "ROS_DOMAIN_ID"
+NOT_INITIALIZED = "this context has not been initialised: call rclpy.init() first"
 
 
 class Context:
@@ -35,8 +37,8 @@ class Context:
         self._abandoned = False
         self.arguments: Any = None
         self._domain = 0
-        self.bus: Any = None
-        self.lingering: set[Any] = set()
+        self._bus: Bus | None = None
+        self.lingering: set[Thing] = set()
         """Endpoints that stay in the graph although their node was destroyed."""
 
     def init(self, args: Sequence[str] | None = None, *, domain_id: int | None = None) -> None:
@@ -54,7 +56,7 @@ class Context:
             elif domain_id < 0:
                 raise RuntimeError(f"Domain id ({domain_id}) should not be lower than zero.")
             self._domain = domain_id
-            self.bus = local_bus(domain_id)
+            self._bus = bus_of(domain_id)
             self._initialized = True
         remember_context(self)
         self._forget_abandon = current().on_abandon(self._abandon)
@@ -67,7 +69,7 @@ class Context:
 
     def _require_init(self) -> None:
         if not self._initialized:
-            raise TypeError("this context has not been initialised: call rclpy.init() first")
+            raise TypeError(NOT_INITIALIZED)
 
     def require_running(self, what: str) -> None:
         """Raise `TypeError` before `init` and `RCLError` after the shutdown: `what` cannot be made then."""
@@ -83,6 +85,13 @@ class Context:
     def handle(self) -> Destroyable:
         """What upstream's context wraps."""
         return Destroyable(self, lambda: None)
+
+    @property
+    def bus(self) -> Bus:
+        """The middleware of its domain; raises `TypeError` before `init`."""
+        if self._bus is None:
+            raise TypeError(NOT_INITIALIZED)
+        return self._bus
 
     def get_domain_id(self) -> int:
         """The ROS domain."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from typing import Any
 
+from bot_console.runtime.rmw.bus import PublisherEndpoint
 from bot_console.runtime.rosidl.conversion import FieldTypeError
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.duration import Duration
@@ -19,7 +20,7 @@ class Publisher:
     def __init__(
         self,
         node: Any,
-        endpoint: Any,
+        endpoint: PublisherEndpoint,
         msg_type: Any,
         topic: str,
         qos_profile: Any,

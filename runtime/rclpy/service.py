@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from bot_console.runtime.rmw.endpoints import ServiceEndpoint
 from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.entity import SERVICE, Entity
 from rclpy.impl.reexports import reexporting
@@ -32,7 +33,7 @@ class Service(Entity):
         self.srv_name = srv_name
         self.callback = callback
         self.qos_profile = qos_profile
-        self.endpoint: Any = None
+        self.endpoint: ServiceEndpoint
 
     @property
     def handle(self) -> Destroyable:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from enum import IntEnum
 from typing import Any
 
+from bot_console.runtime.rmw.endpoints import ClientEndpoint
+
 EVENT_TOPIC = "/_service_event"
 
 
@@ -46,9 +48,9 @@ class ServiceEvents:
         self._publisher._node.destroy_publisher(self._publisher)
 
 
-def client_gid(client: Any) -> bytes:
-    """Sixteen bytes that no other client endpoint of this process has while it lives."""
-    return id(client).to_bytes(16, "little")
+def client_gid(client: ClientEndpoint) -> bytes:
+    """Sixteen bytes that no other client has."""
+    return client.gid
 
 
 def configure(entity: Any, clock: Any, qos_profile: Any, state: ServiceIntrospectionState) -> None:

@@ -9,6 +9,7 @@ from enum import Enum
 from typing import Any
 
 from bot_console.runtime.process import current
+from bot_console.runtime.rmw.endpoints import SubscriptionEndpoint
 from rclpy.impl.destroyable import SubscriptionHandle
 from rclpy.impl.entity import SUBSCRIPTION, Entity
 from rclpy.impl.reexports import reexporting
@@ -45,11 +46,11 @@ class Subscription(Entity):
         self.raw = raw
         self.qos_profile = qos_profile
         self.event_handlers = event_handlers
-        self.endpoint: Any = None
+        self.endpoint: SubscriptionEndpoint
         self._queue: deque[Any] = deque()
         self.callback = callback
 
-    def _join(self, endpoint: Any) -> None:
+    def _join(self, endpoint: SubscriptionEndpoint) -> None:
         self.endpoint = endpoint
         self._queue = endpoint.queue
 

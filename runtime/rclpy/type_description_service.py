@@ -7,6 +7,8 @@ from collections import deque
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from bot_console.runtime.rmw.bus import Bus, Thing
+from bot_console.runtime.rmw.endpoints import ServiceEndpoint
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.parameter import Parameter
 
@@ -82,7 +84,7 @@ def _nothing() -> None:
     """Nobody is there to be told."""
 
 
-def _vanish(bus: Any, lingering: set[Any], endpoint: Any) -> None:
+def _vanish(bus: Bus, lingering: set[Thing], endpoint: ServiceEndpoint) -> None:
     lingering.discard(endpoint)
     bus.remove(endpoint)
 

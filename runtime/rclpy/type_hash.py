@@ -52,3 +52,12 @@ def type_hash_of(interface: Any) -> TypeHash:
     from bot_console.runtime.rosidl.type_hash import VERSION, digest
 
     return TypeHash(VERSION, digest(interface))
+
+
+def type_hash_from(text: str) -> TypeHash:
+    """The hash that a text such as `RIHS01_...` tells; one that is no hash where the text is none."""
+    scheme, _, digits = text.partition("_")
+    try:
+        return TypeHash(int(scheme.removeprefix("RIHS")), bytes.fromhex(digits))
+    except ValueError:
+        return TypeHash()

@@ -26,16 +26,16 @@ class ArgumentsError(ValueError):
 class Arguments:
     """What a command line says to ROS."""
 
-    remap_rules: list[RemapRule] = field(default_factory=list)
+    remap_rules: list[RemapRule] = field(default_factory=list[RemapRule])
     parameters: ParameterTable = field(default_factory=ParameterTable)
     """Values of `-p` and `--params-file`, in their order."""
-    unparsed: list[str] = field(default_factory=list)
+    unparsed: list[str] = field(default_factory=list[str])
     """The words for the program itself."""
-    unknown_ros_args: list[str] = field(default_factory=list)
-    deprecated_rules: list[str] = field(default_factory=list)
+    unknown_ros_args: list[str] = field(default_factory=list[str])
+    deprecated_rules: list[str] = field(default_factory=list[str])
     """Remap rules outside the ROS part."""
     default_level: int | None = None
-    logger_levels: dict[str, int] = field(default_factory=dict)
+    logger_levels: dict[str, int] = field(default_factory=dict[str, int])
     log_config_file: str | None = None
     log_file_name: str | None = None
     enclave: str | None = None
@@ -50,7 +50,7 @@ def parse(words: Sequence[str]) -> Arguments:
     inside = False
     rest = iter(list(words))
     for word in rest:
-        if not isinstance(word, str):
+        if not isinstance(word, str):  # pyright: ignore[reportUnnecessaryIsInstance] -- programs pass what they like
             raise TypeError(f"expected str instance, {type(word).__name__} found")
         if word == START:
             inside = True

@@ -2,51 +2,46 @@
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Protocol
 
-Notify = Callable[[], None]
-"""Called, from any thread, when an endpoint has something new."""
-
-
-@dataclass(frozen=True)
-class NodeId:
-    """A node of the graph; two nodes may have the same name, so identity counts."""
-
-    name: str
-    namespace: str
-    enclave: str = "/"
-    number: int = 0
+from bot_console.runtime.rmw.endpoints import (
+    ClientEndpoint,
+    Endpoint,
+    Message,
+    NodeId,
+    Notify,
+    OnEvent,
+    ServiceEndpoint,
+    SubscriptionEndpoint,
+)
 
 
-@dataclass(eq=False)
-class Endpoint:
-    """A publisher or subscription as the graph knows it. `topic` is fully qualified, `gid` has 16 bytes."""
+class Publisher(Protocol):
+    """A publisher, of this process or another, as a subscription's events name it."""
 
-    node: NodeId
-    topic: str
-    type_name: str
-    qos: Any
-    gid: bytes
-    message_class: Any = None
+    @property
+    def lease(self) -> int | None:
+        """How long (ns) it counts as alive without a sign of life; None for as long as it is there."""
+        ...
 
 
-class PublisherEndpoint(Protocol):
+class PublisherEndpoint(Publisher, Protocol):
     """Sends messages."""
 
-    endpoint: Endpoint
+    on_publish: Notify | None
+    """Called with each message, where somebody watches that."""
 
-    def publish(self, message: Any) -> None:
+    @property
+    def endpoint(self) -> Endpoint:
+        """How the graph knows it."""
+        ...
+
+    def publish(self, message: Message) -> None:
         """Give each matched subscription a copy of its own; raises `FieldTypeError` for what cannot be sent."""
         ...
 
-    def assert_liveliness(self) -> None:
-        """Give a sign of life."""
-        ...
-
-    def publish_own(self, message: Any) -> bool:
+    def publish_own(self, message: Message) -> bool:
         """Publish a message that is well formed and that nobody else holds; it need not be copied.
 
         False when the publisher is closed: then nobody gets it.
@@ -57,47 +52,21 @@ class PublisherEndpoint(Protocol):
         """The same for a serialized message."""
         ...
 
+    def assert_liveliness(self) -> None:
+        """Give a sign of life."""
+        ...
+
     def matched_count(self) -> int:
         """How many subscriptions receive."""
         ...
 
 
-@dataclass(eq=False)
-class SubscriptionEndpoint:
-    """Receives messages: `queue` holds what has come, as (message, source ns, sequence number, expiry ns)."""
-
-    endpoint: Endpoint
-    raw: bool
-    queue: deque[Any]
-    notify: Notify
-    on_event: Callable[[str, Any], None] = lambda kind, what: None
-    matched: int = 0
-
-
-@dataclass(eq=False)
-class ServiceEndpoint:
-    """Answers requests: `queue` holds (client, sequence number, request)."""
-
-    node: NodeId
-    name: str
-    type_name: str
-    notify: Notify
-    queue: deque[Any] = field(default_factory=deque)
-
-
-@dataclass(eq=False)
-class ClientEndpoint:
-    """Asks requests: `queue` holds (sequence number, response)."""
-
-    node: NodeId
-    name: str
-    type_name: str
-    notify: Notify
-    queue: deque[Any] = field(default_factory=deque)
+Thing = PublisherEndpoint | SubscriptionEndpoint | ServiceEndpoint | ClientEndpoint
+"""What a node has on a bus."""
 
 
 class Bus(Protocol):
-    """A middleware. All methods may be called from any thread."""
+    """A middleware in one ROS domain. All methods may be called from any thread, and none waits for another process."""
 
     def add_node(self, name: str, namespace: str, enclave: str) -> NodeId:
         """Let a node appear in the graph."""
@@ -107,12 +76,12 @@ class Bus(Protocol):
         """Let a node and all its endpoints leave the graph."""
         ...
 
-    def create_publisher(self, endpoint: Endpoint, on_event: Callable[[str, Any], None]) -> Any:
-        """Make a publisher of a topic."""
+    def create_publisher(self, endpoint: Endpoint, on_event: OnEvent) -> PublisherEndpoint:
+        """Make a publisher of a topic. One whose node has left the graph publishes nowhere."""
         ...
 
     def create_subscription(self, subscription: SubscriptionEndpoint) -> None:
-        """Let a subscription receive."""
+        """Let a subscription receive, what latching publishers kept for it included."""
         ...
 
     def create_service(self, service: ServiceEndpoint) -> None:
@@ -123,19 +92,19 @@ class Bus(Protocol):
         """Let a client of a service appear in the graph."""
         ...
 
-    def disown(self, thing: Any) -> None:
+    def disown(self, thing: ServiceEndpoint | ClientEndpoint) -> None:
         """Let a service server or client stay when its node leaves."""
         ...
 
-    def remove(self, thing: Any) -> None:
-        """Take a publisher, subscription, server or client away."""
+    def remove(self, thing: Thing) -> None:
+        """Take a publisher, subscription, server or client away; a second time does nothing."""
         ...
 
-    def request(self, client: ClientEndpoint, number: int, request: Any) -> None:
+    def request(self, client: ClientEndpoint, number: int, request: Message) -> None:
         """Send a request to the servers; lost when there is none."""
         ...
 
-    def respond(self, client: ClientEndpoint, number: int, response: Any) -> None:
+    def respond(self, client: ClientEndpoint, number: int, response: Message) -> None:
         """Send a response to the client that asked."""
         ...
 
@@ -165,4 +134,8 @@ class Bus(Protocol):
 
     def on_graph_change(self, callback: Notify) -> Callable[[], None]:
         """Call back at each change of the graph; returns what ends that."""
+        ...
+
+    def published(self) -> int:
+        """How many messages the present publishers of this process have published in all."""
         ...

@@ -6,25 +6,24 @@ import itertools
 import threading
 from collections import deque
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, TypeVar
 
 from bot_console.runtime.process import current
-from bot_console.runtime.rmw.bus import (
+from bot_console.runtime.rmw.bus import Thing
+from bot_console.runtime.rmw.endpoints import (
     ClientEndpoint,
     Endpoint,
+    Message,
     NodeId,
     Notify,
+    OnEvent,
     ServiceEndpoint,
     SubscriptionEndpoint,
+    depth,
 )
 from bot_console.runtime.rmw.qos_matching import INFINITE, LATCHING, incompatible_policy, wants_history
 
-_gids = itertools.count(1)
-
-
-def new_gid() -> bytes:
-    """A number that no other endpoint of this process has, in 16 bytes."""
-    return next(_gids).to_bytes(16, "little")
+_T = TypeVar("_T")
 
 
 class LocalPublisher:
@@ -35,7 +34,7 @@ class LocalPublisher:
         *("open", "targets"),
     )
 
-    def __init__(self, endpoint: Endpoint, on_event: Callable[[str, Any], None]) -> None:
+    def __init__(self, endpoint: Endpoint, on_event: OnEvent) -> None:
         self.endpoint = endpoint
         self.on_event = on_event
         self.on_publish: Notify | None = None
@@ -50,9 +49,9 @@ class LocalPublisher:
         self._now = current().clock.system_ns
         self._lifespan = endpoint.qos.lifespan.nanoseconds
         keeps = endpoint.qos.durability.name in LATCHING
-        self.history: deque[Any] | None = deque(maxlen=_depth(endpoint.qos)) if keeps else None
+        self.history: deque[Any] | None = deque(maxlen=depth(endpoint.qos)) if keeps else None
 
-    def publish(self, message: Any) -> None:
+    def publish(self, message: Message) -> None:
         """Copy the message into the queue of each matched subscription."""
         if not self.open:
             return
@@ -73,7 +72,7 @@ class LocalPublisher:
             target.queue.append((given, stamp, number, expires))
             target.notify()
 
-    def publish_own(self, message: Any) -> bool:
+    def publish_own(self, message: Message) -> bool:
         """Publish a message that is well formed and that nobody else holds: it is not copied where that is needless.
 
         False when the publisher is closed.
@@ -119,17 +118,7 @@ class LocalPublisher:
             target.notify()
 
 
-def _depth(qos: Any) -> int | None:
-    """The length of a queue; None where all is kept."""
-    return None if qos.history.name == "KEEP_ALL" else max(1, qos.depth or 10)
-
-
-def queue_for(qos: Any) -> deque[Any]:
-    """An empty queue of the length that a profile asks for."""
-    return deque(maxlen=_depth(qos))
-
-
-def _serialize(message: Any) -> bytes:
+def _serialize(message: Message) -> bytes:
     from bot_console.runtime.rosidl.cdr import serialize
 
     return serialize(message)
@@ -147,7 +136,7 @@ class LocalBus:
     def __init__(self) -> None:
         self._lock = threading.RLock()
         self._numbers = itertools.count(1)
-        self._nodes: dict[NodeId, list[Any]] = {}
+        self._nodes: dict[NodeId, list[Thing]] = {}
         self._publishers: dict[str, list[LocalPublisher]] = {}
         self._subscriptions: dict[str, list[SubscriptionEndpoint]] = {}
         self._services: dict[str, list[ServiceEndpoint]] = {}
@@ -175,7 +164,7 @@ class LocalBus:
             self._nodes.pop(node, None)
         self._changed()
 
-    def create_publisher(self, endpoint: Endpoint, on_event: Callable[[str, Any], None]) -> LocalPublisher:
+    def create_publisher(self, endpoint: Endpoint, on_event: OnEvent) -> LocalPublisher:
         """Make a publisher and match it."""
         publisher = LocalPublisher(endpoint, on_event)
         with self._lock:
@@ -235,7 +224,7 @@ class LocalBus:
                 self._clients.setdefault(client.name, []).append(client)
         self._changed()
 
-    def _own(self, node: NodeId, thing: Any) -> bool:
+    def _own(self, node: NodeId, thing: Thing) -> bool:
         """Note what a node has; False when it has left the graph, as one that was killed while it went on."""
         things = self._nodes.get(node)
         if things is None:
@@ -243,51 +232,57 @@ class LocalBus:
         things.append(thing)
         return True
 
-    def disown(self, thing: Any) -> None:
+    def disown(self, thing: ServiceEndpoint | ClientEndpoint) -> None:
         """Let a service server or client stay when its node leaves."""
         with self._lock:
             things = self._nodes.get(thing.node, [])
             if thing in things:
                 things.remove(thing)
 
-    def remove(self, thing: Any) -> None:
+    def remove(self, thing: Thing) -> None:
         """Take an endpoint away; a second time does nothing."""
         with self._lock:
             self._take_away(thing)
         self._changed()
 
-    def _take_away(self, thing: Any) -> None:
+    def _take_away(self, thing: Thing) -> None:
         if isinstance(thing, LocalPublisher):
-            thing.open = False
-            _drop(self._publishers, thing.endpoint.topic, thing)
-            for target in thing.targets:
-                target.matched -= 1
-                target.on_event("matched", -1)
-                target.on_event("gone", thing)
-            thing.targets = ()
-            node = thing.endpoint.node
+            self._take_publisher(thing)
         elif isinstance(thing, SubscriptionEndpoint):
-            _drop(self._subscriptions, thing.endpoint.topic, thing)
-            for publisher in self._publishers.get(thing.endpoint.topic, ()):
-                if thing in publisher.targets:
-                    publisher.targets = tuple(each for each in publisher.targets if each is not thing)
-                    publisher.on_event("matched", -1)
-            node = thing.endpoint.node
-        else:
-            _drop(self._services if isinstance(thing, ServiceEndpoint) else self._clients, thing.name, thing)
-            node = thing.node
-        things = self._nodes.get(node)
+            self._take_subscription(thing)
+        elif isinstance(thing, ServiceEndpoint):
+            _drop(self._services, thing.name, thing)
+        elif isinstance(thing, ClientEndpoint):
+            _drop(self._clients, thing.name, thing)
+        things = self._nodes.get(_owner(thing))
         if things and thing in things:
             things.remove(thing)
 
-    def request(self, client: ClientEndpoint, number: int, request: Any) -> None:
+    def _take_publisher(self, publisher: LocalPublisher) -> None:
+        publisher.open = False
+        _drop(self._publishers, publisher.endpoint.topic, publisher)
+        for target in publisher.targets:
+            target.matched -= 1
+            target.on_event("matched", -1)
+            target.on_event("gone", publisher)
+        publisher.targets = ()
+
+    def _take_subscription(self, subscription: SubscriptionEndpoint) -> None:
+        topic = subscription.endpoint.topic
+        _drop(self._subscriptions, topic, subscription)
+        for publisher in self._publishers.get(topic, ()):
+            if subscription in publisher.targets:
+                publisher.targets = tuple(each for each in publisher.targets if each is not subscription)
+                publisher.on_event("matched", -1)
+
+    def request(self, client: ClientEndpoint, number: int, request: Message) -> None:
         """Put a copy of the request into the queue of each server of the service."""
         for server in tuple(self._services.get(client.name, ())):
             if server.type_name == client.type_name:
                 server.queue.append((client, number, request._copy_()))
                 server.notify()
 
-    def respond(self, client: ClientEndpoint, number: int, response: Any) -> None:
+    def respond(self, client: ClientEndpoint, number: int, response: Message) -> None:
         """Put a copy of the response into the client's queue."""
         client.queue.append((number, response._copy_()))
         client.notify()
@@ -337,12 +332,16 @@ class LocalBus:
             watcher()
 
 
-def _drop(table: dict[str, list[Any]], key: str, thing: Any) -> None:
+def _drop(table: dict[str, list[_T]], key: str, thing: _T) -> None:
     rows = table.get(key, [])
     if thing in rows:
         rows.remove(thing)
     if not rows:
         table.pop(key, None)
+
+
+def _owner(thing: Thing) -> NodeId:
+    return thing.node if isinstance(thing, (ServiceEndpoint, ClientEndpoint)) else thing.endpoint.node
 
 
 _buses: dict[int, LocalBus] = {}

@@ -36,7 +36,7 @@ def read_parameter_file(path: str, overrides: ParameterTable) -> None:
     try:
         for event in yaml_events(content):
             reader.line = event.start_mark.line + 1
-            handler = handlers.get(type(event))
+            handler = handlers.get(event.__class__)
             if handler is not None:
                 handler(event)
     except yaml.YAMLError:

@@ -17,7 +17,8 @@ def yaml_events(source: str | bytes) -> Iterator[Any]:
     """The events of a YAML text; raises `yaml.YAMLError`."""
     import yaml
 
-    return yaml.parse(source, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    untyped: Any = yaml  # the stubs say nothing of what `parse` takes and gives
+    return untyped.parse(source, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
 
 
 class ValueWriter:

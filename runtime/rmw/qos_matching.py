@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+
+from bot_console.runtime.rmw.qos import Profile
 
 INFINITE = (0, 2**63 - 2, 2**63 - 1)
 """Durations that stand for no limit: not given, "best available", infinite."""
@@ -11,7 +12,7 @@ LATCHING = ("TRANSIENT_LOCAL", "BEST_AVAILABLE")
 """Durabilities with which a publisher keeps messages for subscriptions that come late."""
 
 
-def incompatible_policy(offered: Any, requested: Any) -> str:
+def incompatible_policy(offered: Profile, requested: Profile) -> str:
     """The name of the policy in which two profiles do not fit, as rmw tells the last one; empty when they fit."""
     worst = ""
     if requested.reliability.name == "RELIABLE" and offered.reliability.name == "BEST_EFFORT":
@@ -35,7 +36,7 @@ def _shorter(requested: int, offered: int) -> bool:
     return offered in INFINITE or offered > requested
 
 
-def wants_history(requested: Any, offers: Sequence[Any]) -> bool:
+def wants_history(requested: Profile, offers: Sequence[Profile]) -> bool:
     """Whether a subscription gets what came before it; "best available" does where all publishers keep it."""
     if requested.durability.name == "BEST_AVAILABLE":
         return all(offer.durability.name in LATCHING for offer in offers)

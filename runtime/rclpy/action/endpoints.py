@@ -5,8 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from bot_console.runtime.rmw.bus import ClientEndpoint, Endpoint, Notify, ServiceEndpoint, SubscriptionEndpoint
-from bot_console.runtime.rmw.local import new_gid, queue_for
+from bot_console.runtime.rmw.bus import Bus, PublisherEndpoint
+from bot_console.runtime.rmw.endpoints import (
+    ClientEndpoint,
+    Endpoint,
+    Notify,
+    ServiceEndpoint,
+    SubscriptionEndpoint,
+    new_gid,
+    no_event,
+    queue_for,
+)
 from bot_console.runtime.rosidl.conversion import type_name
 from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException
 from rclpy.impl.topic_names import checked
@@ -50,7 +59,7 @@ class ServerEndpoints:
     def __init__(
         self, node: Any, impl: Any, names: ActionNames, notify: Notify, feedback_qos: Any, status_qos: Any
     ) -> None:
-        self._bus = node._ros_bus
+        self._bus: Bus = node._ros_bus
         self.goal = self._service(node, names.goal, impl.SendGoalService, notify)
         self.cancel = self._service(node, names.cancel, impl.CancelGoalService, notify)
         self.result = self._service(node, names.result, impl.GetResultService, notify)
@@ -58,13 +67,13 @@ class ServerEndpoints:
         self.status = self._publisher(node, names.status, impl.GoalStatusMessage, status_qos)
 
     def _service(self, node: Any, name: str, kind: Any, notify: Notify) -> ServiceEndpoint:
-        endpoint = ServiceEndpoint(node._ros_id, name, type_name(kind), notify)
+        endpoint = ServiceEndpoint(node._ros_id, name, type_name(kind), notify, kind)
         self._bus.create_service(endpoint)
         return endpoint
 
-    def _publisher(self, node: Any, name: str, kind: Any, qos: Any) -> Any:
+    def _publisher(self, node: Any, name: str, kind: Any, qos: Any) -> PublisherEndpoint:
         endpoint = Endpoint(node._ros_id, name, type_name(kind), qos, new_gid(), kind)
-        return self._bus.create_publisher(endpoint, lambda kind, what: None)
+        return self._bus.create_publisher(endpoint, no_event)
 
     def pending(self) -> bool:
         """Whether a request is there."""
@@ -82,7 +91,7 @@ class ClientEndpoints:
     def __init__(
         self, node: Any, impl: Any, names: ActionNames, notify: Notify, feedback_qos: Any, status_qos: Any
     ) -> None:
-        self._bus = node._ros_bus
+        self._bus: Bus = node._ros_bus
         self.goal = self._client(node, names.goal, impl.SendGoalService, notify)
         self.cancel = self._client(node, names.cancel, impl.CancelGoalService, notify)
         self.result = self._client(node, names.result, impl.GetResultService, notify)
@@ -90,7 +99,7 @@ class ClientEndpoints:
         self.status = self._subscription(node, names.status, impl.GoalStatusMessage, status_qos, notify)
 
     def _client(self, node: Any, name: str, kind: Any, notify: Notify) -> ClientEndpoint:
-        endpoint = ClientEndpoint(node._ros_id, name, type_name(kind), notify)
+        endpoint = ClientEndpoint(node._ros_id, name, type_name(kind), notify, kind)
         self._bus.create_client(endpoint)
         return endpoint
 

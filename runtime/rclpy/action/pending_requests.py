@@ -5,14 +5,15 @@ from __future__ import annotations
 import threading
 from typing import Any
 
-from bot_console.runtime.rmw.bus import ClientEndpoint
+from bot_console.runtime.rmw.bus import Bus
+from bot_console.runtime.rmw.endpoints import ClientEndpoint
 from rclpy.task import Future
 
 
 class PendingRequests:
     """Futures of requests of one service, with the goal that each is about."""
 
-    def __init__(self, bus: Any) -> None:
+    def __init__(self, bus: Bus) -> None:
         self._bus = bus
         self._lock = threading.Lock()
         self._number = 0

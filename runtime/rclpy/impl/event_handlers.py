@@ -6,6 +6,8 @@ from collections.abc import Callable
 from typing import Any
 
 from bot_console.runtime.process import current
+from bot_console.runtime.rmw.bus import Publisher
+from bot_console.runtime.rmw.endpoints import Event
 from rclpy.impl.entity import WAITABLE, Entity
 from rclpy.impl.qos_policies import QoSPolicyKind
 
@@ -14,7 +16,7 @@ class EventHandler(Entity):
     """Calls back in the executor with the counts of one kind of event, and how they changed since the last call."""
 
     KIND = WAITABLE
-    kinds: tuple[str, ...] = ()
+    kinds: tuple[Event, ...] = ()
     """The events of the bus that it listens to."""
 
     def __init__(self, info_type: Any, callback: Callable[[Any], Any], callback_group: Any) -> None:
@@ -168,8 +170,8 @@ class LivelinessHandler(TimedHandler):
 
     def __init__(self, info_type: Any, callback: Callable[[Any], Any], callback_group: Any) -> None:
         super().__init__(info_type, callback, callback_group)
-        self._alive: dict[Any, int | None] = {}
-        self._silent: set[Any] = set()
+        self._alive: dict[Publisher, int | None] = {}
+        self._silent: set[Publisher] = set()
         self._before = 0, 0
 
     def happened(self, kind: str, what: Any) -> None:

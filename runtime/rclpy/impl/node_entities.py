@@ -6,8 +6,18 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from bot_console.runtime.rmw.bus import ClientEndpoint, Endpoint, ServiceEndpoint, SubscriptionEndpoint
-from bot_console.runtime.rmw.local import new_gid, queue_for
+from bot_console.runtime.rmw.bus import Bus
+from bot_console.runtime.rmw.endpoints import (
+    ClientEndpoint,
+    Endpoint,
+    Event,
+    NodeId,
+    OnEvent,
+    ServiceEndpoint,
+    SubscriptionEndpoint,
+    new_gid,
+    queue_for,
+)
 from bot_console.runtime.rosidl.conversion import type_name
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.callback_groups import ReentrantCallbackGroup
@@ -29,8 +39,8 @@ SERVICE_QUEUE_LIMIT = 1000
 class NodeEntities:
     """Factories of `Node`."""
 
-    _ros_bus: Any
-    _ros_id: Any
+    _ros_bus: Bus
+    _ros_id: NodeId
     _ros_sink: Any
     _ros_order: int
     _ros_entities: dict[Any, None]
@@ -165,7 +175,7 @@ class NodeEntities:
         check_is_valid_srv_type(srv_type)
         name = checked(self, srv_name, service=True)
         service = Service(self, srv_type, srv_name, callback, group, qos_profile)
-        service.endpoint = ServiceEndpoint(self._ros_id, name, type_name(srv_type), service.notify)
+        service.endpoint = ServiceEndpoint(self._ros_id, name, type_name(srv_type), service.notify, srv_type)
         self._ros_enter(service, group)
         self._ros_bus.create_service(service.endpoint)
         return service
@@ -184,7 +194,7 @@ class NodeEntities:
         check_is_valid_srv_type(srv_type)
         name = checked(self, srv_name, service=True)
         client = Client(self, srv_type, srv_name, qos_profile, group)
-        client.endpoint = ClientEndpoint(self._ros_id, name, type_name(srv_type), client.notify)
+        client.endpoint = ClientEndpoint(self._ros_id, name, type_name(srv_type), client.notify, srv_type)
         self._ros_enter(client, group)
         self._ros_bus.create_client(client.endpoint)
         return client
@@ -316,10 +326,10 @@ class NodeEntities:
         yield from list(self._ros_waitables)
 
 
-def _teller(handlers: list[Any]) -> Callable[[str, Any], None]:
+def _teller(handlers: list[Any]) -> OnEvent:
     """What tells the handlers of an event of the bus."""
 
-    def tell(kind: str, what: Any) -> None:
+    def tell(kind: Event, what: Any) -> None:
         for handler in handlers:
             if kind in handler.kinds:
                 handler.happened(kind, what)

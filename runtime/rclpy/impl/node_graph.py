@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw import names
+from bot_console.runtime.rmw.bus import Bus
+from bot_console.runtime.rmw.endpoints import ClientEndpoint, Endpoint, NodeId, ServiceEndpoint
 from rclpy._rclpy_pybind11 import NodeNameNonExistentError, RCLError
 from rclpy.impl.topic_names import expand_name, remapped
 
+if TYPE_CHECKING:
+    from rclpy.type_hash import TypeHash
+
+Served = ServiceEndpoint | ClientEndpoint
 NamesAndTypes = list[tuple[str, list[str]]]
 NANO = 1_000_000_000
 
@@ -24,7 +30,7 @@ def _collect(pairs: Iterable[tuple[str, str]]) -> NamesAndTypes:
 class NodeGraph:
     """Graph queries of `Node`."""
 
-    _ros_bus: Any
+    _ros_bus: Bus
 
     def get_topic_names_and_types(self, no_demangle: bool = False) -> NamesAndTypes:
         """All topics with their types, by name."""
@@ -76,7 +82,7 @@ class NodeGraph:
         """What services a node asks; raises `NodeNameNonExistentError`."""
         return self._ros_services_of("client", self._ros_bus.clients(), node_name, node_namespace)
 
-    def _ros_who(self, what: str, name: str, namespace: str) -> set[Any]:
+    def _ros_who(self, what: str, name: str, namespace: str) -> set[NodeId]:
         self._ros_use()
         namespace = namespace or "/"
         for argument, problem in (
@@ -90,11 +96,11 @@ class NodeGraph:
             raise NodeNameNonExistentError(f"cannot get {what} names and types for nonexistent node: error not set")
         return found
 
-    def _ros_endpoints_of(self, what: str, endpoints: Sequence[Any], name: str, namespace: str) -> NamesAndTypes:
+    def _ros_endpoints_of(self, what: str, endpoints: Sequence[Endpoint], name: str, namespace: str) -> NamesAndTypes:
         who = self._ros_who(what, name, namespace)
         return _collect((each.topic, each.type_name) for each in endpoints if each.node in who)
 
-    def _ros_services_of(self, what: str, services: Sequence[Any], name: str, namespace: str) -> NamesAndTypes:
+    def _ros_services_of(self, what: str, services: Sequence[Served], name: str, namespace: str) -> NamesAndTypes:
         who = self._ros_who(what, name, namespace)
         return _collect((each.name, each.type_name) for each in services if each.node in who)
 
@@ -126,7 +132,7 @@ class NodeGraph:
         """The subscriptions of a topic; the name is remapped."""
         return self._ros_infos(self._ros_bus.subscriptions(), topic_name, no_mangle, publisher=False)
 
-    def _ros_infos(self, endpoints: Sequence[Any], topic: str, no_mangle: bool, *, publisher: bool) -> list[Any]:
+    def _ros_infos(self, endpoints: Sequence[Endpoint], topic: str, no_mangle: bool, *, publisher: bool) -> list[Any]:
         from rclpy.impl.qos_in_effect import in_effect
         from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 
@@ -137,7 +143,7 @@ class NodeGraph:
                 node_name=each.node.name,
                 node_namespace=each.node.namespace,
                 topic_type=each.type_name,
-                topic_type_hash=_type_hash(each.message_class),
+                topic_type_hash=_type_hash(each),
                 endpoint_type=kind,
                 endpoint_gid=list(each.gid),
                 qos_profile=in_effect(each.qos),
@@ -178,7 +184,8 @@ class NodeGraph:
         raise NotImplementedError
 
 
-def _type_hash(message_class: Any) -> Any:
-    from rclpy.type_hash import type_hash_of
+def _type_hash(endpoint: Endpoint) -> TypeHash:
+    from rclpy.type_hash import type_hash_from, type_hash_of
 
-    return type_hash_of(message_class)
+    told = endpoint.type_hash
+    return type_hash_of(endpoint.message_class) if told is None else type_hash_from(told)

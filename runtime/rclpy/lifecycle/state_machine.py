@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from bot_console.runtime.rmw.bus import Endpoint
-from bot_console.runtime.rmw.local import new_gid
+from bot_console.runtime.rmw.bus import Bus
+from bot_console.runtime.rmw.endpoints import Endpoint, new_gid, no_event
 from bot_console.runtime.rosidl.conversion import type_name
 from lifecycle_msgs.msg import State, TransitionEvent
 from rclpy._rclpy_pybind11 import RCLError
@@ -31,7 +31,8 @@ class LifecycleStateMachine:
             topic = checked(node, "~/transition_event")
             kind = type_name(TransitionEvent)
             endpoint = Endpoint(node._ros_id, topic, kind, QoSProfile(depth=10), new_gid(), TransitionEvent)
-            self._publish = node._ros_bus.create_publisher(endpoint, lambda kind, what: None).publish
+            bus: Bus = node._ros_bus
+            self._publish = bus.create_publisher(endpoint, no_event).publish
 
     @property
     def initialized(self) -> bool:
