@@ -6,7 +6,7 @@ import contextlib
 import fcntl
 import os
 import time
-from collections.abc import Iterator
+from collections.abc import Generator
 
 from bot_console.runtime.rmw.zenoh.sockets import is_stopped
 
@@ -18,7 +18,7 @@ LONGEST_WAIT = 10.0
 
 
 @contextlib.contextmanager
-def folder_lock(folder: str) -> Iterator[None]:
+def folder_lock(folder: str) -> Generator[None]:
     """Hold the lock of a domain's folder.
 
     A process that is frozen while it holds the lock stops nobody: the others go on without, and what they miss of each

@@ -4,6 +4,9 @@ Callbacks come on Zenoh's own threads, at once and one after the other: they may
 Nothing may fork once a session was opened.
 """
 
+# The stubs of zenoh leave the types of callbacks and of much that they get open:
+# pyright: reportUnknownMemberType=false, reportUnknownVariableType=false, reportUnknownArgumentType=false
+
 from __future__ import annotations
 
 import json
