@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import math
+import re
 import unicodedata
+from shlex import quote
 
 from bot_console.tui.console.model import Kind, ParameterInfo, Range, Severity, Value
+from bot_console.tui.yaml_flow import in_quotes, is_plain, items, quoted, unquoted
 
 WIDE_MARK = "\ufe0f"
 """Asks for a symbol in colour; terminals disagree whether that makes it one cell wide or two."""
@@ -25,15 +28,47 @@ def counted(number: int, word: str) -> str:
     return f"{number} {word}{'' if number == 1 else 's'}"
 
 
-def value_text(value: Value) -> str:
-    """A parameter's value as YAML writes it on one line."""
+def value_text(value: Value, *, exact: bool = False) -> str:
+    """A parameter's value on one line: arrays in YAML's flow syntax, a text as it is.
+
+    With `exact` no digit of a double is left out.
+    """
     if value is None:
         return "not set"
     if isinstance(value, tuple):
-        return "[" + ", ".join(value_text(each) if not isinstance(each, bytes) else each.hex() for each in value) + "]"
+        return "[" + ", ".join(_element_text(each, exact) for each in value) + "]"
     if isinstance(value, bool):
         return "true" if value else "false"
-    return number_text(value) if isinstance(value, float) else str(value)
+    if isinstance(value, float):
+        return exact_number(value) if exact else number_text(value)
+    return str(value)
+
+
+def _element_text(value: bool | int | float | str | bytes, exact: bool) -> str:
+    if isinstance(value, bytes):
+        return f"0x{value.hex()}"
+    return yaml_text(value) if isinstance(value, str) else value_text(value, exact=exact)
+
+
+def yaml_text(text: str) -> str:
+    """A text as YAML takes it for this text, in double quotes where it needs them."""
+    return text if is_plain(text) else quoted(text)
+
+
+def field_text(value: Value) -> str:
+    """A value to be edited: `parse_value` makes the very same value of it."""
+    if isinstance(value, str):
+        plain = value.isprintable() and value == value.strip() and value[:1] not in ('"', "'")
+        return value if plain else quoted(value)
+    return "" if value is None else value_text(value, exact=True)
+
+
+def exact_number(value: float) -> str:
+    """The shortest text of a double that means this very one, in YAML, too."""
+    if not math.isfinite(value):
+        return number_text(value)
+    mantissa, e, exponent = repr(value).partition("e")
+    return f"{mantissa}{'' if '.' in mantissa else '.0'}{e}{exponent}"
 
 
 def number_text(value: float) -> str:
@@ -59,40 +94,60 @@ def range_text(limits: Range | None, kind: Kind) -> str:
 def parse_value(text: str, parameter: ParameterInfo) -> Value:
     """What a person typed as a value of the parameter's kind; raises `ValueError` with a mend.
 
-    A double takes `2`, too, since nobody means an integer there.
+    A double takes `2`, too, since nobody means an integer there. A text in quotes is read as YAML does.
     """
-    text = text.strip()
     kind = parameter.kind
     if kind is Kind.STRING:
-        return text
+        return unquoted(text.strip()) if in_quotes(text.strip()) else text
+    text = text.strip()
+    if kind in ARRAYS:
+        return tuple(_element(each, quotes, kind) for each, quotes in items(text))
+    return _scalar(text, kind)
+
+
+def _scalar(text: str, kind: Kind) -> bool | int | float | str:
     if kind is Kind.BOOL:
         if text.lower() in ("true", "yes", "on", "1", "t", "y"):
             return True
         if text.lower() in ("false", "no", "off", "0", "f", "n"):
             return False
-        raise ValueError(f"'{text}' is neither true nor false")
+        raise ValueError(f"'{_short(text)}' is neither true nor false")
     if kind is Kind.INTEGER:
-        try:
-            return int(text, 0)
-        except ValueError:
-            raise ValueError(f"'{text}' is no integer") from None
-    if kind is Kind.DOUBLE:
-        return parse_number(text)
-    if kind >= Kind.BYTE_ARRAY:
-        return _parse_array(text, kind)
-    return guess(text)
+        return _integer(text)
+    return parse_number(text) if kind is Kind.DOUBLE else guess(text)
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= 24 else f"{text[:23]}…"
+
+
+def _integer(text: str) -> int:
+    try:
+        value = int(text, 0)
+    except ValueError:
+        # Python refuses to convert more than 4,300 digits.
+        wide = text.lstrip("+-").isdecimal() and len(text) > 4000
+        raise ValueError(f"'{_short(text)}' {'does not fit into 64 bits' if wide else 'is no integer'}") from None
+    if not -(2**63) <= value < 2**63:
+        raise ValueError(f"'{_short(text)}' does not fit into 64 bits")
+    return value
 
 
 def parse_number(text: str) -> float:
     """A floating-point number, `.inf` and `.nan` as in YAML; raises `ValueError`."""
     try:
-        return float(text.replace(".inf", "inf").replace(".nan", "nan"))
+        value = float(text.replace(".inf", "inf").replace(".nan", "nan"))
     except ValueError:
-        raise ValueError(f"'{text}' is no number") from None
+        raise ValueError(f"'{_short(text)}' is no number") from None
+    if math.isinf(value) and "inf" not in text.lower():
+        raise ValueError(f"'{_short(text)}' is too large for a double")
+    return value
 
 
-def guess(text: str) -> Value:
-    """A value of whatever kind the text looks like."""
+def guess(text: str) -> bool | int | float | str:
+    """A value of whatever kind the text looks like; raises `ValueError` for a number that is too large."""
+    if re.fullmatch(r"[+-]?(0[xX])?[0-9]+", text):
+        return _integer(text)
     for convert in (lambda: int(text, 0), lambda: float(text)):
         try:
             return convert()
@@ -101,25 +156,27 @@ def guess(text: str) -> Value:
     return {"true": True, "false": False}.get(text.lower(), text)
 
 
-ELEMENTS = {
+ARRAYS = {
+    Kind.BYTE_ARRAY: Kind.INTEGER,
     Kind.BOOL_ARRAY: Kind.BOOL,
     Kind.INTEGER_ARRAY: Kind.INTEGER,
     Kind.DOUBLE_ARRAY: Kind.DOUBLE,
     Kind.STRING_ARRAY: Kind.STRING,
 }
+"""The kind of the elements of each kind of array, as they are written."""
 
 
-def _parse_array(text: str, kind: Kind) -> Value:
-    inside = text.removeprefix("[").removesuffix("]").strip()
-    parts = [each.strip().strip("\"'") for each in inside.split(",")] if inside else []
-    if kind is Kind.BYTE_ARRAY:
-        try:
-            return tuple(bytes([int(each, 16)]) for each in parts)
-        except ValueError:
-            raise ValueError("bytes are written as two hexadecimal digits, such as [0a, ff]") from None
-    element = ParameterInfo("", "", ELEMENTS[kind], None)
-    values = [parse_value(each, element) for each in parts]
-    return tuple(each for each in values if not isinstance(each, tuple) and each is not None)
+def _element(text: str, quotes: bool, array: Kind) -> bool | int | float | str | bytes:
+    if array is Kind.STRING_ARRAY:
+        return text
+    if quotes:
+        raise ValueError(f"'{_short(text)}' stands in quotes, which makes it a text")
+    value = _scalar(text, ARRAYS[array])
+    if array is not Kind.BYTE_ARRAY:
+        return value
+    if not isinstance(value, int) or not 0 <= value <= 255:
+        raise ValueError(f"'{_short(text)}' is no byte: 0x00 .. 0xff, or 0 .. 255")
+    return bytes([value])
 
 
 def harmless(text: str) -> str:
@@ -142,10 +199,14 @@ def _visible(letter: str) -> str:
 
 
 def command_of(parameter: ParameterInfo, value: Value) -> str:
-    """The `ros2` command that does the same."""
-    text = value_text(value)
-    quoted = f"'{text}'" if any(letter in text for letter in ' "[]{}:#&*!|>%@`$()<>;?\\') or not text else text
-    return f"ros2 param set {parameter.node} {parameter.name} {quoted}"
+    """The `ros2` command that does the same, quoted for a shell; a comment that says why where there is none."""
+    if value is None or value == () or parameter.kind is Kind.BYTE_ARRAY:
+        what = "removes a value" if value is None else "sets an empty array" if value == () else "sets bytes"
+        return f"# no ros2 param command {what}"
+    text = yaml_text(value) if isinstance(value, str) else value_text(value, exact=True)
+    # What begins with a dash is an option for ros2, unless a blank stands in it, which YAML ignores.
+    text = f" {text}" if text.startswith("-") and not re.fullmatch(r"-\d+|-\d*\.\d+", text) else text
+    return f"ros2 param set {quote(parameter.node)} {quote(parameter.name)} {quote(text)}"
 
 
 def clock_text(stamp: int) -> str:

@@ -63,6 +63,27 @@ def test_the_next_error_the_whole_message_copy_and_save(tmp_path: Path) -> None:
     assert text.count("\n") == 5 and "[ERROR]" in text
 
 
+def test_a_file_that_is_there_is_replaced_only_when_asked_to(tmp_path: Path) -> None:
+    path = tmp_path / "mine [b].txt"
+
+    async def play(session: Session) -> None:
+        await session.press("2", "S")
+        session.app.focused.value = " "
+        await session.press("enter")
+        assert "give a file name" in session.text()
+        await session.press("escape")
+        for answer, words in (("n", "mine"), ("y", "[ERROR]")):
+            path.write_text("mine")
+            await session.press("2", "S")
+            session.app.focused.value = str(path)
+            await session.press("enter")
+            assert "Replace" in session.text() and path.read_text() == "mine"
+            await session.press(answer)
+            assert words in path.read_text()
+
+    run(live(), play)
+
+
 def test_a_bad_pattern_is_explained_and_an_empty_log_is_calm() -> None:
     async def play(session: Session) -> None:
         await session.press("2", "E", "enter", "x", "y", "K", "f", "slash")

@@ -134,9 +134,9 @@ def test_samples_and_picture_are_saved(tmp_path: Path) -> None:
             session.app.focused.value = str(tmp_path / name)
             await session.press("enter")
         await session.press("e")
-        session.app.focused.value = str(tmp_path / "no" / "p.csv")
+        session.app.focused.value = str(tmp_path)
         await session.press("enter")
-        assert "not saved" in session.text()
+        assert "is a folder" in session.text()
 
     run(live(), play, (100, 30))
     rows = list(csv.reader((tmp_path / "p.csv").open()))

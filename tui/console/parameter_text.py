@@ -12,6 +12,7 @@ from typing import Any, TypeAlias
 import yaml
 from bot_console.tui.console.model import Value
 from bot_console.tui.console.yaml_tree import Mapping, Scalar, Sequence, YamlTree, read_tree
+from bot_console.tui.yaml_flow import is_plain
 
 KEYWORD = "ros__parameters"
 NOTHING = f"it sets nothing; a parameter stands below 'node_name: {KEYWORD}:'"
@@ -22,10 +23,6 @@ Places: TypeAlias = Map[str, "Scalar | Sequence"]
 """Where the value of each parameter stands, by full name."""
 
 _SafeDumper: Any = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
-_PLAIN = re.compile(r"[A-Za-z_/](?:[\w/. -]*[\w/.-])?", re.ASCII)
-_WORDS = frozenset(("y", "n", "yes", "no", "on", "off", "true", "false", "null", "nan", "inf", "infinity"))
-"""Words that YAML or ROS take for something else than text."""
-
 _TRUE = frozenset(("Y", "y", "yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON"))
 _FALSE = frozenset(("N", "n", "no", "No", "NO", "false", "False", "FALSE", "off", "Off", "OFF"))
 _INTEGER = re.compile(r"[+-]?(?:0[xX][0-9a-fA-F]{1,20}|0[0-7]{0,30}|[1-9][0-9]{0,30})", re.ASCII)
@@ -129,8 +126,7 @@ class _Dumper(_SafeDumper):
 
 
 def _represent_text(dumper: Any, text: str) -> Any:
-    plain = _PLAIN.fullmatch(text) and text.lower() not in _WORDS
-    return dumper.represent_scalar("tag:yaml.org,2002:str", text, style=None if plain else '"')
+    return dumper.represent_scalar("tag:yaml.org,2002:str", text, style=None if is_plain(text) else '"')
 
 
 _Dumper.add_representer(str, _represent_text)

@@ -22,6 +22,7 @@ from bot_console.tui.panes.graph_view import (
     types_of,
 )
 from bot_console.tui.panes.pane import Pane
+from bot_console.tui.save_file import save_file
 from bot_console.tui.screens.facts import FactsScreen, Section
 from bot_console.tui.widgets.diagram_view import LARGE, DiagramView
 from bot_console.tui.widgets.prompt.common import filter_line
@@ -154,7 +155,7 @@ class GraphPane(Pane):
         self.ask_file("export to (.txt .mmd .dot)", "graph.mmd", self._save)
 
     def _save(self, path: Path) -> str:
-        path.write_text(exported(self._shown.graph, self._picture.drawing, path.suffix), encoding="utf-8")
+        save_file(path, exported(self._shown.graph, self._picture.drawing, path.suffix))
         return f"graph saved to {path}"
 
 

@@ -11,6 +11,7 @@ from bot_console.tui.console.model import ConsoleSnapshot, LogFilter, LogRecord,
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.format import LETTERS, clock_text, harmless
 from bot_console.tui.panes.pane import Pane
+from bot_console.tui.save_file import save_file
 from bot_console.tui.screens.detail import DetailScreen
 from bot_console.tui.widgets.prompt.common import filter_line
 from bot_console.tui.widgets.prompt.line import Prompt
@@ -250,5 +251,5 @@ class LogsPane(Pane):
         lines = [
             f"[{each.severity.name}] [{each.stamp / 1e9:.9f}] [{each.node}]: {each.text}" for each in records if each
         ]
-        path.write_text("\n".join([*lines, ""]), encoding="utf-8")
+        save_file(path, "\n".join([*lines, ""]))
         return f"{len(lines)} lines saved to {path}"

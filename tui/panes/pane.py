@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, ClassVar
 
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Console, Launcher
-from bot_console.tui.format import harmless
+from bot_console.tui.format import counted, harmless
+from bot_console.tui.save_file import NotSaved, typed_path
 from bot_console.tui.screens.door import screen_for
 from bot_console.tui.widgets.prompt.common import file_line
 from bot_console.tui.widgets.prompt.line import Prompt
-from bot_console.tui.widgets.prompt.question import Line, Question
+from bot_console.tui.widgets.prompt.question import Confirmation, Line, Question
 from rich.text import Text
 from textual.app import App
 from textual.containers import Container
@@ -71,15 +73,26 @@ class Pane(Container):
             self.host.push_screen(screen_for(question))
 
     def ask_file(self, label: str, name: str, write: Callable[[Path], str]) -> None:
-        """Ask for a file to write; `write` gives what to tell then, or raises `OSError`."""
+        """Ask for a file to write, and again where it would replace one.
 
-        def save(text: str) -> None:
+        `write` gives what to tell then, or raises `NotSaved`.
+        """
+
+        def save(path: Path) -> None:
             try:
-                self.notify(write(Path(text.strip()).expanduser()), markup=False)
-            except OSError as error:
+                self.notify(write(path), markup=False)
+            except NotSaved as error:
                 self.notify(f"not saved: {error}", severity="error", markup=False)
 
-        self.ask(file_line(label, name, save))
+        def named(text: str) -> None:
+            path = typed_path(text)
+            if os.path.isfile(path):
+                size = counted(path.stat().st_size, "byte")
+                self.ask(Confirmation(f"Replace {path}?", lambda _: save(path), reasons=f"There is a file of {size}."))
+            else:
+                save(path)
+
+        self.ask(file_line(label, name, named))
 
     def focus_target(self) -> None:
         """Take the keyboard: focus the part of the pane that the keys are for."""

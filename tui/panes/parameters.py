@@ -10,7 +10,7 @@ from bot_console.tui import keymap
 from bot_console.tui.console.model import ChangeSource, ConsoleSnapshot, Kind, ParameterInfo, SetOutcome, Value
 from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.query import parse
-from bot_console.tui.format import command_of, harmless, parse_value, range_text, value_text
+from bot_console.tui.format import command_of, field_text, harmless, parse_value, range_text, value_text
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.parameter_rows import Row, View, rows
 from bot_console.tui.widgets.prompt.common import file_line, filter_line
@@ -206,7 +206,7 @@ class ParametersPane(Pane):
                     label,
                     partial(self._set_text, parameter),
                     partial(self._gone, parameter),
-                    text=_field_text(parameter),
+                    text=field_text(parameter.value),
                     check=partial(_wrong, parameter),
                 )
             )
@@ -281,8 +281,7 @@ class ParametersPane(Pane):
         self._to_first_match()
 
     def _set_text(self, parameter: ParameterInfo, text: str) -> None:
-        # A text with control characters is shown without them; left as it is, it stays what it was.
-        if text != _field_text(parameter):
+        if text != field_text(parameter.value):
             self._set(parameter, parse_value(text, parameter))
 
     def _apply_filter(self, text: str) -> None:
@@ -349,10 +348,6 @@ class ParametersPane(Pane):
     def on_resize(self) -> None:
         """Fewer lines of detail where there is little room."""
         self.set_class(self.size.height < SHORT, "short")
-
-
-def _field_text(parameter: ParameterInfo) -> str:
-    return "" if parameter.value is None else harmless(value_text(parameter.value))
 
 
 def _wrong(parameter: ParameterInfo, text: str) -> str:

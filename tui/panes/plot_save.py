@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -10,26 +11,28 @@ from typing import Any
 import numpy as np
 from bot_console.tui.panes.plot_curves import Curve
 from bot_console.tui.panes.plot_view import Axes
+from bot_console.tui.save_file import save_file
 
 SIZE = (120, 34)
 """Cells of the saved picture."""
 
 
 def samples(path: Path, curves: Sequence[Curve]) -> int:
-    """Write every sample as `series,time,value` (time in s); gives their number; raises `OSError`."""
+    """Write every sample as `series,time,value` (time in s); gives their number; raises `NotSaved`."""
     count = 0
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(["series", "time", "value"])
-        for curve in curves:
-            for time, value in zip(curve.times.tolist(), curve.values.tolist(), strict=True):
-                writer.writerow([curve.path, f"{time:.6f}", repr(value)])
-                count += 1
+    file = io.StringIO(newline="")
+    writer = csv.writer(file)
+    writer.writerow(["series", "time", "value"])
+    for curve in curves:
+        for time, value in zip(curve.times.tolist(), curve.values.tolist(), strict=True):
+            writer.writerow([curve.path, f"{time:.6f}", repr(value)])
+            count += 1
+    save_file(path, file.getvalue())
     return count
 
 
 def picture(path: Path, curves: Sequence[Curve], axes: Axes) -> None:
-    """Write what is seen as `.html`, else as plain text; raises `OSError`."""
+    """Write what is seen as `.html`, else as plain text; raises `NotSaved`."""
     # plotext takes longer to import than all panes together, and is needed here alone.
     import plotext  # pyright: ignore[reportMissingTypeStubs]
 
@@ -48,4 +51,4 @@ def picture(path: Path, curves: Sequence[Curve], axes: Axes) -> None:
             figure.draw(signal)
     matrix = figure.build()
     text = matrix.html() if path.suffix in (".html", ".htm") else kit.uncolorize(str(matrix))
-    path.write_text(str(text), encoding="utf-8")
+    save_file(path, str(text))

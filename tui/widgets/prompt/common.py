@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from bot_console.tui.console.query import parse
+from bot_console.tui.save_file import NotSaved, typed_path
 from bot_console.tui.widgets.prompt.question import Line
 
 
@@ -24,4 +25,13 @@ def filter_line(words: str, apply: Callable[[str], object]) -> Line:
 
 def file_line(label: str, name: str, then: Callable[[str], object]) -> Line:
     """Ask for the name of a file to write."""
-    return Line(label, then, text=name, check=lambda text: "" if text.strip() else "a file name is needed")
+    return Line(label, then, text=name, check=wrong_path)
+
+
+def wrong_path(text: str) -> str:
+    """Why a text cannot be the path of a file; empty when it can."""
+    try:
+        typed_path(text)
+    except NotSaved as error:
+        return str(error)
+    return ""
