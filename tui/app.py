@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import Future
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
@@ -13,8 +14,10 @@ from bot_console.tui.commands import all_commands, options_for
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Console, Launcher
 from bot_console.tui.keyboard import Keyboard
+from bot_console.tui.opening import Opening, is_rqt, rqt_opening
 from bot_console.tui.pane_table import PANES
 from bot_console.tui.panes.pane import Pane
+from bot_console.tui.panes.parameters import ParametersPane
 from bot_console.tui.panes.plot import PlotPane
 from bot_console.tui.screens.door import screen_for
 from bot_console.tui.screens.help import HelpScreen
@@ -68,7 +71,7 @@ class BotConsoleApp(SparingApp):
         launcher: Launcher | None = None,
         *,
         refresh_hz: float = 10.0,
-        start_pane: str = "overview",
+        opening: Opening | None = None,
         on_first_frame: Callable[[], None] | None = None,
     ) -> None:
         super().__init__()
@@ -77,7 +80,8 @@ class BotConsoleApp(SparingApp):
         self.console_of_robot = console
         self.launcher = launcher
         self._refresh_hz = refresh_hz
-        self._wanted = start_pane
+        self._opening = opening or Opening()
+        self._wanted = self._opening.pane
         self._focused_pane = "parameters"
         self._on_first_frame = on_first_frame
         self._snapshot = ConsoleSnapshot()
@@ -109,6 +113,8 @@ class BotConsoleApp(SparingApp):
         self._extent = self.size
         self._lay_out()
         self.pull()
+        if self._opening != Opening(self._opening.pane):
+            self.open(self._opening)
         if self._refresh_hz > 0:
             self.set_interval(1.0 / self._refresh_hz, self._beat)
         if self._on_first_frame is not None:
@@ -289,8 +295,24 @@ class BotConsoleApp(SparingApp):
         if not plot.display:
             self.action_pane(PLOT)
 
+    def open(self, opening: Opening) -> None:
+        """Show a pane with the curves and the node that are asked for; both may come later."""
+        self.action_pane(opening.pane)
+        if opening.curves:
+            self.query_one(f"#{PLOT}", PlotPane).expect(opening.curves)
+        if opening.node:
+            self.query_one("#parameters", ParametersPane).expect(opening.node)
+        for pane in self.visible_panes():
+            pane.show(self._snapshot)
+        for note in opening.notes:
+            self.notify(note, severity="warning", markup=False)
+
     def run_ros2(self, line: str) -> None:
-        """Run a `ros2` line and show what it prints."""
+        """Run a `ros2` line and show what it prints; one that names a program of rqt opens a pane."""
+        if is_rqt(line.split()):
+            opening, left = rqt_opening(line.split())
+            self.open(replace(opening, notes=(*opening.notes, *(f"{each} is not taken over" for each in left))))
+            return
         answer = self.console_of_robot.run_line(line)
         answer.add_done_callback(lambda done: self.call_later(self._show_output, line, done))
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from bot_console.tui.keymap import TABLE, key_text
+from bot_console.tui.opening import is_rqt
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.widgets.prompt.question import Option
 from textual.app import App
@@ -44,5 +45,5 @@ def options_for(commands: Mapping[str, Command], typed: str) -> Sequence[Option]
     matcher = Matcher(words)
     scores = {id: matcher.match(each.text) for id, each in commands.items()}
     best = sorted((id for id, score in scores.items() if score > 0), key=lambda id: -scores[id])
-    line = [Option(words, "run this command line")] if words.startswith("ros2 ") else []
+    line = [Option(words, "run this command line")] if words.startswith("ros2 ") or is_rqt(words.split()) else []
     return [*line, *(Option(commands[id].text, commands[id].keys, id) for id in best)]

@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.opening import Opening
 from bot_console.tui.pane_table import PANES
 from bot_console.tui.panes.steering import SteeringPane
 from fake_launcher import FakeLauncher
@@ -27,7 +28,7 @@ STATES: list[tuple[str, System, tuple[int, int]]] = [
 
 def app_of(system: System, start: str = "overview") -> BotConsoleApp:
     console, launcher = system()
-    return BotConsoleApp(console, launcher, refresh_hz=0, start_pane=start)
+    return BotConsoleApp(console, launcher, refresh_hz=0, opening=Opening(start))
 
 
 @pytest.mark.parametrize(("state", "system", "size"), STATES, ids=[each[0] for each in STATES])

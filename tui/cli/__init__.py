@@ -6,6 +6,7 @@ import sys
 from collections.abc import Callable, Sequence
 
 from bot_console.tui.cli import ros2
+from bot_console.tui.opening import is_rqt
 
 Words = list[str]
 
@@ -13,11 +14,12 @@ Words = list[str]
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command line and give its exit code: 0 done, 1 failed, 2 wrong usage."""
     words = list(sys.argv[1:] if argv is None else argv)
-    command = _COMMANDS.get(words[0]) if words else None
-    if command:
-        return command(words[1:])
-    if words and words[0] in ros2.VERBS:
-        return ros2.verb(words)
+    if not is_rqt(words):
+        command = _COMMANDS.get(words[0]) if words else None
+        if command:
+            return command(words[1:])
+        if words and words[0] in ros2.VERBS:
+            return ros2.verb(words)
     from bot_console.tui.cli.arguments import parse
 
     options = parse(words)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from bot_console.tui.opening import Opening, is_rqt, rqt_opening
 from bot_console.tui.pane_table import PANES
 
 EXAMPLES = """\
@@ -32,7 +33,7 @@ class Options:
     profile: str = "indoor"
     launch: str = ""
     launch_arguments: dict[str, str] = field(default_factory=dict[str, str])
-    pane: str = "overview"
+    opening: Opening = field(default_factory=Opening)
     workspace: list[Path] = field(default_factory=list[Path])
     headless: bool = False
     fast: bool = False
@@ -46,8 +47,8 @@ class Options:
 
 def parse(words: Sequence[str]) -> Options:
     """Read a command line; ends the program with exit code 2 for wrong usage."""
-    words, pane = _rqt(list(words))
     parser = _parser()
+    opening, words = rqt_opening(words) if is_rqt(words) else (None, words)
     given = parser.parse_args(words)
     named = {each.id for each in PANES} | {"overview"}
     if given.pane not in named:
@@ -63,7 +64,7 @@ def parse(words: Sequence[str]) -> Options:
         profile=profile,
         launch=given.launch or "",
         launch_arguments=pairs,
-        pane=pane or given.pane,
+        opening=opening or Opening(given.pane),
         workspace=given.workspace or [],
         headless=given.headless,
         fast=given.fast,
@@ -100,15 +101,6 @@ def profile_names() -> list[str]:
 
 
 SIMULATOR_HELP = "whether the simulated robot runs beside it; else it does when nodes want a robot and nobody gives one"
-_RQT_PANES = {"rqt": "overview", "rqt_graph": "graph", "rqt_plot": "plot", "rqt_console": "logs",
-              "rqt_reconfigure": "parameters", "rqt_robot_steering": "steering", "rviz2": "world"}  # fmt: skip
-
-
-def _rqt(words: list[str]) -> tuple[list[str], str]:
-    """`rqt_plot ...` and the like open the console on a pane."""
-    if words and words[0] in _RQT_PANES:
-        return [word for word in words[1:] if not word.startswith("/")], _RQT_PANES[words[0]]
-    return words, ""
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -58,7 +58,7 @@ class Session:
             self.console.record, self.console.printed, launch_files, self._spawn, find_vitals, self.console.heard
         )
         self.app = BotConsoleApp(
-            self.console, self.launcher, start_pane=options.pane, on_first_frame=self._on_first_frame
+            self.console, self.launcher, opening=options.opening, on_first_frame=self._on_first_frame
         )
 
     def _launch_info(self) -> LaunchInfo:

@@ -108,6 +108,7 @@ class ParametersPane(Pane):
         self._snapshot = ConsoleSnapshot()
         self._view = View()
         self._filter = ""
+        self._expected = ""
 
     def compose(self) -> ComposeResult:
         """The tree, what is known of the parameter at the cursor, and a prompt."""
@@ -130,6 +131,19 @@ class ParametersPane(Pane):
             self._arrange()
         self._snapshot = snapshot
 
+    def expect(self, node: str) -> None:
+        """Go to a node, as soon as it is there."""
+        self._expected = node
+        self._arrange()
+
+    def _go_to_expected(self) -> None:
+        shown = self._list
+        found = next((index for index, row in enumerate(shown.rows) if row.node == self._expected), None)
+        self.caption(f"waits for {self._expected}" if found is None else "")
+        if found is not None:
+            self._expected = ""
+            shown.cursor = found
+
     def _arrange(self) -> None:
         """Make the rows, keep the cursor on its parameter, draw what differs."""
         shown, old = self._list, self._list.rows
@@ -147,6 +161,8 @@ class ParametersPane(Pane):
                 shown.set_reactive(ParameterRows.cursor, next(where, min(shown.cursor, max(0, len(new) - 1))))
             shown.rows_changed()
             shown.show_cursor()
+        if self._expected:
+            self._go_to_expected()
         self._describe()
 
     def _forget_refusal(self, before: Row, after: Row) -> None:

@@ -8,6 +8,7 @@ from typing import Any
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, JournalState
+from bot_console.tui.opening import matching
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.plot_parts import DEFAULTS, WINDOWS, Timeline, limits_of, wrong_limits
 from bot_console.tui.widgets.picture import Line, Picture
@@ -38,6 +39,7 @@ class PlotPane(Pane):
         self._chosen = 0
         self._strips = False
         self._touched = False
+        self._expected: list[str] = []
         self._journal: JournalState | None = None
         self._graph: object = None
         self._parameters: object = None
@@ -64,6 +66,8 @@ class PlotPane(Pane):
         if not self._touched and (known[0] is not self._graph or known[1] is not self._parameters):
             self._graph, self._parameters = known
             self._add_defaults()
+        if self._expected:
+            self._take_expected(snapshot)
         if snapshot.journal is not self._journal:
             self._journal = snapshot.journal
             self._timeline.marks_of(self.console.changes())
@@ -75,6 +79,23 @@ class PlotPane(Pane):
             path = next((each for each in known if each.endswith(wanted)), None)
             if path is not None and path not in self.paths and self.console.watch(path).ok:
                 self._timeline.add(path)
+
+    def expect(self, wanted: Sequence[str]) -> None:
+        """Plot these topics or paths in place of the defaults, each as soon as it is there."""
+        if not self._touched:
+            self.action_remove_all()
+        self._touched = True
+        self._expected += [each for each in wanted if each not in self._expected]
+
+    def _take_expected(self, snapshot: ConsoleSnapshot) -> None:
+        known = self.console.plottable()
+        topics = {each.name for each in snapshot.graph.topics}
+        for wanted in tuple(self._expected):
+            found = matching(wanted, known)
+            if found or wanted in topics:
+                self._expected.remove(wanted)
+                for path in found or [wanted]:  # of which the latter is refused with the reason
+                    self.add(path)
 
     def tick(self, force: bool = False) -> None:
         """Fetch new samples and draw, if there are any and the pane is seen."""
@@ -126,6 +147,8 @@ class PlotPane(Pane):
             parts.append("paused" + (f", {timeline.new_samples} new" if timeline.new_samples else ""))
         if timeline.limits:
             parts.append(f"y {timeline.limits[0]:g} .. {timeline.limits[1]:g}")
+        if self._expected:
+            parts.append(f"waits for {', '.join(self._expected)}")
         return " · ".join(parts)
 
     def on_picture_resized(self, event: Picture.Resized) -> None:

@@ -1,0 +1,63 @@
+"""The spellings of rqt: real ROS 2's, and the course page's."""
+
+from __future__ import annotations
+
+import pytest
+from bot_console.tui.cli.arguments import parse
+from bot_console.tui.opening import RQT_PANES, Opening, is_rqt, matching, rqt_opening
+
+
+def opening(line: str) -> Opening:
+    return rqt_opening(line.split())[0]
+
+
+@pytest.mark.parametrize(
+    "before", ["", "ros2 run rqt_plot ", "run rqt_plot ", "rqt -s ", "rqt --standalone=", "ros2 run "]
+)
+def test_topics_become_curves(before: str) -> None:
+    line = f"{before}rqt_plot /robot/speed /robot/distance"
+    assert is_rqt(line.split())
+    assert opening(line) == Opening("plot", ("/robot/speed", "/robot/distance"))
+
+
+def test_the_colon_of_rqt_plot_names_further_fields_and_a_relative_topic_is_one() -> None:
+    assert opening("rqt_plot /pose/x:y robot/speed").curves == ("/pose/x", "/pose/y", "robot/speed")
+    known = ["/pose/x", "/pose/y", "/robot/speed/data", "/robot/speeds/data"]
+    assert matching("/pose/x", known) == ["/pose/x"]
+    assert matching("/pose", known) == ["/pose/x", "/pose/y"]
+    assert matching("robot/speed", known) == ["/robot/speed/data"]
+
+
+@pytest.mark.parametrize("line", ["rqt_reconfigure /arm", "ros2 run rqt_reconfigure rqt_reconfigure arm"])
+def test_a_node_is_chosen(line: str) -> None:
+    assert opening(line) == Opening("parameters", node="/arm")
+
+
+@pytest.mark.parametrize(("program", "pane"), RQT_PANES.items())
+def test_every_program_has_its_pane(program: str, pane: str) -> None:
+    for line in (program, f"ros2 run {program} {program}", f"run {program} {program}"):
+        assert opening(line) == Opening(pane)
+        assert parse(line.split()).opening == Opening(pane)
+
+
+@pytest.mark.parametrize(
+    ("line", "note"),
+    [
+        ("rqt --perspective-file ~/.config/ros.org/rqt_gui.ini", "perspective ~/.config/ros.org/rqt_gui.ini: "),
+        ("rqt -p mine", "perspective mine: "),
+        ("rqt_plot -P /a", "-P of rqt_plot is not taken over"),
+        ("rqt_robot_steering --default_topic /cmd", "--default_topic /cmd of rqt_robot_steering is not taken over"),
+        ("rqt -s rqt_bag", "there is no pane for rqt_bag"),
+    ],
+)
+def test_what_is_not_taken_over_is_told(line: str, note: str) -> None:
+    assert [each.startswith(note) for each in opening(line).notes] == [True]
+
+
+def test_other_words_are_those_of_bot_console(capsys: pytest.CaptureFixture[str]) -> None:
+    given = parse(["rqt_plot", "/a/b", "outdoor", "seed:=7"])
+    assert (given.profile, given.launch_arguments, given.opening.curves) == ("outdoor", {"seed": "7"}, ("/a/b",))
+    with pytest.raises(SystemExit):
+        parse(["rqt_plot", "nonsense"])
+    assert "there is no profile and no command 'nonsense'" in capsys.readouterr().err
+    assert not is_rqt(["run", "my_rqt_plugin.py"])

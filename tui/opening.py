@@ -1,0 +1,103 @@
+"""What the console is to open: a pane, with its topics or its node; from the spellings of rqt and its programs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+RQT_PANES = {
+    "rqt": "overview",
+    "rqt_gui": "overview",
+    "rqt_console": "logs",
+    "rqt_graph": "graph",
+    "rqt_plot": "plot",
+    "rqt_reconfigure": "parameters",
+    "rqt_robot_steering": "steering",
+    "rviz2": "world",
+}
+"""Programs of rqt, as packages and as executables, and the pane that does their work."""
+STANDALONE = ("-s", "--standalone")
+PERSPECTIVE = ("--perspective-file", "-p", "--perspective")
+WITH_VALUE = ("--default_topic", "-d", "--display-config", "-f", "--fixed-frame")
+"""Options with a value that nothing here answers to."""
+WITHOUT_VALUE = (
+    *("-P", "--plot-start-paused", "-L", "--plot-start-loaded", "-e", "--plot-start-empty"),
+    *("-l", "--lock-perspective", "-m", "--multi-thread", "-c", "--clear-config", "-v", "--verbose"),
+    *("--force-discover", "--hide-title", "--no-qt-debug-output", "-t", "--on-top"),
+)
+
+
+@dataclass(frozen=True)
+class Opening:
+    """A pane to show first, curves to plot, a node to go to, and lines that say what was not taken over."""
+
+    pane: str = "overview"
+    curves: tuple[str, ...] = ()
+    node: str = ""
+    notes: tuple[str, ...] = ()
+
+
+def is_rqt(words: Sequence[str]) -> bool:
+    """Whether a command line names a program of rqt: `rqt_plot`, `run rqt_plot rqt_plot`, `ros2 run ...`."""
+    return _program(words)[0] in RQT_PANES
+
+
+def rqt_opening(words: Sequence[str]) -> tuple[Opening, list[str]]:
+    """What the command line of a program of rqt asks for, and the words that are not rqt's.
+
+    Raises `ValueError` where the words name no program of rqt.
+    """
+    program, rest = _program(words)
+    if program not in RQT_PANES:
+        raise ValueError(f"{' '.join(words)} is no program of rqt")
+    curves: list[str] = []
+    notes: list[str] = []
+    left: list[str] = []
+    node = ""
+    at = 0
+    while at < len(rest):
+        option, inline, value = rest[at].partition("=")
+        takes_value = option in (*STANDALONE, *PERSPECTIVE, *WITH_VALUE)
+        if takes_value and not inline:
+            at += 1
+            value = rest[at] if at < len(rest) else ""
+        if option in STANDALONE:
+            program = value.partition(".")[0]
+        elif option in PERSPECTIVE:
+            notes.append(f"perspective {value}: rqt's windows are not taken over; the overview shows all panes")
+        elif takes_value or option in WITHOUT_VALUE:
+            notes.append(f"{option}{f' {value}' if takes_value else ''} of {program} is not taken over")
+        elif option in ("--args", "--ros-args"):
+            pass
+        elif program == "rqt_plot" and "/" in option and not option.startswith("-"):
+            curves += _curves(rest[at])
+        elif program == "rqt_reconfigure" and ":=" not in option and not option.startswith("-"):
+            node = f"/{option.removeprefix('/')}"
+        else:
+            left.append(rest[at])
+        at += 1
+    if program not in RQT_PANES:
+        notes.append(f"there is no pane for {program}; there are: {', '.join(sorted(RQT_PANES))}")
+    return Opening(RQT_PANES.get(program, "overview"), tuple(curves), node, tuple(notes)), left
+
+
+def _program(words: Sequence[str]) -> tuple[str, list[str]]:
+    """The program that the words name, and the words after it."""
+    rest = [*words[1:]] if words[:1] == ["ros2"] else [*words]
+    if rest[:1] == ["run"]:
+        rest = rest[1:]
+        if len(rest) > 1 and rest[0] in RQT_PANES and rest[1] in RQT_PANES:
+            rest = rest[1:]
+    return (rest[0], rest[1:]) if rest else ("", [])
+
+
+def _curves(word: str) -> list[str]:
+    """`/topic/pose/x:y` is two curves, as rqt_plot has it."""
+    first, *others = word.split(":")
+    return [first, *(f"{first.rpartition('/')[0]}/{each}" for each in others)]
+
+
+def matching(wanted: str, known: Sequence[str]) -> list[str]:
+    """The paths that a word of `rqt_plot` means: itself, or every number of the topic that it names."""
+    path = wanted if wanted.startswith("/") else f"/{wanted}"
+    return [path] if path in known else [each for each in known if each.startswith(f"{path}/")]
