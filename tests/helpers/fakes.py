@@ -10,7 +10,9 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
+from bot_console.tui.console.log_search import matching
 from bot_console.tui.console.log_store import LogStore
+from bot_console.tui.console.log_view import SearchedView
 from bot_console.tui.console.model import (
     Change,
     ChangeSource,
@@ -25,7 +27,7 @@ from bot_console.tui.console.model import (
 )
 from bot_console.tui.console.parameter_file import save
 from bot_console.tui.console.profiles import differences
-from bot_console.tui.console.protocol import Answer, Samples
+from bot_console.tui.console.protocol import Answer, LogView, Samples
 from bot_console.tui.console.values import refusal
 
 START = 1_700_000_000_000_000_000
@@ -37,6 +39,15 @@ def done(value: Any) -> Future[Any]:
     future: Future[Any] = Future()
     future.set_result(value)
     return future
+
+
+class FakeView(SearchedView):
+    """A view that has searched everything whenever somebody looks."""
+
+    def look(self) -> Any:
+        while self.work():
+            pass
+        return super().look()
 
 
 class FakeConsole:
@@ -78,7 +89,10 @@ class FakeConsole:
         return self.logs.record(seq)
 
     def matching_logs(self, which: LogFilter, after: int, limit: int | None = None) -> Sequence[int]:
-        return self.logs.matching(which, after, limit)
+        return matching(self.logs, which, after, limit)
+
+    def view_logs(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
+        return FakeView(self.logs, which)
 
     def clear_logs(self) -> None:
         self.logs.clear()

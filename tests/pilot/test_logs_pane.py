@@ -11,7 +11,8 @@ from samples import empty, live
 
 
 def seqs(session: Session) -> list[int]:
-    return session.pane(LogsPane).query_one(LogRows).seqs
+    rows = session.pane(LogsPane).query_one(LogRows)
+    return [rows.number(index) for index in range(rows.row_count())]
 
 
 def test_the_newest_line_is_followed_until_somebody_scrolls_up() -> None:
@@ -87,6 +88,7 @@ def test_a_file_that_is_there_is_replaced_only_when_asked_to(tmp_path: Path) -> 
 def test_a_bad_pattern_is_explained_and_an_empty_log_is_calm() -> None:
     async def play(session: Session) -> None:
         await session.press("2", "E", "enter", "x", "y", "K", "f", "slash")
+        session.app.clear_notifications()
         session.app.focused.value = "re:["
         await session.settle()
         assert "regular expression" in session.text()

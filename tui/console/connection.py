@@ -30,10 +30,11 @@ from bot_console.tui.console.model import (
     Severity,
     Value,
 )
-from bot_console.tui.console.protocol import Answer, Samples
+from bot_console.tui.console.protocol import Answer, LogFindings, LogView, Samples
 
 if TYPE_CHECKING:
     from bot_console.tui.console.log_store import LogStore
+    from bot_console.tui.console.log_view import LogViews
     from bot_console.tui.console.node import ConsoleNode
 
 T = TypeVar("T")
@@ -43,6 +44,22 @@ NOWHERE = ("", "", 0)
 NOTHING_LAUNCHED = LaunchInfo()
 LAST_WORD = 0.15
 """Seconds that the final zero Twist has to reach the robot before anything is shut down."""
+
+
+class _NoView:
+    """A view of a log that is not there yet."""
+
+    def look(self) -> LogFindings:
+        return NOTHING_FOUND
+
+
+class _NoNumbers(tuple[int, ...]):
+    def place(self, number: int) -> int:
+        return 0
+
+
+NOTHING_FOUND = LogFindings(_NoNumbers())
+NO_VIEW = _NoView()
 
 
 class RosConsole:
@@ -65,6 +82,7 @@ class RosConsole:
         self._run_line = run_line
         self._node: ConsoleNode | None = None
         self._logs: LogStore | None = None
+        self._views: LogViews | None = None
         self._problem = ""
         self._ready = threading.Event()
         self._thread = threading.Thread(target=self._serve, name="bot-console", daemon=True)
@@ -78,10 +96,12 @@ class RosConsole:
     def _serve(self) -> None:
         try:
             from bot_console.tui.console.log_store import LogStore
+            from bot_console.tui.console.log_view import LogViews
             from bot_console.tui.console.node import ConsoleNode
             from bot_console.tui.console.profiles import find
 
             self._logs = LogStore()
+            self._views = LogViews(self._logs)
             self._node = ConsoleNode(self._logs.add)
             self._profiles = find(self._profile_folders)
             self._ready.set()
@@ -147,7 +167,15 @@ class RosConsole:
 
     def matching_logs(self, which: LogFilter, after: int, limit: int | None = None) -> Sequence[int]:
         """Numbers of the records that pass a filter."""
-        return self._logs.matching(which, after, limit) if self._logs else ()
+        if not self._logs:
+            return ()
+        from bot_console.tui.console.log_search import matching
+
+        return matching(self._logs, which, after, limit)
+
+    def view_logs(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
+        """Search for what passes a filter."""
+        return self._views.open(which, instead_of) if self._views else NO_VIEW
 
     def clear_logs(self) -> None:
         """Forget all log records."""
@@ -279,6 +307,8 @@ class RosConsole:
         if self._closed:
             return
         self._closed = True
+        if self._views:
+            self._views.close()
         if self._node:
             self._node.drive.stop(hold=True)
             threading.Event().wait(LAST_WORD)

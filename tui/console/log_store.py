@@ -1,28 +1,27 @@
-"""Log records in columns: numpy for what is filtered by number, one blob of UTF-8 for the texts.
+"""Log records in columns: numpy for what is filtered by number, blobs of UTF-8 for the texts.
 
 About 70 bytes a record, and hardly anything for the garbage collector to walk (a list of a million record objects
-stops every thread for 0.2 s at each full collection).
+stops every thread for 0.2 s at each full collection). Readers take no lock: a segment is only ever added to, and its
+`count` is written last.
 """
 
 from __future__ import annotations
 
-import re
 import threading
-from collections.abc import Iterator, Sequence
 from types import MappingProxyType
 from typing import Generic, TypeVar
 
 import numpy as np
-import numpy.typing as npt
-from bot_console.tui.console.model import LogFilter, LogRecord, LogState, Severity
-from bot_console.tui.console.query import Query, Term, parse
+from bot_console.tui.console.model import LogRecord, LogState, Severity
 
 T = TypeVar("T")
-Mask = npt.NDArray[np.bool_]
+SEGMENT = 16_384
+CAPACITY = 63 * SEGMENT
+"""A million, and one segment that is being filled."""
 
 
-class _Segment:
-    """Half of the ring: columns of a fixed size, and the texts one after the other, parted by newlines."""
+class LogSegment:
+    """Some records in columns of a fixed size, and their texts one after the other, each with a newline after it."""
 
     def __init__(self, first: int, size: int) -> None:
         self.first = first
@@ -33,14 +32,31 @@ class _Segment:
         self.node = np.zeros(size, np.uint32)
         self.site = np.zeros(size, np.uint32)
         self.start = np.zeros(size + 1, np.int64)
-        self.blob = bytearray()
+        self._blob: bytes | bytearray = bytearray()
+
+    def append(self, stamp: int, severity: int, node: int, site: int, raw: bytes) -> None:
+        """Add a record; one writer at a time."""
+        index = self.count
+        self.stamp[index], self.severity[index], self.node[index], self.site[index] = stamp, severity, node, site
+        self._blob += raw
+        self._blob += b"\n"
+        self.start[index + 1] = len(self._blob)
+        self.count = index + 1
+        if self.count == self.size:
+            self._blob = bytes(self._blob)
+
+    def texts(self, begin: int, end: int) -> bytes:
+        """The texts of some records, each with its newline."""
+        blob = self._blob
+        left, right = int(self.start[begin]), int(self.start[end])
+        return blob if left == 0 and right == len(blob) and isinstance(blob, bytes) else bytes(blob[left:right])
 
     def text(self, index: int) -> str:
         """The text of the record at this index."""
-        return self.blob[int(self.start[index]) : int(self.start[index + 1]) - 1].decode("utf-8", "replace")
+        return self._blob[int(self.start[index]) : int(self.start[index + 1]) - 1].decode("utf-8", "replace")
 
 
-class _Table(Generic[T]):
+class Table(Generic[T]):
     """Numbers for values that repeat."""
 
     def __init__(self) -> None:
@@ -57,14 +73,15 @@ class _Table(Generic[T]):
 
 
 class LogStore:
-    """A ring of log records numbered from 0; `add` may be called from another thread than the readers'."""
+    """A ring of log records numbered from 0. Any thread may add; readers never wait, nor make a writer wait."""
 
-    def __init__(self, capacity: int = 200_000) -> None:
-        self._half = max(1, capacity // 2)
-        self._segments = [_Segment(0, self._half)]
+    def __init__(self, capacity: int = CAPACITY) -> None:
+        self._size = max(1, min(SEGMENT, capacity // 2))
+        self._most = max(2, capacity // self._size)
+        self.segments: tuple[LogSegment, ...] = (LogSegment(0, self._size),)
+        self.names: Table[str] = Table()
+        self._sites: Table[tuple[str, str, int]] = Table()
         self._lock = threading.Lock()
-        self._names: _Table[str] = _Table()
-        self._sites: _Table[tuple[str, str, int]] = _Table()
         self._counts = dict.fromkeys(Severity, 0)
         self._dropped = 0
         self._state = LogState()
@@ -72,115 +89,55 @@ class LogStore:
     @property
     def state(self) -> LogState:
         """What is kept; the same object until a record is added or the log cleared."""
-        newest = self._segments[-1]
-        if self._state.end != newest.first + newest.count or self._state.first != self._segments[0].first:
-            with self._lock:
-                counts = MappingProxyType({key: count for key, count in self._counts.items() if count})
-                end = self._segments[-1].first + self._segments[-1].count
-                self._state = LogState(self._segments[0].first, end, self._dropped, counts)
+        segments = self.segments
+        first, end = segments[0].first, segments[-1].first + segments[-1].count
+        if (self._state.first, self._state.end) != (first, end):
+            counts = MappingProxyType({key: count for key, count in self._counts.items() if count})
+            self._state = LogState(first, end, self._dropped, counts)
         return self._state
 
     def add(self, stamp: int, severity: int, node: str, text: str, site: tuple[str, str, int] = ("", "", 0)) -> None:
         """Append one record; `site` is file, function, line."""
         raw = text.encode("utf-8", "replace")
+        level = _nearest(severity)
         with self._lock:
-            segment = self._segments[-1]
+            segment = self.segments[-1]
             if segment.count == segment.size:
                 segment = self._roll()
-            index = segment.count
-            level = _nearest(severity)
-            segment.stamp[index] = stamp
-            segment.severity[index] = level
-            segment.node[index] = self._names.id(node)
-            segment.site[index] = self._sites.id(site)
-            segment.blob += raw
-            segment.blob += b"\n"
-            segment.start[index + 1] = len(segment.blob)
             self._counts[level] += 1
-            segment.count = index + 1
+            segment.append(stamp, level, self.names.id(node), self._sites.id(site), raw)
 
-    def _roll(self) -> _Segment:
-        if len(self._segments) == 2:
-            oldest = self._segments.pop(0)
-            self._dropped += oldest.count
-        last = self._segments[-1]
-        self._segments.append(_Segment(last.first + last.count, self._half))
-        return self._segments[-1]
+    def _roll(self) -> LogSegment:
+        kept = self.segments
+        if len(kept) == self._most:
+            self._dropped += kept[0].count
+            kept = kept[1:]
+        new = LogSegment(self.segments[-1].first + self.segments[-1].count, self._size)
+        self.segments = (*kept, new)
+        return new
 
     def record(self, seq: int) -> LogRecord | None:
         """The record of that number, or None when it is not kept."""
-        with self._lock:
-            for segment in self._segments:
-                index = seq - segment.first
-                if 0 <= index < segment.count:
-                    file, function, line = self._sites.items[int(segment.site[index])]
-                    return LogRecord(
-                        seq,
-                        int(segment.stamp[index]),
-                        Severity(int(segment.severity[index])),
-                        self._names.items[int(segment.node[index])],
-                        segment.text(index),
-                        file,
-                        function,
-                        line,
-                    )
-        return None
+        segments = self.segments
+        place = (seq - segments[0].first) // self._size
+        if seq < segments[0].first or place >= len(segments):
+            return None
+        segment = segments[place]
+        index = seq - segment.first
+        if index >= segment.count:
+            return None
+        file, function, line = self._sites.items[int(segment.site[index])]
+        severity = Severity(int(segment.severity[index]))
+        node = self.names.items[int(segment.node[index])]
+        return LogRecord(seq, int(segment.stamp[index]), severity, node, segment.text(index), file, function, line)
 
     def clear(self) -> None:
         """Forget all records; numbers go on."""
         with self._lock:
-            last = self._segments[-1]
-            self._segments = [_Segment(last.first + last.count, self._half)]
+            last = self.segments[-1]
+            self.segments = (LogSegment(last.first + last.count, self._size),)
             self._counts = dict.fromkeys(Severity, 0)
             self._dropped = 0
-
-    def matching(self, which: LogFilter, after: int = 0, limit: int | None = None) -> Sequence[int]:
-        """Numbers of kept records from `after` on that pass; raises `ValueError` for a filter that does not parse."""
-        query = parse(which.words)
-        with self._lock:
-            parts = [segment.first + self._passing(segment, which, query, after) for segment in self._segments]
-        found = np.concatenate(parts) if parts else np.zeros(0, np.int64)
-        chosen = found if limit is None else found[max(0, len(found) - limit) :]
-        return chosen.tolist()
-
-    def _passing(self, segment: _Segment, which: LogFilter, query: Query, after: int) -> npt.NDArray[np.int64]:
-        begin = min(max(0, after - segment.first), segment.count)
-        level = segment.severity[begin : segment.count]
-        mask: Mask = (level >= max(which.minimum, query.lowest)) & (level <= query.highest)
-        for hidden in which.hidden_severities:
-            mask &= level != hidden
-        nodes = segment.node[begin : segment.count]
-        if which.hidden_nodes:
-            shown = np.array([name not in which.hidden_nodes for name in self._names.items], np.bool_)
-            mask &= shown[nodes]
-        for term in query.terms:
-            if not mask.any():
-                break
-            mask &= self._found(segment, begin, nodes, term) != term.exclude
-        return np.flatnonzero(mask) + begin
-
-    def _found(self, segment: _Segment, begin: int, nodes: npt.NDArray[np.uint32], term: Term) -> Mask:
-        named = np.array([bool(term.pattern.search(name)) for name in self._names.items], np.bool_)[nodes]
-        if term.field == "node":
-            return named
-        found = named if term.field == "" else np.zeros(len(nodes), np.bool_)
-        ends = segment.start[begin + 1 : segment.count + 1]
-        if len(ends):
-            places = list(_places(term.pattern, segment.blob, int(segment.start[begin])))
-            rows = np.searchsorted(ends, np.array(places, np.int64), side="right")
-            found[rows[rows < len(found)]] = True
-        return found
-
-
-def _places(pattern: re.Pattern[str], blob: bytearray, start: int) -> Iterator[int]:
-    """Where a pattern is found in the blob from `start` on. A match cannot cross a newline unless it names one."""
-    if pattern.pattern.isascii():
-        for match in re.compile(pattern.pattern.encode(), re.IGNORECASE | re.MULTILINE).finditer(blob, start):
-            yield match.start()
-        return
-    text = blob[start:].decode("utf-8", "replace")
-    for match in pattern.finditer(text):
-        yield start + len(text[: match.start()].encode())
 
 
 def _nearest(severity: int) -> Severity:

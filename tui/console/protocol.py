@@ -37,6 +37,43 @@ class Samples:
     """Why no samples come, for instance that an array is empty; empty when all is well."""
 
 
+class LogNumbers(Protocol):
+    """Numbers of log records, rising."""
+
+    def __len__(self) -> int:
+        """How many there are."""
+        ...
+
+    def __getitem__(self, index: int, /) -> int:
+        """The number at an index; raises `IndexError` beyond the ends."""
+        ...
+
+    def place(self, number: int) -> int:
+        """The index of the first that is not below a number."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class LogFindings:
+    """What passes a filter as far as it was looked for: in the records from `begin` to before `end`."""
+
+    numbers: LogNumbers
+    begin: int = 0
+    end: int = 0
+    complete: bool = False
+    """Whether everything was looked at that was there when the filter was asked for."""
+    problem: str = ""
+    """Why nothing, or not everything, was looked at; empty when all is well."""
+
+
+class LogView(Protocol):
+    """The records that pass a filter, searched for beside the thread that draws, the newest first."""
+
+    def look(self) -> LogFindings:
+        """What was found so far; the same object until there is more."""
+        ...
+
+
 @dataclass(frozen=True, slots=True)
 class Answer:
     """The outcome of a command: whether it was done, and in words why not, or what was done."""
@@ -61,6 +98,10 @@ class Console(Protocol):
 
         Raises `ValueError` with a readable text for a regular expression that does not compile.
         """
+        ...
+
+    def view_logs(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
+        """Search for what passes a filter, and go on as records come; ends the search whose place it takes."""
         ...
 
     def clear_logs(self) -> None:

@@ -1,5 +1,12 @@
-"""The filter grammar that every pane speaks: blanks mean AND, `!word` excludes, `re:pattern` is a regular expression,
-`node:name` and `sev:>=warn` look at one property. Standard library only.
+"""The filter grammar that every pane speaks.
+
+    filter  = words with blanks between; all of them must hold
+    word    = [!] [node: | sev: | re:] text            `!` turns any word around
+    text    = without blanks, or "in quotes with blanks"
+
+`node:` looks at the node's name, in either spelling (`arm.left.zoo`, `/arm/left/zoo`); `sev:` at a log line's severity
+(`warn`, `>=warn`, `<error`, `info,fatal`); `re:` is a regular expression over the text; a plain word may stand in the
+text or in the node's name. Nothing looks at upper or lower case.
 """
 
 from __future__ import annotations
@@ -9,9 +16,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from bot_console.tui.console.model import Severity
+from bot_console.tui.console.patterns import Pattern
 
-FIELDS = ("node", "sev", "re")
 SEVERITY_WORDS: Mapping[str, Severity] = {
+    "unset": Severity.UNSET,
     "debug": Severity.DEBUG,
     "info": Severity.INFO,
     "warn": Severity.WARN,
@@ -19,76 +27,111 @@ SEVERITY_WORDS: Mapping[str, Severity] = {
     "error": Severity.ERROR,
     "fatal": Severity.FATAL,
 }
+ALL = frozenset(Severity)
+_WORD = re.compile(r'(!?)(?:(node|sev|re):)?(?:"([^"]*)"(?=\s|$)|(\S*))(?:\s+|$)')
 
 
 @dataclass(frozen=True, slots=True)
-class Term:
-    """One word of a query: what it looks at (empty: the text), the pattern that finds it, and whether it excludes."""
+class NodeTerm:
+    """A part of a node's name, in the spelling with dots."""
 
-    field: str
-    pattern: re.Pattern[str]
+    part: str
+    exclude: bool = False
+
+    def stands_in(self, node: str) -> bool:
+        """Whether it is a part of the name."""
+        return self.part in dotted(node)
+
+
+@dataclass(frozen=True, slots=True)
+class TextTerm:
+    """What is looked for in a text; a plain word may stand in the node's name too, a regular expression may not."""
+
+    pattern: Pattern
+    name: NodeTerm | None
     exclude: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class Query:
-    """A parsed filter text; `lowest` and `highest` bound the severity."""
+    """A parsed filter."""
 
-    terms: tuple[Term, ...] = ()
-    lowest: Severity = Severity.UNSET
-    highest: Severity = Severity.FATAL
+    nodes: tuple[NodeTerm, ...] = ()
+    texts: tuple[TextTerm, ...] = ()
+    severities: frozenset[Severity] = ALL
+
+    @property
+    def terms(self) -> tuple[NodeTerm | TextTerm, ...]:
+        """All that looks at texts and names."""
+        return (*self.nodes, *self.texts)
+
+    def part(self, *, exclude: bool) -> Query:
+        """Only the words that exclude, or only those that do not."""
+        nodes = tuple(each for each in self.nodes if each.exclude is exclude)
+        return Query(nodes, tuple(each for each in self.texts if each.exclude is exclude))
 
     def matches(self, text: str, node: str = "") -> bool:
-        """Whether a text, belonging to a node, passes; a plain word may stand in either."""
-        for term in self.terms:
-            found = bool(term.pattern.search(node)) if term.field == "node" else self._stands_in(term, text, node)
-            if found is term.exclude:
-                return False
-        return True
+        """Whether a text, belonging to a node, passes; severities are not looked at."""
+        if any(term.stands_in(node) is term.exclude for term in self.nodes):
+            return False
+        return all(self._found(term, text, node) is not term.exclude for term in self.texts)
 
     @staticmethod
-    def _stands_in(term: Term, text: str, node: str) -> bool:
-        return bool(term.pattern.search(text) or (term.field == "" and term.pattern.search(node)))
+    def _found(term: TextTerm, text: str, node: str) -> bool:
+        return term.pattern.search(text) or (term.name is not None and term.name.stands_in(node))
+
+
+def dotted(node: str) -> str:
+    """A node's name as both spellings have it in common: `/Arm/left` and `arm.left` are `.arm.left`."""
+    return "." + node.lower().replace("/", ".").lstrip(".")
 
 
 def parse(text: str) -> Query:
-    """Parse a filter text; raises `ValueError` with a readable text for a bad pattern or severity."""
-    terms: list[Term] = []
-    lowest, highest = Severity.UNSET, Severity.FATAL
-    for word in text.split():
-        exclude = len(word) > 1 and word.startswith("!")
-        field, rest = _field_of(word[1:] if exclude else word)
+    """Parse a filter; raises `ValueError` with a readable text for a bad pattern or severity."""
+    nodes: list[NodeTerm] = []
+    texts: list[TextTerm] = []
+    severities = ALL
+    for sign, field, quoted, bare in _WORD.findall(text.strip()):
+        word = quoted or bare
+        if not word:
+            if sign and not field:
+                texts.append(_plain("!", exclude=False))  # a lone exclamation mark is a word like others
+            continue
+        exclude = bool(sign)
         if field == "sev":
-            lowest, highest = _severity_bounds(rest)
-        elif rest:
-            terms.append(Term(field, _compile(field, rest), exclude))
-    return Query(tuple(terms), lowest, highest)
+            wanted = _severities(word)
+            severities = severities - wanted if exclude else severities & wanted
+        elif field == "node":
+            nodes.append(NodeTerm(_part(word), exclude))
+        elif field == "re":
+            texts.append(TextTerm(Pattern(word), None, exclude))
+        else:
+            texts.append(_plain(word, exclude))
+    return Query(tuple(nodes), tuple(texts), severities)
 
 
-def _field_of(word: str) -> tuple[str, str]:
-    name, colon, rest = word.partition(":")
-    return (name, rest) if colon and name in FIELDS else ("", word)
+def _part(word: str) -> str:
+    return word.lower().replace("/", ".")
 
 
-def _compile(field: str, text: str) -> re.Pattern[str]:
-    try:
-        return re.compile(text if field == "re" else re.escape(text), re.IGNORECASE | re.MULTILINE)
-    except re.error as error:
-        place = "" if error.pos is None else f" at character {error.pos + 1}"
-        raise ValueError(f"regular expression '{text}': {error.msg}{place}") from None
+def _plain(word: str, exclude: bool) -> TextTerm:
+    return TextTerm(Pattern(word, literal=True), NodeTerm(_part(word)), exclude)
 
 
-def _severity_bounds(text: str) -> tuple[Severity, Severity]:
-    operator = next((sign for sign in (">=", "<=", ">", "<", "=") if text.startswith(sign)), "")
-    word = text[len(operator) :].lower()
-    try:
+def _severities(text: str) -> frozenset[Severity]:
+    """The severities that `warn`, `>=warn`, `<error` or `info,fatal` mean."""
+    found: frozenset[Severity] = frozenset()
+    for each in text.split(","):
+        sign = next((sign for sign in (">=", "<=", ">", "<", "=") if each.startswith(sign)), "")
+        word = each[len(sign) :].lower()
+        if word not in SEVERITY_WORDS:
+            raise ValueError(f"severity '{word}' is none of {', '.join(SEVERITY_WORDS)}")
         level = SEVERITY_WORDS[word]
-    except KeyError:
-        raise ValueError(f"severity '{word}' is none of {', '.join(SEVERITY_WORDS)}") from None
-    order = [Severity.DEBUG, Severity.INFO, Severity.WARN, Severity.ERROR, Severity.FATAL]
-    at = order.index(level)
-    if operator == ">":
-        return (order[at + 1] if at + 1 < len(order) else Severity.FATAL), Severity.FATAL
-    if operator == "<":
-        return Severity.UNSET, order[max(0, at - 1)]
-    return {">=": (level, Severity.FATAL), "<=": (Severity.UNSET, level)}.get(operator, (level, level))
+        found |= {
+            one
+            for one in Severity
+            if (one == level and sign not in {"<", ">"})
+            or (one > level and sign.startswith(">"))
+            or (one < level and sign.startswith("<"))
+        }
+    return found

@@ -92,8 +92,8 @@ def _filtered(ids: set[str], edges: list[tuple[str, str]], query: Query) -> set[
     """What matches, and what is linked to it; an excluding word excludes in either case."""
     if not query.terms:
         return ids
-    allowed = {each for each in ids if Query(tuple(t for t in query.terms if t.exclude)).matches(*_words(each))}
-    positive = Query(tuple(term for term in query.terms if not term.exclude))
+    excluding, positive = query.part(exclude=True), query.part(exclude=False)
+    allowed = {each for each in ids if excluding.matches(*_words(each))}
     found = {each for each in allowed if positive.matches(*_words(each))}
     if positive.terms:
         found |= {b for a, b in edges if a in found} | {a for a, b in edges if b in found}

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, LogFilter, LogRecord, LogState, Severity
-from bot_console.tui.console.protocol import Console
+from bot_console.tui.console.protocol import Console, LogFindings, LogNumbers, LogView
 from bot_console.tui.format import LETTERS, clock_text, harmless
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.save_file import save_file
@@ -31,15 +32,34 @@ class LogRows(RowList):
     def __init__(self, console: Console) -> None:
         super().__init__()
         self.console = console
-        self.seqs: list[int] = []
+        self.numbers: LogNumbers | None = None
 
     def row_count(self) -> int:
         """How many lines there are."""
-        return len(self.seqs)
+        return 0 if self.numbers is None else len(self.numbers)
+
+    def number(self, index: int) -> int:
+        """The number of the record on a line; -1 where there is none."""
+        return self.numbers[index] if self.numbers is not None and 0 <= index < len(self.numbers) else -1
+
+    def place(self, number: int) -> int:
+        """The line of the record with that number, or of the next one that is shown."""
+        return 0 if self.numbers is None else min(self.numbers.place(number), max(0, len(self.numbers) - 1))
+
+    def exchange(self, numbers: LogNumbers) -> None:
+        """Show other lines; what is seen stays where it is, as far as it is among them."""
+        top = self.scroll_offset.y
+        at, first = self.number(self.cursor), self.number(top)
+        self.numbers = numbers
+        if at >= 0:
+            self.set_reactive(RowList.cursor, self.place(at))
+        self.rows_changed()
+        if first >= 0 and self.place(first) != top:
+            self.scroll_to(y=self.place(first), animate=False, force=True)
 
     def row(self, index: int, width: int) -> list[Segment]:
         """One line: time, severity, node, text; one style for all of it."""
-        record = self.console.log(self.seqs[index])
+        record = self.console.log(self.number(index))
         if record is None:
             return [Segment("")]
         name = STYLES.get(record.severity)
@@ -53,6 +73,12 @@ def line_text(record: LogRecord, width: int) -> str:
     node = record.node.rpartition("/")[2] if len(record.node) > NODE else record.node
     text = harmless(record.text[: 4 * width])
     return f"{time}{LETTERS[record.severity]} {harmless(node)[:NODE].ljust(NODE)} {text}"
+
+
+def rotated(numbers: Sequence[int], now: int) -> Sequence[int]:
+    """Rising numbers, those above one of them first."""
+    at = bisect_right(numbers, now)
+    return [*numbers[at:], *numbers[:at]]
 
 
 class LogsPane(Pane):
@@ -69,9 +95,9 @@ class LogsPane(Pane):
         super().__init__(*args, **kwargs)  # type: ignore[arg-type]
         self._state = LogState()
         self._which = LogFilter()
-        self._next = 0
+        self._view: LogView | None = None
+        self._found: LogFindings | None = None
         self._following = True
-        self._problem = ""
 
     def compose(self) -> ComposeResult:
         """The lines, what is filtered, a prompt."""
@@ -92,56 +118,51 @@ class LogsPane(Pane):
         state = snapshot.logs
         if state is self._state:
             return
-        before, self._state = self._state, state
-        if state.first > before.first:
-            self._drop(state.first)
+        self._state = state
         self._take_in()
-
-    def _drop(self, first: int) -> None:
-        """Lines fell out of the ring: forget their numbers and keep what is seen where it is."""
-        rows = self._list
-        gone = next((index for index, seq in enumerate(rows.seqs) if seq >= first), len(rows.seqs))
-        del rows.seqs[:gone]
-        rows.set_reactive(RowList.cursor, max(0, rows.cursor - gone))
-
-    def _take_in(self) -> None:
-        try:
-            new = self.console.matching_logs(self._which, self._next)
-        except ValueError as error:
-            self._problem = str(error)
-            self._tell()
-            return
-        self._problem = ""
-        self._next = max(self._next, self._state.end, new[-1] + 1 if new else 0)
-        if new:
-            self._list.seqs.extend(new)
-        if new or not self._list.seqs:
-            self._list.rows_changed()
-            if self._following:
-                self._to_end()
         self._tell()
+
+    def tick(self) -> None:
+        """Take in what the search has found meanwhile."""
+        if self.display and self.is_mounted and self._take_in():
+            self._tell()
+
+    def _take_in(self) -> bool:
+        """Show what was found; lines of the filter before stay until the search has something to show."""
+        if self._view is None or self._found is None:
+            self._view = self.console.view_logs(self._which, self._view)
+        found = self._view.look()
+        if found is self._found or not (len(found.numbers) or found.complete or found.problem):
+            return False
+        self._found = found
+        self._list.exchange(found.numbers)
+        if self._following:
+            self._to_end()
+        return True
 
     def _to_end(self) -> None:
         rows = self._list
-        rows.cursor = max(0, len(rows.seqs) - 1)
-        rows.scroll_to(y=max(0, len(rows.seqs) - rows.size.height), animate=False, force=True)
+        rows.cursor = max(0, rows.row_count() - 1)
+        rows.scroll_to(y=max(0, rows.row_count() - rows.size.height), animate=False, force=True)
 
     def _search(self, which: LogFilter) -> None:
         """Filter anew, over everything that is kept."""
         self._which = which
-        self._list.seqs.clear()
-        self._next = 0
+        self._found = None
         self._take_in()
-        self._list.refresh()
+        self._tell()
 
     def _tell(self) -> None:
         """Say what is shown of how much, by severity."""
-        self.query_one("#log-status", Words).say(self._problem or self.status_text())
+        problem = self._found.problem if self._found else ""
+        self.query_one("#log-status", Words).say(problem or self.status_text())
 
     def status_text(self) -> str:
         """The line below the log."""
         state, counts = self._state, self._state.counts
-        parts = [f"{len(self._list.seqs)} of {state.end - state.first}"]
+        parts = [f"{self._list.row_count()} of {state.end - state.first}"]
+        if self._found is None or not self._found.complete:
+            parts.append("searching")
         if not self._following:
             parts.append("paused, f follows")
         if self._which.words:
@@ -158,14 +179,13 @@ class LogsPane(Pane):
     def on_row_list_moved(self, event: RowList.Moved) -> None:
         """Follow while the cursor is on the newest line."""
         event.stop()
-        following = event.index >= len(self._list.seqs) - 1
+        following = event.index >= self._list.row_count() - 1
         if following is not self._following:
             self._following = following
             self._tell()
 
     def _record(self) -> LogRecord | None:
-        rows = self._list
-        return self.console.log(rows.seqs[rows.cursor]) if rows.cursor < len(rows.seqs) else None
+        return self.console.log(self._list.number(self._list.cursor))
 
     def action_follow(self) -> None:
         """Follow the newest line, or stop that."""
@@ -214,14 +234,14 @@ class LogsPane(Pane):
     def action_next_error(self) -> None:
         """To the next error, from the top again after the last."""
         rows = self._list
-        errors: Sequence[int] = self.console.matching_logs(replace(self._which, minimum=Severity.ERROR), 0)
-        if not errors:
+        now = rows.number(rows.cursor)
+        errors = self.console.matching_logs(LogFilter(minimum=Severity.ERROR), 0)
+        shown = (each for each in rotated(errors, now) if rows.number(rows.place(each)) == each)
+        target = next(shown, None)
+        if target is None:
             self.notify("No errors.")
-            return
-        now = rows.seqs[rows.cursor] if rows.seqs else -1
-        target = next((each for each in errors if each > now), errors[0])
-        if target in rows.seqs:
-            rows.cursor = rows.seqs.index(target)
+        else:
+            rows.cursor = rows.place(target)
 
     def action_detail(self) -> None:
         """Show the whole message."""
@@ -232,8 +252,7 @@ class LogsPane(Pane):
     def action_clear(self) -> None:
         """Clear the log."""
         self.console.clear_logs()
-        self._list.seqs.clear()
-        self._list.rows_changed()
+        self._search(self._which)
 
     def action_copy(self) -> None:
         """Copy the message through the terminal (OSC 52)."""
@@ -247,7 +266,7 @@ class LogsPane(Pane):
         self.ask_file("save these lines to", "log.txt", self._save)
 
     def _save(self, path: Path) -> str:
-        records = (self.console.log(seq) for seq in self._list.seqs)
+        records = (self.console.log(self._list.number(index)) for index in range(self._list.row_count()))
         lines = [
             f"[{each.severity.name}] [{each.stamp / 1e9:.9f}] [{each.node}]: {each.text}" for each in records if each
         ]

@@ -1,6 +1,7 @@
 """The log store: numbering, the ring, and every kind of filter."""
 
 import pytest
+from bot_console.tui.console.log_search import matching
 from bot_console.tui.console.log_store import LogStore
 from bot_console.tui.console.model import LogFilter, Severity
 from hypothesis import given
@@ -48,19 +49,19 @@ def test_a_record_comes_back_as_it_was_added() -> None:
     ],
 )
 def test_filters(which: LogFilter, found: list[int]) -> None:
-    assert filled().matching(which) == found
+    assert matching(filled(), which) == found
 
 
 def test_filtering_goes_on_where_it_stopped() -> None:
     store = filled()
-    assert store.matching(LogFilter(words="speed"), after=1) == [2]
-    assert store.matching(LogFilter(), limit=2) == [2, 3]
+    assert matching(store, LogFilter(words="speed"), after=1) == [2]
+    assert matching(store, LogFilter(), limit=2) == [2, 3]
 
 
 @pytest.mark.parametrize("words", ["re:(", "sev:loud", "!re:*"])
 def test_a_filter_that_does_not_parse_says_so(words: str) -> None:
     with pytest.raises(ValueError, match=r"regular expression|severity"):
-        filled().matching(LogFilter(words=words))
+        matching(filled(), LogFilter(words=words))
 
 
 def test_the_oldest_half_falls_out_and_is_counted() -> None:
@@ -69,7 +70,7 @@ def test_the_oldest_half_falls_out_and_is_counted() -> None:
         store.add(number, 20, "n", f"line {number}")
     assert (store.state.first, store.state.end, store.state.dropped) == (4, 7, 4)
     assert store.record(3) is None
-    assert store.matching(LogFilter(words="line")) == [4, 5, 6]
+    assert matching(store, LogFilter(words="line")) == [4, 5, 6]
 
 
 def test_clear_forgets_but_numbers_go_on() -> None:
@@ -77,7 +78,7 @@ def test_clear_forgets_but_numbers_go_on() -> None:
     store.clear()
     assert (store.state.first, store.state.end) == (4, 4)
     store.add(9, 20, "n", "again")
-    assert store.matching(LogFilter()) == [4]
+    assert matching(store, LogFilter()) == [4]
 
 
 def test_the_state_is_one_object_until_something_changes() -> None:
