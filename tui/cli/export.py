@@ -3,19 +3,57 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from bot_console.tui.save_file import NotSaved, save_file, typed_path
 
 
 def run(words: list[str]) -> int:
-    """Write the package and say where."""
+    """Write the package and say where; over a folder that is there only when a person says yes."""
     parser = argparse.ArgumentParser("bot-console export", description="Write the robot's package for colcon.")
-    parser.add_argument("folder", type=Path, metavar="DIR", help="where the package's folder is made")
+    parser.add_argument("folder", metavar="DIR", help="where the package's folder is made")
     given = parser.parse_args(words)
     from bot_console.runtime.workspace.exporting import NAME, export
 
     try:
-        place = export(given.folder)
+        place = typed_path(given.folder).resolve() / NAME
+        with TemporaryDirectory() as scratch:
+            made = export(Path(scratch))
+            names = sorted(each.relative_to(made) for each in made.rglob("*") if each.is_file())
+            kept = [each for each in names if _differs(made / each, place / each)]
+            if place.exists() and not _agreed(place, kept):
+                raise NotSaved(f"{place} exists already; give another folder")
+            for each in names:
+                if each in kept:
+                    save_file(_free_name(place / each), (place / each).read_bytes())
+                save_file(place / each, (made / each).read_bytes())
     except (OSError, ValueError) as error:
         parser.exit(1, f"not exported: {error}\n")
     print(f"{place}: build it with  colcon build --packages-select {NAME}")
     return 0
+
+
+def _differs(new: Path, old: Path) -> bool:
+    return old.is_file() and old.read_bytes() != new.read_bytes()
+
+
+def _agreed(place: Path, kept: list[Path]) -> bool:
+    """Ask whether files are to be written into a folder that is there; without a terminal nobody agrees."""
+    if not sys.stdin.isatty():
+        return False
+    print(f"{place} exists already. Nothing in it is deleted.")
+    if kept:
+        print("These differ, and are kept with a ~ behind their names: " + ", ".join(map(str, kept)))
+    try:
+        return input("Write the package into it? [y/N] ").strip().lower() in ("y", "yes")
+    except EOFError:
+        return False
+
+
+def _free_name(path: Path) -> Path:
+    """A name for the old content that no file has yet: `x.py~`, `x.py~~` ..."""
+    while path.exists():
+        path = path.with_name(path.name + "~")
+    return path

@@ -1,0 +1,57 @@
+"""`bot-console export`: a package for colcon, and nothing lost in a folder that is there."""
+
+from __future__ import annotations
+
+import builtins
+import sys
+from pathlib import Path
+
+import pytest
+from bot_console.runtime.workspace.exporting import NAME
+from bot_console.tui.cli.export import run
+
+
+def contents(place: Path) -> dict[str, bytes]:
+    return {str(each.relative_to(place)): each.read_bytes() for each in place.rglob("*") if each.is_file()}
+
+
+def answering(monkeypatch: pytest.MonkeyPatch, answer: str) -> None:
+    monkeypatch.setattr(sys.stdin, "isatty", lambda: True, raising=False)
+    monkeypatch.setattr(builtins, "input", lambda _: answer)
+
+
+def test_over_a_folder_that_is_there_it_asks_and_deletes_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run([str(tmp_path)]) == 0
+    place = tmp_path / NAME
+    fresh = contents(place)
+    assert {"package.xml", "setup.py", f"{NAME}/robot_node.py"} <= fresh.keys()
+    (place / "setup.py").write_text("# mine\n")
+    (place / "notes.txt").write_text("mine")
+    (place / "package.xml").unlink()
+    before = contents(place)
+
+    with pytest.raises(SystemExit):
+        run([str(tmp_path)])
+    assert "exists already; give another folder" in capsys.readouterr().err
+    answering(monkeypatch, "")
+    with pytest.raises(SystemExit):
+        run([str(tmp_path)])
+    assert contents(place) == before
+
+    answering(monkeypatch, "y")
+    assert run([str(tmp_path)]) == 0
+    assert "kept with a ~ behind their names: setup.py" in capsys.readouterr().out
+    assert contents(place) == fresh | {"notes.txt": b"mine", "setup.py~": b"# mine\n"}
+
+
+def test_where_nothing_can_be_written_it_says_so_in_one_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "file").write_text("mine")
+    for folder, why in ((str(tmp_path / "file"), "not a directory"), ("", "give a file name")):
+        with pytest.raises(SystemExit):
+            run([folder])
+        error = capsys.readouterr().err
+        assert why in error and error.count("\n") == 1
