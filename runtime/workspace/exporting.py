@@ -8,7 +8,8 @@ import sys
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from bot_console.runtime.workspace.own import NAME, ROOT, own_package
+from bot_console.runtime.workspace.export_readme import readme
+from bot_console.runtime.workspace.own import NAME, ROOT, SECOND_SPELLING, own_package
 
 ROS_PYTHON = {"numpy": "python3-numpy", "yaml": "python3-yaml"}
 """Keys of rosdep for libraries; pymunk has none and comes from pip."""
@@ -32,6 +33,8 @@ def export(folder: Path) -> Path:
             shutil.copy(path, place / target / path.name)
             if target == "config":
                 shutil.copy(path, place / target / f"{path.stem}_config.yaml")
+    shutil.copy(ROOT / "launch" / "environment.launch.py", place / "launch" / SECOND_SPELLING)
+    (place / "README.md").write_text(readme(NAME, place, own_package().executables), encoding="utf-8")
     (place / "resource").mkdir()
     (place / "resource" / NAME).touch()
     (place / "package.xml").write_text(package_xml(place), encoding="utf-8")

@@ -17,6 +17,9 @@ ROOT = Path(__file__).resolve().parents[2]
 FIRST_VARIABLE = "BOT_CONSOLE_ROBOT_FIRST"
 """In the environment of a launch of our own, and so of its processes: our package comes before others of its name."""
 
+SECOND_SPELLING = "environment_launch.py"
+"""`environment.launch.py` under the name that courses give it."""
+
 
 def own_package() -> Package:
     """The package as if it had been read from a source folder: each `*_node.py` is an executable."""
@@ -41,6 +44,7 @@ def own_share(links: Path) -> Path:
     place = links / NAME
     for path in (ROOT / "launch").glob("*.launch.*"):
         link(path, place / "launch" / path.name)
+    link(ROOT / "launch" / "environment.launch.py", place / "launch" / SECOND_SPELLING)
     for path in (ROOT / "profiles").glob("*.yaml"):
         link(path, place / "config" / path.name)
         link(path, place / "config" / f"{path.stem}_config.yaml")

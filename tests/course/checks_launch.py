@@ -256,7 +256,7 @@ def the_profile_sets_all_nodes(page: Page, row: Row) -> None:
     assert profile_values(page, "indoor") != profile_values(page, "competition")
 
 
-@row(321, 322, own=True)
+@row(321, 322, 323, own=True)
 def the_launch_file_is_there(page: Page, row: Row) -> None:
     name = re.search(r"[\w.]+\.py", row.text)
     assert name is not None

@@ -74,6 +74,8 @@ def _launch(arguments: argparse.Namespace) -> Result:
         if os.path.isfile(arguments.package_name):
             path = arguments.package_name
             words = [*([arguments.launch_file_name] if arguments.launch_file_name is not None else []), *words]
+        elif arguments.show_args and arguments.launch_file_name is None:
+            return _list_launch_files(arguments.package_name)
         else:
             path = find_launch_file(arguments.package_name, arguments.launch_file_name)
     except PackageNotFoundError as error:
@@ -88,6 +90,21 @@ def _launch(arguments: argparse.Namespace) -> Result:
         return _act(arguments, path, words)
     except LaunchFileError as error:
         return str(error)
+
+
+def _list_launch_files(package: str) -> Result:
+    """What `--show-args` can be asked of; raises `PackageNotFoundError`, `ValueError` as a look-up does."""
+    from ament_index_python.packages import get_package_share_directory
+    from bot_console.runtime.workspace.choices import launch_file_names
+
+    share = get_package_share_directory(package)
+    names = launch_file_names(package)
+    if not names:
+        return f"package '{package}' has no launch files in its share directory, which is at '{share}'"
+    print(f"Launch files of package '{package}' (add one to see its arguments):\n")
+    for name in names:
+        print(f"    {name}")
+    return 0
 
 
 def _act(arguments: argparse.Namespace, path: str, words: list[str]) -> Result:

@@ -149,3 +149,11 @@ def test_rqt_is_the_console(ros, program: str) -> None:
     answer = ros.ask("run", program, program)
     assert answer.exit == 1
     assert answer.stderr.startswith(f"{program} is the pane ")
+
+
+def test_launch_show_args_without_a_file_lists_the_launch_files(ros, src: Path) -> None:
+    told = ros.ask("launch", "bot_console_robot", "--show-args")
+    assert (told.exit, told.stderr) == (0, "")
+    assert "    robot_system.launch.py\n" in told.stdout and "    environment_launch.py\n" in told.stdout
+    package(src, "p", tell="def main():\n    pass\n")
+    assert "package 'p' has no launch files" in ros.ask("launch", "p", "--show-args").stderr
