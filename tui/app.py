@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
@@ -13,9 +14,13 @@ from bot_console.tui import keymap
 from bot_console.tui.commands import all_commands, options_for
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Console, Launcher
+from bot_console.tui.crash import keep, reason
+from bot_console.tui.faults import Faults
+from bot_console.tui.format import harmless
 from bot_console.tui.keyboard import Keyboard
 from bot_console.tui.opening import Opening, is_rqt, rqt_opening
 from bot_console.tui.pane_table import PANES
+from bot_console.tui.panes.broken import BrokenPane
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.parameters import ParametersPane
 from bot_console.tui.panes.plot import PlotPane
@@ -23,7 +28,7 @@ from bot_console.tui.screens.door import screen_for
 from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.screens.output import OutputScreen
 from bot_console.tui.screens.question import QuestionScreen
-from bot_console.tui.terminal.output import SparingApp
+from bot_console.tui.terminal.guard import GuardedApp
 from bot_console.tui.theme import DARK
 from bot_console.tui.widgets.key_bar import KeyBar
 from bot_console.tui.widgets.prompt.line import Prompt
@@ -35,7 +40,9 @@ from textual import events
 from textual.app import ComposeResult
 from textual.binding import BindingType
 from textual.containers import Container
+from textual.dom import DOMNode
 from textual.geometry import Size
+from textual.notifications import SeverityLevel
 from textual.types import CSSPathType
 from textual.widgets import Input, Static
 
@@ -54,7 +61,7 @@ AT_ONCE = frozenset(next(key.keys for key in keymap.TABLE["app"] if key.id == "a
 """Keys that never wait for those typed before."""
 
 
-class BotConsoleApp(SparingApp):
+class BotConsoleApp(GuardedApp):
     """rqt for the terminal."""
 
     TITLE = "bot-console"
@@ -87,6 +94,7 @@ class BotConsoleApp(SparingApp):
         self._snapshot = ConsoleSnapshot()
         self._panes: list[Pane] = []
         self._extent = Size(80, 24)
+        self.faults = Faults(self, self._panes_changed)
         self._keyboard = Keyboard(self, super().on_event)
 
     async def on_event(self, event: events.Event) -> None:
@@ -290,22 +298,60 @@ class BotConsoleApp(SparingApp):
     def on_pane_plot_wanted(self, event: Pane.PlotWanted) -> None:
         """Plot a path that another pane names."""
         event.stop()
-        plot = self.query_one(f"#{PLOT}", PlotPane)
-        plot.add(event.path)
+        plot = self.query_one(f"#{PLOT}", Pane)
+        if isinstance(plot, PlotPane):
+            plot.add(event.path)
         if not plot.display:
             self.action_pane(PLOT)
 
     def open(self, opening: Opening) -> None:
         """Show a pane with the curves and the node that are asked for; both may come later."""
         self.action_pane(opening.pane)
-        if opening.curves:
-            self.query_one(f"#{PLOT}", PlotPane).expect(opening.curves)
-        if opening.node:
-            self.query_one("#parameters", ParametersPane).expect(opening.node)
+        for plot in self.query(PlotPane) if opening.curves else ():
+            plot.expect(opening.curves)
+        for parameters in self.query(ParametersPane) if opening.node else ():
+            parameters.expect(opening.node)
         for pane in self.visible_panes():
             pane.show(self._snapshot)
         for note in opening.notes:
             self.notify(note, severity="warning", markup=False)
+
+    def notify(
+        self,
+        message: str,
+        *,
+        title: str = "",
+        severity: SeverityLevel = "information",
+        timeout: float | None = None,
+        markup: bool = False,
+    ) -> None:
+        """Tell something in a corner; what nodes and people write is shown as it is written, whoever tells it."""
+        text = "\n".join(harmless(line) for line in message.splitlines())
+        super().notify(text, title=harmless(title), severity=severity, timeout=timeout, markup=False)
+
+    def contain(self, error: Exception, culprits: list[DOMNode]) -> bool:
+        """A fault ends the pane, or what lies over the panes, in whose code it happened."""
+        return self._running and self.faults.contain(error, culprits)
+
+    async def on_broken_pane_reopen(self, event: BrokenPane.Reopen) -> None:
+        """Open a pane again that has ended by a fault."""
+        event.stop()
+        await self.faults.reopen(event.pane)
+
+    def _panes_changed(self) -> None:
+        """A pane stands where another was: lay out, and show all of them what there is."""
+        self._panes = []
+        self._snapshot = replace(self._snapshot)
+        self._keyboard.release()
+        self._lay_out()
+
+    def last_words(self, error: BaseException) -> str:
+        """Stop the robot, keep what is known of the fault, and say so on one line."""
+        with contextlib.suppress(Exception):  # nothing may come between a fault and the restored terminal
+            self.console_of_robot.all_stop(True)
+        details = keep(error)
+        text = f"bot-console: ended by a fault of its own, the robot was stopped: {reason(error)}"
+        return text + (f"; details in {details}" if details else "")
 
     def run_ros2(self, line: str) -> None:
         """Run a `ros2` line and show what it prints; one that names a program of rqt opens a pane."""

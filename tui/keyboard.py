@@ -54,6 +54,10 @@ class Keyboard:
             if self._waiting:
                 self._be_patient()
 
+    def release(self) -> None:
+        """Go on with the next key: what the last one was with has ended."""
+        self._app.call_later(self._done, self._under_way)
+
     def _be_patient(self) -> None:
         self._app.set_timer(PATIENCE, partial(self._done, self._under_way))
 

@@ -228,6 +228,7 @@ TABLE: Mapping[str, tuple[Key, ...]] = {
         Key("list.page_up", "pageup", "page(-1)", "Page up"),
         Key("list.page_down", "pagedown", "page(1)", "Page down"),
     ),
+    "broken": (Key("broken.reopen", "enter,r", "reopen", "Open the pane again", footer=True, short="Open again"),),
     "overlay": (
         Key("overlay.close", "escape,enter,q", "dismiss", "Close"),
         Key("overlay.stop", "exclamation_mark", "app.all_stop", "All stop", shown="!"),

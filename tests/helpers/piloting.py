@@ -82,8 +82,10 @@ def run(
     system: tuple[FakeConsole, FakeLauncher],
     play: Callable[[Session], Awaitable[None]],
     size: tuple[int, int] = (80, 24),
+    *,
+    faults_wanted: bool = False,
 ) -> None:
-    """Run the app at a size and play a scene in it."""
+    """Run the app at a size and play a scene in it; a fault in a pane fails the test unless it is wanted."""
 
     async def main() -> None:
         console, launcher = system
@@ -93,5 +95,7 @@ def run(
             session.pane(SteeringPane).clock = Clock()
             await session.settle()
             await play(session)
+            if not faults_wanted:
+                assert app.faults.seen == [], "a pane has ended by a fault"
 
     asyncio.run(main())

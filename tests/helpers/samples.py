@@ -253,23 +253,23 @@ def faulty() -> tuple[FakeConsole, FakeLauncher]:
     return console, launcher
 
 
-def hostile() -> tuple[FakeConsole, FakeLauncher]:
+def hostile(text: str = BELL) -> tuple[FakeConsole, FakeLauncher]:
     """Every text that can come from outside carries control characters, markup and marks that turn text around."""
     console, _ = live()
     evil = ParameterTree(
-        f"/{BELL}", (ParameterInfo(f"/{BELL}", BELL, Kind.STRING, BELL, BELL, constraints=BELL),), BELL
+        f"/{text}", (ParameterInfo(f"/{text}", text, Kind.STRING, text, text, constraints=text),), text
     )
-    node = NodeInfo(f"/{BELL}", (Endpoint(f"/out{BELL}", (BELL,), BELL),), (Endpoint(f"/in{BELL}", (BELL,)),))
-    process = ProcessInfo("k", BELL, ProcessState.CRASHED, None, (BELL,), (BELL,), problem=BELL)
-    console.say(Severity.FATAL, BELL, BELL)
+    node = NodeInfo(f"/{text}", (Endpoint(f"/out{text}", (text,), text),), (Endpoint(f"/in{text}", (text,)),))
+    process = ProcessInfo("k", text, ProcessState.CRASHED, None, (text,), (text,), problem=text)
+    console.say(Severity.FATAL, text, text)
     console.change(
         parameters=MappingProxyType({**console.current.parameters, evil.node: evil}),
         graph=GraphInfo((*console.current.graph.nodes, node), console.current.graph.topics),
-        launch=LaunchInfo((BELL,), (process,), (LaunchEvent(0, START, BELL),)),
-        profiles=(Profile(BELL, BELL, BELL, world=BELL),),
-        active_profile=BELL,
-        drive=replace(driving(), topic=BELL, limited_by=BELL),
+        launch=LaunchInfo((text,), (process,), (LaunchEvent(0, START, text),)),
+        profiles=(Profile(text, text, text, world=text),),
+        active_profile=text,
+        drive=replace(driving(), topic=text, limited_by=text),
     )
-    console.differences[BELL] = (ProfileDifference(BELL, BELL, BELL, BELL, BELL),)
-    console.series[f"/{BELL}"] = ([1.0, 2.0], [1.0, 2.0])
-    return console, FakeLauncher((LaunchArgument(BELL, BELL, BELL, (BELL,)),), (BELL,))
+    console.differences[text] = (ProfileDifference(text, text, text, text, text),)
+    console.series[f"/{text}"] = ([1.0, 2.0], [1.0, 2.0])
+    return console, FakeLauncher((LaunchArgument(text, text, text, (text,)),), (text,))

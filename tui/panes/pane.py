@@ -94,6 +94,9 @@ class Pane(Container):
 
         self.ask(file_line(label, name, named))
 
+    def let_go(self) -> None:
+        """Stop whatever must not go on without the pane; called when it ends by a fault."""
+
     def focus_target(self) -> None:
         """Take the keyboard: focus the part of the pane that the keys are for."""
         self.query("*").filter(":can-focus").first().focus()

@@ -91,6 +91,10 @@ class SteeringPane(Pane):
 
     def on_unmount(self) -> None:
         """Zero on exit."""
+        self.let_go()
+
+    def let_go(self) -> None:
+        """Disarm, with a zero velocity."""
         self.state.disarm()
         self._send()
 

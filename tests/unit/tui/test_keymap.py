@@ -8,6 +8,7 @@ import pytest
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.keymap import TABLE, Key
 from bot_console.tui.pane_table import PANES
+from bot_console.tui.panes.broken import BrokenPane
 from bot_console.tui.screens.confirm import ConfirmScreen
 from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.screens.launch_arguments import ArgumentsScreen
@@ -29,6 +30,7 @@ OWNERS = {
     "app": BotConsoleApp,
     "list": RowList,
     "diagram": DiagramView,
+    "broken": BrokenPane,
     **SCREENS,
     **{each.id: each.load() for each in PANES},
 }

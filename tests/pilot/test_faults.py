@@ -1,0 +1,130 @@
+"""A fault in a pane ends that pane alone; one elsewhere ends the console with the robot stopped and one line."""
+
+from __future__ import annotations
+
+import asyncio
+import io
+from pathlib import Path
+
+import pytest
+from bot_console.tui import crash
+from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.panes.broken import BrokenPane
+from bot_console.tui.panes.parameters import ParameterRows, ParametersPane
+from bot_console.tui.panes.steering import SteeringPane
+from bot_console.tui.screens.help import HelpScreen
+from bot_console.tui.widgets.row_list import RowList
+from bot_console.tui.widgets.status_bar import StatusBar
+from piloting import Session, run
+from rich.console import Console
+from samples import live
+
+
+@pytest.fixture(autouse=True)
+def state(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    return tmp_path / "bot-console"
+
+
+def boom(self: object, *_: object, **__: object) -> None:
+    raise KeyError("a [red]thing[/] that is missing")
+
+
+FAULTS = {
+    "an action": (ParametersPane, "action_edit", ["e"]),
+    "a message of a widget": (ParametersPane, "on_row_list_moved", ["down"]),
+    "a drawing": (ParameterRows, "row", ["down"]),
+    "a widget's own action": (RowList, "action_cursor", ["down"]),
+}
+
+
+@pytest.mark.parametrize("kind", FAULTS)
+@pytest.mark.parametrize("size", [(80, 24), (120, 40)])
+def test_a_fault_ends_the_pane_alone_and_enter_opens_it_again(
+    kind: str, size: tuple[int, int], monkeypatch: pytest.MonkeyPatch, state: Path
+) -> None:
+    owner, name, keys = FAULTS[kind]
+
+    async def play(session: Session) -> None:
+        await session.press("1")
+        with monkeypatch.context() as broken:
+            broken.setattr(owner, name, boom)
+            await session.press(*keys)
+            await session.settle()
+            text = session.text()
+            assert "This pane has ended: KeyError" in text and "[red]thing[/]" in text
+            assert [type(each) for each in session.app.visible_panes()] == [BrokenPane]
+        await session.press("2", "question_mark", "escape", "1")
+        assert not [each for each in session.console.asked if each[0] == "all_stop"]
+        await session.press("enter")
+        await session.settle()
+        assert "max_speed" in session.text() and "has ended" not in session.text()
+        await session.press("down", "e", "escape", "0")
+        assert "KeyError" in next(state.iterdir()).read_text()
+
+    run(live(), play, size, faults_wanted=True)
+
+
+def test_a_fault_while_a_snapshot_is_shown_keeps_no_other_pane_from_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    async def play(session: Session) -> None:
+        monkeypatch.setattr(ParametersPane, "show", boom)
+        session.console.change(problem="everything is new")
+        session.app.call_later(session.app.pull)
+        await session.pilot.pause()
+        await session.settle()
+        assert sum(isinstance(each, BrokenPane) for each in session.app.visible_panes()) == 1
+        assert "everything is new" in session.lines()[-2]
+
+    run(live(), play, (120, 40), faults_wanted=True)
+
+
+def test_a_steering_pane_that_ends_leaves_the_robot_at_zero(monkeypatch: pytest.MonkeyPatch) -> None:
+    async def play(session: Session) -> None:
+        await session.press("6", "enter", "w", "w")
+        assert session.console.sent[-1][0] > 0
+        monkeypatch.setattr(SteeringPane, "action_steer", boom)
+        await session.press("w")
+        await session.settle()
+        assert session.console.sent[-1] == (0.0, 0.0)
+
+    run(live(), play, faults_wanted=True)
+
+
+def test_a_fault_in_what_lies_over_the_panes_closes_that(monkeypatch: pytest.MonkeyPatch) -> None:
+    async def play(session: Session) -> None:
+        monkeypatch.setattr(HelpScreen, "action_scroll_box", boom)
+        await session.press("1", "question_mark", "j")
+        await session.settle()
+        assert len(session.app.screen_stack) == 1
+        assert "KeyError" in session.text() and "max_speed" in session.text()
+
+    run(live(), play, (120, 40), faults_wanted=True)
+
+
+def test_a_fault_elsewhere_stops_the_robot_and_says_one_line(monkeypatch: pytest.MonkeyPatch, state: Path) -> None:
+    console, launcher = live()
+    said = io.StringIO()
+
+    async def main() -> int | None:
+        app = BotConsoleApp(console, launcher, refresh_hz=0)
+        app.error_console = Console(file=said, width=1000)
+        monkeypatch.setattr(StatusBar, "show", boom)
+        try:
+            async with app.run_test() as pilot:
+                console.change(problem="new")
+                app.pull()
+                await pilot.pause()
+        except KeyError:
+            app._print_error_renderables()
+        return app.return_code
+
+    asyncio.run(main())
+    assert ("all_stop", True) in console.asked
+    assert len(said.getvalue().splitlines()) == 1 and "the robot was stopped: KeyError" in said.getvalue()
+    assert "Traceback" in next(state.iterdir()).read_text()
+
+
+def test_where_nothing_can_be_written_nothing_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(crash, "state_folder", lambda: Path("/dev/null/x"))
+    monkeypatch.setattr(crash.tempfile, "gettempdir", lambda: "/dev/null/y")
+    assert crash.keep(ValueError("x")) == "" and crash.reason(ValueError("a\nb")) == "ValueError: a b"

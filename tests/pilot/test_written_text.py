@@ -1,0 +1,104 @@
+"""What nodes and people write is shown as it is written, wherever that is: never as markup."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+from bot_console.tui.pane_table import PANES
+from bot_console.tui.panes.graph import GraphPane
+from bot_console.tui.screens.door import screen_for
+from bot_console.tui.screens.facts import FactsScreen
+from bot_console.tui.screens.output import OutputScreen
+from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Line, Option
+from piloting import Session, run
+from samples import hostile
+
+LETTERS = [
+    "[",
+    "]",
+    "/",
+    "\\",
+    "[/",
+    "[/]",
+    "[red]",
+    "[b",
+    "[@click=app.quit]",
+    "x",
+    " ",
+    "=",
+    '"',
+    "'",
+    "\r",
+    "$",
+    "{",
+    ":smile:",
+    "#",
+]
+DRAWN = ["[/", "\\[", "[@click=app.quit]x[/]", "a\\"] + [
+    "".join(random.Random(seed).choices(LETTERS, k=8)) for seed in range(4)
+]
+KEYS = {
+    "graph": ["down", "enter"],
+    "launch": ["down", "enter", "escape", "K"],
+    "logs": ["enter", "escape", "y", "slash"],
+    "parameters": ["end", "y", "e"],
+    "plot": ["a"],
+    "profiles": ["enter"],
+}
+
+
+@pytest.mark.parametrize("text", DRAWN)
+def test_any_text_is_drawn_in_every_pane_and_over_it(text: str) -> None:
+    async def play(session: Session) -> None:
+        session.console.change(problem=text)
+        await session.press("0")
+        for entry in PANES:
+            await session.press(entry.digit, *KEYS.get(entry.id, []), "escape", "escape")
+        session.console.change(problem="")
+        await session.settle()
+        pane = session.pane(GraphPane)
+        for severity in ("information", "warning", "error"):
+            pane.notify(text, title=text, severity=severity)
+        questions = (
+            Line(text, print, text=text, check=lambda _: text, suggestions=[text]),
+            Confirmation(text, print, reasons=text),
+            Choice(text, print, find=lambda _: [Option(text, text)], hint=text, empty=text),
+            Choice(text, print, hint=text, empty=text),
+        )
+        for question in questions:
+            pane.ask(question)
+            await session.settle()
+            await session.press("escape")
+        for screen in (FactsScreen(text, [(text, [text])]), OutputScreen(text, text)):
+            session.app.push_screen(screen)
+            await session.settle()
+            await session.press("escape")
+
+    run(hostile(text), play, (120, 40))
+
+
+@pytest.mark.parametrize("text", ["[red]evil[/red]", "[/", "\\[x]"])
+def test_it_is_shown_letter_by_letter(text: str) -> None:
+    async def play(session: Session) -> None:
+        session.app.notify(text, title=text)
+        session.app.push_screen(screen_for(Confirmation(text, print, reasons=text)))
+        await session.settle()
+        assert session.text().count(text) >= 4
+        await session.press("escape")
+        session.app.push_screen(OutputScreen(text, text))
+        await session.settle()
+        assert session.text().count(text) >= 2
+
+    run(hostile(text), play, (120, 40))
+
+
+@pytest.mark.parametrize("line", ["[/", "ros2 [/red]", "ros2 topic echo [b", "\\", "[@click=app.quit]x"])
+def test_any_text_may_be_typed_into_the_palette(line: str) -> None:
+    async def play(session: Session) -> None:
+        await session.press("colon")
+        await session.type(line)
+        assert line in session.text()
+        await session.press("enter", "enter", "escape")
+
+    run(hostile(line), play)

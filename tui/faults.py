@@ -1,0 +1,71 @@
+"""What becomes of a pane, or of what lies over the panes, in whose code a fault happened."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable
+
+from bot_console.tui.crash import keep, reason
+from bot_console.tui.pane_table import PANES
+from bot_console.tui.panes.broken import BrokenPane
+from bot_console.tui.panes.pane import Pane
+from bot_console.tui.screens.overlay import Overlay
+from bot_console.tui.screens.question import QuestionScreen
+from textual.app import App
+from textual.containers import Container
+from textual.dom import DOMNode
+
+
+class Faults:
+    """Ends what is at fault alone, and opens panes again."""
+
+    def __init__(self, app: App[None], changed: Callable[[], None]) -> None:
+        self._app = app
+        self._changed = changed
+        self.seen: list[Exception] = []
+        """All faults that were contained."""
+        self._ending: set[Pane] = set()
+
+    def contain(self, error: Exception, culprits: list[DOMNode]) -> bool:
+        """End the innermost pane or screen of those in whose code a fault happened; False where there is none."""
+        for node in culprits:
+            for each in node.ancestors_with_self:
+                if isinstance(each, Pane) and not isinstance(each, BrokenPane):
+                    self.seen.append(error)
+                    self._end_pane(each, error)
+                    return True
+                if isinstance(each, (Overlay, QuestionScreen)) and each in self._app.screen_stack[1:]:
+                    self.seen.append(error)
+                    self._end_screens(error)
+                    return True
+        return False
+
+    def _end_pane(self, pane: Pane, error: Exception) -> None:
+        if pane in self._ending:
+            return
+        self._ending.add(pane)
+        pane.display = False
+        with contextlib.suppress(Exception):  # the fault may lie there as well
+            pane.let_go()
+        title = next((each.title for each in PANES if each.id == pane.id), "")
+        new = BrokenPane(pane.console, pane.launcher, id=pane.id, title=title, why=reason(error), details=keep(error))
+        self._app.call_later(self._replace, pane, new)
+
+    def _end_screens(self, error: Exception) -> None:
+        while len(self._app.screen_stack) > 1:
+            self._app.pop_screen()
+        details = keep(error)
+        self._app.notify(f"{reason(error)}{f', details: {details}' if details else ''}", title="Closed")
+
+    async def reopen(self, broken: BrokenPane) -> None:
+        """Put the pane itself into its place again."""
+        entry = next(each for each in PANES if each.id == broken.id)
+        await self._replace(broken, entry.load()(broken.console, broken.launcher, id=entry.id))
+
+    async def _replace(self, old: Pane, new: Pane) -> None:
+        container = self._app.screen_stack[0].query_one("#panes", Container)
+        place = container.children.index(old)
+        await old.remove()
+        await container.mount(new, before=place if place < len(container.children) else None)
+        self._ending.discard(old)
+        self._changed()

@@ -1,0 +1,78 @@
+"""Faults are kept from spreading: a message pump of Textual ends with the first exception that leaves a handler.
+
+Besides `output` the only file that hangs on private parts of Textual; where they are named otherwise, a fault ends the
+app as Textual does it.
+"""
+
+from __future__ import annotations
+
+from bot_console.tui.terminal.output import SUPPORTED, HoldingScreen, SparingApp
+from textual._context import active_message_pump
+from textual.dom import DOMNode
+from textual.message import Message
+from textual.screen import Screen
+
+
+class GuardedApp(SparingApp):
+    """An app that is asked about each fault before it ends."""
+
+    def contain(self, error: Exception, culprits: list[DOMNode]) -> bool:
+        """Whether a fault was dealt with; `culprits` are those in whose code it happened, the innermost first."""
+        raise NotImplementedError
+
+    def last_words(self, error: BaseException) -> str:
+        """Called when a fault ends the app; gives the line that is said of it on the terminal."""
+        raise NotImplementedError
+
+    def get_default_screen(self) -> Screen[None]:
+        """The screen of the panes."""
+        return GuardedScreen() if SUPPORTED else super().get_default_screen()
+
+    def contained(self, error: Exception) -> bool:
+        """Whether a fault was dealt with."""
+        return self.contain(error, culprits_of(error))
+
+    async def _dispatch_message(self, message: Message) -> None:
+        try:
+            await super()._dispatch_message(message)
+        except Exception as error:  # the border of everything that is drawn or typed
+            if not self.contained(error):
+                raise
+
+    def _handle_exception(self, error: Exception) -> None:
+        if not self.contained(error):
+            super()._handle_exception(error)
+
+    def _fatal_error(self) -> None:
+        from rich.text import Text
+
+        self._exit_renderables[:] = [Text(self.last_words(self._exception or RuntimeError("unknown")))]
+        self._close_messages_no_wait()
+
+
+class GuardedScreen(HoldingScreen):
+    """A screen that goes on drawing when one of its widgets cannot be drawn."""
+
+    async def _dispatch_message(self, message: Message) -> None:
+        try:
+            await super()._dispatch_message(message)
+        except Exception as error:  # the border of what is drawn
+            app = self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
+            if not (isinstance(app, GuardedApp) and app.contained(error)):
+                raise
+
+
+def culprits_of(error: Exception) -> list[DOMNode]:
+    """The widgets in whose methods a fault happened, the innermost first.
+
+    An action runs in the app's message pump and a drawing in the screen's, so that only the frames know whose it was.
+    """
+    found: list[DOMNode] = []
+    trace = error.__traceback__
+    while trace is not None:
+        owner = trace.tb_frame.f_locals.get("self")
+        if isinstance(owner, DOMNode) and owner not in found:
+            found.insert(0, owner)
+        trace = trace.tb_next
+    pump = active_message_pump.get(None)
+    return [*found, pump] if isinstance(pump, DOMNode) else found
