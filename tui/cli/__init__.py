@@ -46,11 +46,25 @@ def _launch(words: Words) -> int:
 
 
 def _ros2(words: Words) -> int:
-    return main(words)
+    if words and words[0] in ("run", "launch"):
+        return _COMMANDS[words[0]](words[1:])
+    return ros2.verb(words) if words and words[0] in ros2.VERBS else ros2.main(words)
 
 
 def _export(words: Words) -> int:
     from bot_console.tui.cli.export import run
+
+    return run(words)
+
+
+def _setup(words: Words) -> int:
+    from bot_console.tui.cli.setup import run
+
+    return run(words)
+
+
+def _complete(words: Words) -> int:
+    from bot_console.tui.cli.completion import run
 
     return run(words)
 
@@ -65,5 +79,7 @@ _COMMANDS: dict[str, Callable[[Words], int]] = {
     "launch": _launch,
     "ros2": _ros2,
     "export": _export,
+    "setup": _setup,
+    "complete": _complete,
     "colcon": _colcon,
 }

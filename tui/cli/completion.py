@@ -1,0 +1,143 @@
+"""What may come next on a command line: for the completion of shells.
+
+Names are asked from the same verbs that a person would ask, so that what is offered is what the verbs know.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import io
+import os
+from collections.abc import Callable, Iterable, Sequence
+
+Source = Callable[[Sequence[str]], Iterable[str]]
+"""Gives the candidates for a place, from the words before it."""
+
+
+def run(words: Sequence[str]) -> int:
+    """Print the candidates for the last word, one per line; the first word is the program."""
+    for each in candidates(words[1:]):
+        print(each)
+    return 0
+
+
+def candidates(words: Sequence[str]) -> list[str]:
+    """What the last of the words may become; the words before it are complete."""
+    *before, begun = words or [""]
+    if before and before[0] == "ros2":
+        before = before[1:]
+    return sorted({each for each in _offered(before, begun) if each.startswith(begun)})
+
+
+def _offered(before: list[str], begun: str) -> Iterable[str]:
+    from bot_console.runtime.importer import install
+
+    install()
+    from ros2cli.command_line import COMMANDS, load
+
+    if not before:
+        return [*COMMANDS, *_OURS]
+    command = load(before[0])
+    if command is None:
+        return _OURS.get(before[0], ())
+    verb = next((each for each in command.verbs if len(before) > 1 and each.name == before[1]), None)
+    if command.verbs and verb is None:
+        return [each.name for each in command.verbs] if len(before) == 1 else ()
+    if begun.startswith("-"):
+        return _options(verb.arguments if verb else command.arguments)
+    key = (before[0], verb.name if verb else "")
+    given = [word for word in before[2 if verb else 1 :] if not word.startswith("-")]
+    places = _PLACES.get(key) or _PLACES.get((before[0], "*"), ())
+    return places[len(given)](given) if len(given) < len(places) else ()
+
+
+def _options(arguments: Callable[[argparse.ArgumentParser], None]) -> list[str]:
+    parser = argparse.ArgumentParser()
+    arguments(parser)
+    return [option for action in parser._actions for option in action.option_strings]  # pyright: ignore[reportPrivateUsage]
+
+
+def _asked(*words: str) -> list[str]:
+    """The lines that a verb prints; none where it fails."""
+    from ros2cli.command_line import main
+
+    printed = io.StringIO()
+    with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(io.StringIO()):
+        failed = main(words)
+    return [] if failed else [line.strip() for line in printed.getvalue().splitlines()]
+
+
+def _names(*words: str) -> Source:
+    return lambda given: _asked(*words)
+
+
+def _parameters(given: Sequence[str]) -> Iterable[str]:
+    return _asked("param", "list", given[0])
+
+
+def _executables(given: Sequence[str]) -> Iterable[str]:
+    return (line.partition(" ")[2] for line in _asked("pkg", "executables", given[0]))
+
+
+def _files(given: Sequence[str]) -> Iterable[str]:
+    return (name for name in os.listdir(".") if name.endswith((".py", ".xml", ".yaml", ".yml")))
+
+
+def _packages_and_files(given: Sequence[str]) -> Iterable[str]:
+    return [*_asked("pkg", "list"), *_files(given)]
+
+
+def _launch_files(given: Sequence[str]) -> Iterable[str]:
+    from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
+
+    try:
+        share = get_package_share_directory(given[0])
+    except (PackageNotFoundError, ValueError):
+        return []
+    endings = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
+    return [name for _, _, names in os.walk(share) for name in names if name.endswith(endings)]
+
+
+_NODE = _names("node", "list")
+_TOPIC = _names("topic", "list")
+_SERVICE = _names("service", "list")
+_ACTION = _names("action", "list")
+_PACKAGE = _names("pkg", "list")
+_TYPE = _names("interface", "list")
+
+_OURS: dict[str, Sequence[str]] = {
+    "export": (),
+    "ros2": (),
+    "setup": ("bash", "zsh", "fish"),
+    "rqt": (),
+    "rqt_console": (),
+    "rqt_graph": (),
+    "rqt_plot": (),
+    "rqt_reconfigure": (),
+    "rqt_robot_steering": (),
+}
+"""The commands that are not `ros2`'s, and what may follow them."""
+
+_PLACES: dict[tuple[str, str], Sequence[Source]] = {
+    ("action", "*"): (_ACTION,),
+    ("interface", "package"): (_names("interface", "packages"),),
+    ("interface", "*"): (_TYPE,),
+    ("interface", "list"): (),
+    ("launch", ""): (_packages_and_files, _launch_files),
+    ("lifecycle", "*"): (_names("lifecycle", "nodes"),),
+    ("node", "info"): (_NODE,),
+    ("param", "dump"): (_NODE,),
+    ("param", "list"): (_NODE,),
+    ("param", "load"): (_NODE, _files),
+    ("param", "*"): (_NODE, _parameters),
+    ("pkg", "executables"): (_PACKAGE,),
+    ("pkg", "prefix"): (_PACKAGE,),
+    ("pkg", "xml"): (_PACKAGE,),
+    ("run", ""): (_PACKAGE, _executables),
+    ("service", "find"): (_TYPE,),
+    ("service", "*"): (_SERVICE,),
+    ("topic", "find"): (_TYPE,),
+    ("topic", "*"): (_TOPIC,),
+}
+"""What stands at each place of a verb's words; `*` is for the verbs that are not named."""
