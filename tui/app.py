@@ -264,11 +264,13 @@ class BotConsoleApp(GuardedApp):
         self.action_pane("overview" if self._wanted != "overview" or pane is None else pane.id or "overview")
 
     def action_all_stop(self) -> None:
-        """Hold the robot still, or let it go."""
-        hold = not self._snapshot.drive.stopped
+        """Hold the robot still, or let it go; a stop that nobody has acknowledged is sent again."""
+        drive = self.console_of_robot.snapshot().drive
+        hold = not drive.stopped or (drive.lockable and not drive.stop_confirmed)
         self.console_of_robot.all_stop(hold)
         self.pull()
-        self.notify("All stop: the robot is held. ! lets it go." if hold else "The robot may move again.")
+        if not hold:
+            self.notify("The robot may move again.")
 
     def action_help(self) -> None:
         """Help for the pane that has the keyboard."""

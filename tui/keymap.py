@@ -43,7 +43,7 @@ TABLE: Mapping[str, tuple[Key, ...]] = {
             "app.stop",
             "exclamation_mark",
             "all_stop",
-            "All stop: zero velocity, held",
+            "All stop: the robot is locked; or released again",
             footer=True,
             shown="!",
             short="Stop",
@@ -169,7 +169,8 @@ TABLE: Mapping[str, tuple[Key, ...]] = {
         Key("steering.no_speed", "x", "zero_axis(0)", "Zero linear velocity"),
         Key("steering.no_turn", "z", "zero_axis(1)", "Zero angular velocity"),
         Key("steering.deadman", "t", "deadman", "Dead-man time: seconds without a key until the robot stops"),
-        Key("steering.disarm", "escape", "disarm", "Disarm: zero velocity, keys rest"),
+        Key("steering.hand_back", "h", "hand_back", "Hand back: the robot's own program drives again"),
+        Key("steering.disarm", "escape", "disarm", "Disarm: the robot stands, locked, until it is handed back"),
     ),
     "profiles": (
         Key(

@@ -226,11 +226,20 @@ class FakeConsole:
         if not (self.current.drive.stopped or self.closed):
             self.sent.append((linear, angular))
 
-    def all_stop(self, hold: bool = True) -> None:
+    def steer(self, hold: bool) -> None:
+        self.asked.append(("steer", hold))
+
+    def all_stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
         self.asked.append(("all_stop", hold))
         if not self.closed:
             self.sent.append((0.0, 0.0))
-            self.change(drive=replace(self.current.drive, stopped=hold))
+            holder = "this console" if hold else ""
+            self.change(
+                drive=replace(
+                    self.current.drive, stopped=hold, stop_confirmed=hold, stop_holder=holder,
+                    stop_reason=reason if hold else "", lockable=True,
+                )
+            )  # fmt: skip
 
     def call(self, service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:
         self.asked.append(("call", service))

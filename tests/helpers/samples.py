@@ -245,7 +245,7 @@ def faulty() -> tuple[FakeConsole, FakeLauncher]:
         problem="the console's link to ROS has ended: Context is not valid (executors.py:120)",
         parameters=MappingProxyType(trees),
         launch=launch,
-        drive=replace(driving(), stopped=True),
+        drive=replace(driving(), stopped=True, stop_confirmed=True, stop_holder="this console", lockable=True),
         capabilities=Capabilities(world="this system has no world"),
         world=WorldInfo(),
     )

@@ -18,6 +18,13 @@ def commands(session: Session) -> list[tuple[float, float]]:
     return [each[1:] for each in session.console.asked if each[0] == "drive"]
 
 
+def stops(session: Session) -> list[tuple[object, ...]]:
+    """Locks, releases and changes of who steers, in order; what repeats stands once."""
+    asked = [each for each in session.console.asked if each[0] in ("all_stop", "steer")]
+    changes = [each for i, each in enumerate(asked) if i == 0 or each != asked[i - 1]]
+    return changes[1:] if changes[:1] == [("steer", True)] else changes
+
+
 def pass_time(session: Session, seconds: float) -> None:
     clock = steering(session).clock
     assert isinstance(clock, Clock)
@@ -72,10 +79,14 @@ def test_the_command_is_repeated_and_silence_stops_the_robot_once() -> None:
         count = len(commands(session))
         for _ in range(10):
             pass_time(session, 0.1)
-        assert len(commands(session)) == count, "zero is said once, so that others may drive"
+        assert len(commands(session)) == count, "zero is said once"
         await session.settle()
-        assert "no key for 2 s: stopped" in session.text()
+        assert "no key for 2 s: the robot stands" in session.text()
+        assert stops(session) == [("all_stop", True), ("steer", False)], "locked before the steering is let go"
         await session.press("w")
+        assert len(commands(session)) == count, "a key alone moves nothing"
+        await session.press("enter", "w")
+        assert stops(session)[2:4] == [("steer", True), ("all_stop", False)], "held before the lock is released"
         assert commands(session)[-1] == (pytest.approx(0.05), 0.0)
 
     run(live(), play)
@@ -100,6 +111,52 @@ def test_leaving_or_disarming_sends_zero_and_keys_rest(key: str) -> None:
         assert not steering(session).state.armed
 
     run(live(), play)
+
+
+def test_left_the_robot_stands_until_one_key_hands_it_back() -> None:
+    async def play(session: Session) -> None:
+        await session.press("6", "enter", "W", "escape")
+        assert stops(session) == [("all_stop", True), ("steer", False)]
+        assert "STANDS" in session.text() and "! hands it back" in session.text()
+        await session.press("exclamation_mark")
+        assert stops(session)[-1] == ("all_stop", False)
+
+    run(live(), play, (100, 30))
+
+
+def test_h_hands_back_without_a_stop() -> None:
+    async def play(session: Session) -> None:
+        await session.press("6", "enter", "W", "h")
+        assert commands(session)[-1] == (0.0, 0.0)
+        assert stops(session) == [("steer", False)]
+
+    run(live(), play)
+
+
+def test_while_armed_the_steering_is_held_again_and_again() -> None:
+    async def play(session: Session) -> None:
+        await session.press("6", "enter")
+        before = session.console.asked.count(("steer", True))
+        for _ in range(5):
+            pass_time(session, 0.1)
+        assert session.console.asked.count(("steer", True)) == before + 5
+
+    run(live(), play)
+
+
+def test_a_stop_that_is_not_acknowledged_is_not_called_held() -> None:
+    async def play(session: Session) -> None:
+        sent = replace(driving(), stopped=True, stop_confirmed=False, lockable=True)
+        session.console.change(drive=sent)
+        await session.settle()
+        assert "STOP SENT, NOT CONFIRMED" in session.text() and "held" not in session.text()
+        await session.press("exclamation_mark")
+        assert session.console.asked[-1] == ("all_stop", True), "it is sent again, not released"
+        session.console.change(drive=replace(sent, stop_confirmed=True, stop_holder="anna@pc", stop_reason="the arm"))
+        await session.settle()
+        assert "ALL STOP held by anna@pc: the arm (! releases)" in session.text()
+
+    run(live(), play, (140, 40))
 
 
 def test_a_screen_over_the_pane_disarms() -> None:

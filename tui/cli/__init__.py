@@ -69,6 +69,18 @@ def _complete(words: Words) -> int:
     return run(words)
 
 
+def _stop(words: Words) -> int:
+    from bot_console.tui.cli.stop import run
+
+    return run("stop", words)
+
+
+def _release(words: Words) -> int:
+    from bot_console.tui.cli.stop import run
+
+    return run("release", words)
+
+
 def _colcon(words: Words) -> int:
     print("Nothing has to be built: packages of the workspace are read from their sources.")
     return 0
@@ -81,5 +93,7 @@ _COMMANDS: dict[str, Callable[[Words], int]] = {
     "export": _export,
     "setup": _setup,
     "complete": _complete,
+    "stop": _stop,
+    "release": _release,
     "colcon": _colcon,
 }

@@ -112,7 +112,7 @@ class Session:
         """Ctrl-C from elsewhere, SIGTERM and SIGHUP (a closed terminal) stop the robot first, then end the app."""
 
         def end(number: int, frame: FrameType | None) -> None:
-            self.console.all_stop(True)
+            self.console.all_stop(True, f"bot-console was ended by {signal.Signals(number).name}")
             self.app.exit(return_code=128 + number)
 
         before = {each: signal.signal(each, end) for each in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
@@ -127,7 +127,7 @@ class Session:
         if self._closed:
             return
         self._closed = True
-        self.console.all_stop(True)
+        self.console.all_stop(True, "bot-console was quit")
         threading.Event().wait(LAST_WORD)
         if self._looking is not None:
             self._looking.stop()

@@ -238,10 +238,15 @@ class RosConsole:
         if self._node and not self._closed:
             self._node.drive.drive(linear, angular)
 
-    def all_stop(self, hold: bool = True) -> None:
-        """Zero velocity now and, while held, again and again."""
+    def all_stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
+        """Lock the robot's emergency stop, or release it, and zero velocity now."""
         if self._node and not self._closed:
-            self._node.drive.stop(hold)
+            self._node.drive.stop(hold, reason)
+
+    def steer(self, hold: bool) -> None:
+        """Hold the steering, or hand it back."""
+        if self._node and not self._closed:
+            self._node.drive.steer(hold)
 
     def call(self, service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:
         """Call any service."""
@@ -310,7 +315,7 @@ class RosConsole:
         if self._views:
             self._views.close()
         if self._node:
-            self._node.drive.stop(hold=True)
+            self._node.drive.close()
             threading.Event().wait(LAST_WORD)
             self._node.close(CLOSED)
         if self._thread.is_alive():

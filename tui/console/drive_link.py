@@ -10,6 +10,7 @@ from functools import partial
 from typing import Any
 
 from bot_console.tui.console.model import DriveInfo, GraphInfo
+from bot_console.tui.console.stop_link import STATUS, StopLink
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist
 from rclpy.node import Node
@@ -19,7 +20,7 @@ FINAL = "cmd_vel"
 ASKED = "cmd_vel_nav"
 TWIST = "geometry_msgs/msg/Twist"
 HOLD_PERIOD = 0.1
-"""Seconds between two zeros while the all-stop holds; below the 0.5 s after which a command is dead."""
+"""Seconds between two zeros, or requests, while a stop is not acknowledged; a command is dead after 0.5 s."""
 
 VERDICT = "diagnostics"
 DIAGNOSTICS = "diagnostic_msgs/msg/DiagnosticArray"
@@ -51,13 +52,14 @@ class DriveLink:
         self._publishers: dict[str, Any] = {}
         self._watching: dict[str, Any] = {}
         self._seen: dict[str, Velocity] = {}
-        self._held = False
+        self._stop = StopLink(node)
+        self._zeros = False
         self._verdict = Verdict()
         self._heard = 0.0
         self._info = DriveInfo()
         self._topics: dict[str, str] = {}
         self._arbitrated = False
-        node.create_timer(HOLD_PERIOD, self._hold_still)
+        node.create_timer(HOLD_PERIOD, self._repeat)
 
     def follow(self, graph: GraphInfo) -> None:
         """Find the robot's command topics by their last token, in whatever namespace."""
@@ -71,6 +73,7 @@ class DriveLink:
         self._arbitrated = bool(self._topics[TELEOP]) or (self._arbitrated and bool(self._topics[FINAL]))
         for token in (FINAL, ASKED):
             self._watch(token, _topic(published | subscribed, token))
+        self._stop.follow(each.name for node in graph.nodes for each in node.publishers if STATUS in each.types)
         told = {each.name for node in graph.nodes for each in node.publishers if DIAGNOSTICS in each.types}
         self._watch(VERDICT, _topic(told, VERDICT))
 
@@ -101,7 +104,7 @@ class DriveLink:
         self._seen[token] = velocity
         if token == FINAL:
             self._heard = time.monotonic()
-        if token == FINAL and self._held and velocity != (0.0, 0.0):
+        if token == FINAL and self._zeros and velocity != (0.0, 0.0):
             # Somebody else drives on; without an arbiter the last word counts, so ours follows at once.
             self._send(FINAL, 0.0, 0.0)
 
@@ -116,15 +119,32 @@ class DriveLink:
         return TELEOP if self._arbitrated else FINAL
 
     def drive(self, linear: float, angular: float) -> None:
-        """Publish one command (m/s, rad/s), unless the all-stop holds; raises `ValueError` for NaN and infinity."""
+        """Publish one command (m/s, rad/s), unless the robot is held; raises `ValueError` for NaN and infinity."""
         if not (math.isfinite(linear) and math.isfinite(angular)):
             raise ValueError("a velocity must be a finite number")
-        if not self._held:
+        if not (self._stop.info.stopped or self._zeros):
             self._send(self._token, linear, angular)
 
-    def stop(self, hold: bool) -> None:
-        """Zero velocity on every command topic, now and, while held, again and again."""
-        self._held = hold
+    def stop(self, hold: bool, reason: str) -> None:
+        """Lock the robot or let it go, and zero velocity now; a robot without a lock gets zeros again and again."""
+        if hold:
+            self._stop.stop(reason)
+        else:
+            self._stop.release()
+        self._zeros = hold
+        self.zero()
+
+    def steer(self, hold: bool) -> None:
+        """Say that a person holds the steering, or does no more; while held to be called ten times a second."""
+        if hold:
+            self._stop.steer()
+        else:
+            self._stop.hand_back()
+
+    def close(self) -> None:
+        """The last word: zero velocity, and a lock where this console leaves while it holds the steering."""
+        if self._stop.steering:
+            self._stop.stop("the console that held the steering was closed")
         self.zero()
 
     def zero(self) -> None:
@@ -132,8 +152,11 @@ class DriveLink:
         for token in (TELEOP, FINAL):
             self._send(token, 0.0, 0.0)
 
-    def _hold_still(self) -> None:
-        if self._held:
+    def _repeat(self) -> None:
+        self._stop.repeat()
+        if self._stop.info.locks:
+            self._zeros = False  # a lock needs no zeros, and they would keep a robot that somebody else has released
+        if self._zeros:
             self._send(TELEOP if self._topics.get(TELEOP) else FINAL, 0.0, 0.0)
 
     def _send(self, token: str, linear: float, angular: float) -> None:
@@ -154,6 +177,7 @@ class DriveLink:
         why = NO_COMMAND if silent else self._verdict.limited_by
         if self._arbitrated and not self._topics[TELEOP]:
             why = NO_ARBITER
+        stop = self._stop.info
         info = DriveInfo(
             topic=self.topic,
             asked=self._verdict.asked or self._seen.get(ASKED),
@@ -161,7 +185,12 @@ class DriveLink:
             final=None if silent else self._seen.get(FINAL),
             actual=actual,
             limited_by=why,
-            stopped=self._held,
+            stopped=stop.stopped or self._zeros,
+            stop_confirmed=stop.confirmed,
+            stop_holder="this console" if stop.holder == self._stop.holder else stop.holder,
+            stop_reason=stop.reason,
+            lockable=stop.locks > 0,
+            steered_by=stop.steered_by,
         )
         if info != self._info:
             self._info = info

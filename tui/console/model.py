@@ -280,7 +280,16 @@ class DriveInfo:
     actual: tuple[float, float] | None = None
     limited_by: str = ""
     stopped: bool = False
-    """Whether the all-stop holds the robot."""
+    """Whether a stop was asked for, or a lock holds the robot."""
+    stop_confirmed: bool = False
+    """Whether every lock of the robot has acknowledged that it holds."""
+    stop_holder: str = ""
+    """Who holds it, as the robot says; `this console` for ourselves."""
+    stop_reason: str = ""
+    lockable: bool = False
+    """Whether the robot has an emergency stop that acknowledges."""
+    steered_by: str = ""
+    """Who holds the steering, as the robot says."""
 
 
 class ProcessState(str, Enum):

@@ -158,8 +158,19 @@ class Console(Protocol):
         """
         ...
 
-    def all_stop(self, hold: bool = True) -> None:
-        """Zero velocity now; while held the console sends zero and nothing else."""
+    def all_stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
+        """Lock the robot's emergency stop, or release it, and send zero velocity now.
+
+        `DriveInfo.stop_confirmed` tells when it has been acknowledged. A robot that has none gets zeros while held.
+        May be called from any thread.
+        """
+        ...
+
+    def steer(self, hold: bool) -> None:
+        """Hold the steering, so that only a person's commands count, or hand it back.
+
+        While held it is said again at least every 0.5 s; a silent console that holds the steering locks the robot.
+        """
         ...
 
     def call(self, service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:

@@ -9,7 +9,7 @@ from typing import Any
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.panes.pane import Pane
-from bot_console.tui.panes.steering_state import DEADMAN_TIMES, Steering, greatest_of
+from bot_console.tui.panes.steering_state import DEAD_MAN, DEADMAN_TIMES, LEFT, OWN_REASONS, Steering, greatest_of
 from bot_console.tui.panes.steering_view import lines
 from bot_console.tui.widgets.picture import Picture
 from textual.app import ComposeResult
@@ -21,8 +21,10 @@ class SteeringPane(Pane):
     TITLE = "Steering"
     HELP = (
         "Enter arms; then w s a d or the arrow keys drive, Shift takes ten steps, x and z zero one velocity and Space\n"
-        "stops. When no key comes for the dead-man time the robot is stopped. Leaving the pane disarms. The limits\n"
-        "are max_speed and turn_rate. Below stands what became of the command, and what has limited it."
+        "stops. While armed only a person's commands count. When no key comes for the dead-man time, when the pane is\n"
+        "left, and when this console is frozen or gone, the robot stands, locked: Enter steers on, ! hands it back to\n"
+        "its own program (h does so while armed). The limits are max_speed and turn_rate. Below stands what became of\n"
+        "the command, and what has limited it."
     )
     BINDINGS = keymap.bindings("steering")
 
@@ -48,8 +50,8 @@ class SteeringPane(Pane):
         before, self._snapshot = self._snapshot, snapshot
         if snapshot.parameters is not before.parameters:
             self.state.limit(greatest_of(snapshot.parameters.values()))
-        if snapshot.drive.stopped and not before.drive.stopped:
-            self.state.zero()
+        if snapshot.drive.stopped and not before.drive.stopped and self.state.armed:
+            self._let_go()
         self._draw()
 
     def _draw(self) -> None:
@@ -68,19 +70,38 @@ class SteeringPane(Pane):
         """Send the command again, or stop when no key has come for too long."""
         if self.state.armed and not (self.has_focus and self.host.screen is self.screen):
             self._disarm("Disarmed: the keyboard went elsewhere.")
-        self._send()
-        if self.state.armed and self.display:
-            self._draw()
+        if self.state.armed:
+            self._send()
+        if self.state.armed:
+            self.console.steer(True)
+            if self.display:
+                self._draw()
 
     def _send(self) -> None:
+        armed = self.state.armed
         command = self.state.command(self.clock())
         if command is not None:
             self.console.drive(*command)
+        if armed and self.state.expired:
+            self._stand(DEAD_MAN)
+            self._draw()
+
+    def _stand(self, why: str) -> None:
+        """Lock before the steering is let go, so that the robot's own program does not drive in between."""
+        self.console.all_stop(True, why)
+        self.console.steer(False)
+
+    def _let_go(self) -> None:
+        """Steer no more; zero velocity."""
+        self.state.disarm()
+        self._send()
+        self.console.steer(False)
 
     def _disarm(self, why: str = "") -> None:
         if self.state.armed:
             self.state.disarm()
             self._send()
+            self._stand(LEFT)
             if why:
                 self.notify(why)
         self._draw()
@@ -90,13 +111,15 @@ class SteeringPane(Pane):
         self._disarm()
 
     def on_unmount(self) -> None:
-        """Zero on exit."""
+        """Zero on exit; a robot that was steered is left locked."""
         self.let_go()
 
     def let_go(self) -> None:
-        """Disarm, with a zero velocity."""
-        self.state.disarm()
-        self._send()
+        """Disarm, with a zero velocity; a robot that was steered is left locked."""
+        if self.state.armed:
+            self.state.disarm()
+            self._send()
+            self._stand(LEFT)
 
     def _ready(self) -> bool:
         if self._snapshot.drive.stopped:
@@ -115,9 +138,33 @@ class SteeringPane(Pane):
             self.notify(
                 "No node subscribes to cmd_vel or cmd_vel_teleop: there is nothing to steer.", severity="warning"
             )
+        elif self._snapshot.drive.stopped and not self._own_stop:
+            self.notify("The all-stop holds the robot; ! lets it go.", severity="warning")
         else:
-            self.state.arm(self.clock())
+            self._arm()
+
+    @property
+    def _own_stop(self) -> bool:
+        """Whether it was this pane that stopped the robot, so that Enter may take the steering again."""
+        drive = self._snapshot.drive
+        return drive.stop_holder == "this console" and drive.stop_reason in OWN_REASONS
+
+    def _arm(self) -> None:
+        """Hold the steering before the lock is released: the robot stands until a key moves it."""
+        self.console.steer(True)
+        if self._snapshot.drive.stopped:
+            self.console.all_stop(False)
+        self._snapshot = self.console.snapshot()
+        self.state.arm(self.clock())
+        self._draw()
+
+    def action_hand_back(self) -> None:
+        """Let the robot's own program drive again."""
+        if self.state.armed:
+            self._let_go()
             self._draw()
+        elif self._own_stop:
+            self.console.all_stop(False)
 
     def action_disarm(self) -> None:
         """Zero velocity; keys rest."""

@@ -16,6 +16,10 @@ DEADMAN_TIMES = (1.0, 2.0, 5.0, 10.0)
 GREATEST = (1.0, 3.0)
 """Limits (m/s, rad/s) where no parameter gives any."""
 
+DEAD_MAN, LEFT = "dead-man: no key came", "the steering was left"
+OWN_REASONS = (DEAD_MAN, LEFT)
+"""Why this pane stops the robot; it stands until a person takes the steering again or hands it back."""
+
 SPEED_PARAMETER, TURN_PARAMETER = "max_speed", "turn_rate"
 
 
@@ -31,9 +35,10 @@ class Steering:
     last_key: float = 0.0
     said_zero: bool = True
     expired: bool = False
+    """Whether the dead-man time has run out, and nobody has taken the steering since."""
 
     def arm(self, now: float) -> None:
-        """Take keys from now on; the robot stands still."""
+        """Take keys from now on; the robot stands until one moves it."""
         self.armed, self.last_key, self.expired = True, now, False
         self.linear = self.angular = 0.0
 
@@ -72,10 +77,10 @@ class Steering:
         return max(0.0, min(1.0, 1.0 - (now - self.last_key) / self.deadman)) if self.armed else 0.0
 
     def command(self, now: float) -> tuple[float, float] | None:
-        """What to send now: velocities again and again, a zero once, so that others may drive while keys rest."""
+        """What to send now: velocities again and again, a zero once. The dead-man time ends the steering."""
         moving = (self.linear, self.angular) != (0.0, 0.0)
         if self.armed and moving and now - self.last_key >= self.deadman:
-            self.zero()
+            self.disarm()
             self.expired, moving = True, False
         if not moving and self.said_zero:
             return None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bot_console.tui.console.model import DriveInfo
 from bot_console.tui.format import harmless
-from bot_console.tui.panes.steering_state import Steering
+from bot_console.tui.panes.steering_state import OWN_REASONS, Steering
 from bot_console.tui.widgets.picture import Line
 
 BAR = 10
@@ -31,11 +31,20 @@ def lines(state: Steering, drive: DriveInfo, left: float, width: int, height: in
 
 def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
     topic = harmless(drive.topic) or "no robot listens for commands"
+    if drive.stopped and not drive.stop_confirmed:
+        return ((" STOP SENT, NOT CONFIRMED ", "error"), (_unconfirmed(drive), ""))
+    if drive.stopped and drive.stop_holder == "this console" and drive.stop_reason in OWN_REASONS:
+        return ((" STANDS ", "warn"), (" enter steers on, ! hands it back to its program", ""))
     if drive.stopped:
-        return ((" ALL STOP ", "error"), (" the robot is held; ! lets it go", ""))
+        who = "" if drive.stop_holder in ("", "this console") else f" by {harmless(drive.stop_holder)}"
+        return ((" ALL STOP ", "error"), (f" the robot is held{who}; ! lets it go", ""))
     if state.armed:
-        return ((" ● ARMED ", "warn"), (f" keys drive  {topic}", "dim"))
+        return ((" ● ARMED ", "warn"), (f" keys drive, h hands back  {topic}", "dim"))
     return ((" ○ disarmed ", "dim"), (" enter arms  " if width >= 34 else " ", "strong"), (topic, "dim"))
+
+
+def _unconfirmed(drive: DriveInfo) -> str:
+    return " ! sends it again" if drive.lockable else " zeros only: this robot has no emergency stop"
 
 
 def _slider(word: str, value: float, greatest: float, unit: str, width: int, *, turned: bool = False) -> Line:
@@ -57,7 +66,7 @@ def _slider(word: str, value: float, greatest: float, unit: str, width: int, *, 
 
 def _deadman(state: Steering, left: float) -> Line:
     if state.expired:
-        return ((f" no key for {state.deadman:g} s: stopped", "warn"),)
+        return ((f" no key for {state.deadman:g} s: the robot stands", "warn"),)
     full = round(left * BAR)
     moving = bool(state.linear or state.angular)
     bar = "▰" * full + "▱" * (BAR - full) if state.armed and moving else "▱" * BAR

@@ -25,7 +25,7 @@ def status_text(snapshot: ConsoleSnapshot, held_back: int = 0) -> str:
     """The line."""
     if snapshot.problem:
         return harmless(snapshot.problem)
-    parts = ["ALL STOP (! releases)"] if snapshot.drive.stopped else []
+    parts = [stop_text(snapshot.drive)] if snapshot.drive.stopped else []
     dead = [each.label for each in snapshot.launch.processes if each.state is ProcessState.CRASHED]
     if dead:
         parts.append(f"✗ ended: {harmless(', '.join(dead))}")
@@ -40,6 +40,17 @@ def status_text(snapshot: ConsoleSnapshot, held_back: int = 0) -> str:
     if held_back:
         parts.append(f"slow link: {held_back} frames merged in 5 s")
     return "  ".join(each for each in parts if each)
+
+
+def stop_text(drive: DriveInfo) -> str:
+    """What is known of a stop: held is said only when the robot has acknowledged it."""
+    if not drive.lockable:
+        return "STOP SENT, NOT CONFIRMED: zeros only, this robot has no emergency stop (! ends them)"
+    if not drive.stop_confirmed:
+        return "STOP SENT, NOT CONFIRMED (! sends it again)"
+    who = "" if drive.stop_holder in ("", "this console") else f" by {harmless(drive.stop_holder)}"
+    why = f": {harmless(drive.stop_reason)}" if drive.stop_reason not in ("", "ALL STOP") else ""
+    return f"ALL STOP held{who}{why} (! releases)"
 
 
 def drive_text(drive: DriveInfo) -> str:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from bot_console.tui.cli.stop import run
 from systems import Program, System, system
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -98,6 +100,11 @@ class Bench:
         """What a service answers."""
         return self._running.ask("service", "call", service, "std_srvs/srv/Trigger").stdout
 
+    def command(self, verb: str, *words: str) -> Program:
+        """`bot-console stop` or `release`, to its end."""
+        started = self._running.start(verb, lambda: sys.exit(run(verb, list(words))), [verb, *words])
+        return self._running.finish(started)
+
     def python(self, text: str, *words: str) -> Program:
         """One more program."""
         return self._running.python("-c", text, *words)
@@ -168,3 +175,20 @@ def test_a_base_without_an_arbiter_locks_itself() -> None:
         assert bench.stands(), "a reset releases nothing"
         bench.call("/simulator/release")
         assert bench.drives()
+
+
+def test_stop_and_release_without_a_screen(bench: Bench) -> None:
+    bench.python(DRIVER, "cmd_vel")
+    stopped = bench.command("stop", "the arm swings")
+    assert (stopped.exit, stopped.stdout) == (0, "held: the robot is locked until a person releases it\n")
+    assert bench.stands()
+    assert ": the arm swings" in bench.launch.stdout
+    assert bench.command("release").exit == 0
+    assert bench.drives()
+
+
+def test_a_stop_that_nobody_acknowledges_says_so() -> None:
+    with system() as running:
+        alone = running.finish(running.start("stop", lambda: sys.exit(run("stop", [])), ["stop"]))
+    assert alone.exit == 1
+    assert alone.stderr.startswith("stop sent, not confirmed: no robot with an emergency stop was found")

@@ -79,7 +79,7 @@ def test_a_robot_without_arbiter_is_driven_directly():
 
 
 def test_all_stop_sends_zero_everywhere_and_takes_no_command(bench):
-    bench.link.stop(hold=True)
+    bench.link.stop(True, "ALL STOP")
     bench.link.drive(0.5, 0.0)
     bench.settle()
     assert sorted(set(bench.got)) == [("/cmd_vel", 0.0), ("/cmd_vel_teleop", 0.0)]
@@ -88,7 +88,7 @@ def test_all_stop_sends_zero_everywhere_and_takes_no_command(bench):
 
 def test_all_stop_answers_somebody_elses_command_at_once(bench):
     other = bench.robot.create_publisher(Twist, "/cmd_vel", 10)
-    bench.link.stop(hold=True)
+    bench.link.stop(True, "ALL STOP")
     bench.settle()
     command = Twist()
     command.linear.x = 1.0
@@ -98,8 +98,8 @@ def test_all_stop_answers_somebody_elses_command_at_once(bench):
 
 
 def test_a_released_robot_is_driven_again(bench):
-    bench.link.stop(hold=True)
-    bench.link.stop(hold=False)
+    bench.link.stop(True, "ALL STOP")
+    bench.link.stop(False, "")
     bench.link.drive(0.5, 0.0)
     bench.settle()
     assert ("/cmd_vel_teleop", 0.5) in bench.got
@@ -148,7 +148,7 @@ def test_a_robot_whose_arbiter_has_left_is_not_driven_past_it():
     bench.got.clear()
     info = bench.link.info(None)
     assert (info.topic, info.limited_by) == ("", NO_ARBITER)
-    bench.link.stop(hold=False)
+    bench.link.stop(False, "")
     bench.settle()
     assert bench.got == [("/cmd_vel", 0.0)], "it can still be stopped"
     bench.link.follow(_listening("/cmd_vel", "/cmd_vel_teleop"))

@@ -53,9 +53,9 @@ def test_velocities_are_repeated_a_zero_is_said_once() -> None:
 def test_the_deadman_time_is_exact() -> None:
     state = armed()
     state.steer(1, 0, 1, 10.0)
-    assert state.command(11.999) == (0.05, 0.0) and not state.expired
-    assert state.command(12.0) == (0.0, 0.0) and state.expired
     assert state.left(11.0) == 0.5 and state.left(99.0) == 0.0
+    assert state.command(11.999) == (0.05, 0.0) and not state.expired
+    assert state.command(12.0) == (0.0, 0.0) and state.expired and not state.armed
 
 
 def test_disarmed_it_says_zero_even_if_it_said_so_before() -> None:

@@ -1,0 +1,111 @@
+"""The emergency stop as the console sees it: sent again until it is acknowledged, and held only then."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+
+import pytest
+from bot_console.tui.console.stop_link import FOLDER, LATCHED, STATUS, StopLink
+from bot_console_robot.emergency_stop import ARBITER, BASE, EmergencyStop
+from diagnostic_msgs.msg import DiagnosticStatus
+from rclpy.clock import Clock, ClockType
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+
+_domains = itertools.count(3300)
+
+
+class Rig:
+    """A console's link; locks of a robot join when they are asked for."""
+
+    def __init__(self) -> None:
+        self.context = Context()
+        self.context.init(["test"], domain_id=next(_domains))
+        self.executor = SingleThreadedExecutor(context=self.context)
+        self.nodes: list[Node] = []
+        self.link = StopLink(self.node("console"), "anna")
+
+    def node(self, name: str) -> Node:
+        made = Node(name, context=self.context)
+        self.executor.add_node(made)
+        self.nodes.append(made)
+        return made
+
+    def lock(self, name: str, own: str, other: str) -> EmergencyStop:
+        return EmergencyStop(self.node(name), Clock(clock_type=ClockType.STEADY_TIME), own, other, lambda: None)
+
+    def settle(self) -> None:
+        names = self.nodes[0].get_topic_names_and_types()
+        published = [name for name, types in names if STATUS in types and self.nodes[0].count_publishers(name)]
+        self.link.follow(published)
+        for _ in range(40):
+            self.executor.spin_once(timeout_sec=0)
+
+
+@pytest.fixture
+def rig() -> Iterator[Rig]:
+    made = Rig()
+    yield made
+    for each in made.nodes:
+        each.destroy_node()
+    made.context.try_shutdown()
+
+
+def test_it_is_held_when_every_lock_has_said_so(rig: Rig) -> None:
+    arbiter, base = rig.lock("safety_monitor", ARBITER, BASE), rig.lock("simulator", BASE, ARBITER)
+    rig.settle()
+    assert (rig.link.info.stopped, rig.link.info.locks) == (False, 2)
+    rig.link.stop("the arm swings")
+    assert (rig.link.info.stopped, rig.link.info.confirmed) == (True, False), "sent, not confirmed"
+    rig.settle()
+    info = rig.link.info
+    assert (info.confirmed, info.holder, info.reason) == (True, "anna", "the arm swings")
+    assert arbiter.lock.held and base.lock.held
+    rig.link.release()
+    rig.settle()
+    assert not (rig.link.info.stopped or arbiter.lock.held or base.lock.held)
+
+
+def test_another_console_sees_who_holds_it_and_may_release_it(rig: Rig) -> None:
+    rig.lock("simulator", BASE, ARBITER)
+    other = StopLink(rig.node("other"), "ben")
+    rig.settle()
+    other.follow([f"{FOLDER}base"])
+    other.stop("my foot")
+    rig.settle()
+    assert (rig.link.info.confirmed, rig.link.info.holder, rig.link.info.reason) == (True, "ben", "my foot")
+    rig.link.release()
+    rig.settle()
+    assert not other.info.stopped
+
+
+def test_a_stop_is_repeated_until_a_lock_that_came_late_has_heard_it(rig: Rig) -> None:
+    rig.settle()
+    rig.link.stop("now")
+    assert (rig.link.info.stopped, rig.link.info.confirmed, rig.link.info.locks) == (True, False, 0)
+    base = rig.lock("simulator", BASE, ARBITER)
+    rig.settle()
+    rig.link.repeat()
+    rig.settle()
+    assert base.lock.held and rig.link.info.confirmed
+
+
+def test_a_lock_that_says_nothing_readable_confirms_nothing(rig: Rig) -> None:
+    rig.node("odd").create_publisher(DiagnosticStatus, "emergency_stop/odd", LATCHED).publish(DiagnosticStatus())
+    rig.settle()
+    rig.link.stop("now")
+    rig.settle()
+    assert (rig.link.info.stopped, rig.link.info.confirmed) == (True, False)
+
+
+def test_who_steers_is_seen_and_hands_back(rig: Rig) -> None:
+    base = rig.lock("simulator", BASE, ARBITER)
+    rig.settle()
+    rig.link.steer()
+    rig.settle()
+    assert rig.link.info.steered_by == base.steered_by == "anna"
+    rig.link.hand_back()
+    rig.settle()
+    assert not (rig.link.info.steered_by or base.steered_by or base.lock.held)
