@@ -51,7 +51,7 @@ class SteeringPane(Pane):
         if snapshot.parameters is not before.parameters:
             self.state.limit(greatest_of(snapshot.parameters.values()))
         if snapshot.drive.stopped and not before.drive.stopped and self.state.armed:
-            self._let_go()
+            self._steer_no_more()
         self._draw()
 
     def _draw(self) -> None:
@@ -91,7 +91,7 @@ class SteeringPane(Pane):
         self.console.all_stop(True, why)
         self.console.steer(False)
 
-    def _let_go(self) -> None:
+    def _steer_no_more(self) -> None:
         """Steer no more; zero velocity."""
         self.state.disarm()
         self._send()
@@ -161,7 +161,7 @@ class SteeringPane(Pane):
     def action_hand_back(self) -> None:
         """Let the robot's own program drive again."""
         if self.state.armed:
-            self._let_go()
+            self._steer_no_more()
             self._draw()
         elif self._own_stop:
             self.console.all_stop(False)
