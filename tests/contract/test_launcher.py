@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import itertools
+import socket
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from bot_console.tui.console.launch_host.host import LaunchHost
+from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo, ProcessInfo, ProcessState
 from bot_console.tui.console.protocol import Answer, Launcher
 from fake_launcher import FakeLauncher
@@ -78,7 +81,28 @@ class RosRig:
         self._bench.launcher.close()
 
 
-@pytest.fixture(params=[FakeRig, RosRig], ids=["fake", "ros"])
+class HostedRig(RosRig):
+    """The same behind a host's socket."""
+
+    def __init__(self, folder: Path) -> None:
+        super().__init__(folder)
+        bench = self._bench
+        ours, theirs = socket.socketpair()
+        self._host = LaunchHost(lambda record, printed: bench.launcher)
+        self._host.connect(theirs, owner=True)
+        self.launcher = self._proxy = HostedLauncher(ours, bench.launcher._record, lambda *line: None)
+
+    def info(self) -> LaunchInfo:
+        """What is known to the console."""
+        return self._proxy.info()
+
+    def close(self) -> None:
+        """Close the launcher."""
+        self._proxy.close()
+        self._host.close()
+
+
+@pytest.fixture(params=[FakeRig, RosRig, HostedRig], ids=["fake", "ros", "hosted"])
 def rig(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[FakeRig | RosRig]:
     """A launcher with one launch file."""
     monkeypatch.setenv("ROS_DOMAIN_ID", str(next(_domains)))

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import contextlib
-import re
 import signal
 import sys
 import threading
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Callable, Generator
 from pathlib import Path
 from types import FrameType
 
@@ -17,12 +16,12 @@ from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.cli import robot_beside
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.hangup import hangup_as_signal
+from bot_console.tui.cli.launching import Launching
 from bot_console.tui.cli.vitals import find_vitals
 from bot_console.tui.cli.workspaces import SYSTEM_LAUNCH, choose, launch_environment, launch_files
 from bot_console.tui.console.connection import RosConsole
 from bot_console.tui.console.launcher import RosLauncher
 from bot_console.tui.console.model import LaunchInfo, ProcessState, Severity
-from bot_console.tui.console.process_output import marking
 
 ROOT = Path(__file__).resolve().parents[2]
 SWITCH_INTERVAL = 0.0005
@@ -32,12 +31,6 @@ LAST_WORD = 0.2
 READY = 20.0
 LINE_LIMIT = 15.0
 """Seconds after which a `ros2` line that does not end by itself is interrupted, as by Ctrl-C."""
-
-ENVIRONMENT = {"OVERRIDE_LAUNCH_PROCESS_OUTPUT": "own_log"}
-"""Launch does not repeat on its screen what processes print, since the console reads that from launch's events."""
-
-LAUNCH_LINE = re.compile(r"\[([A-Z]+)\] \[([^\]]+)\]: (.*)")
-LEVELS = {"DEBUG": Severity.DEBUG, "WARNING": Severity.WARN, "ERROR": Severity.ERROR, "CRITICAL": Severity.FATAL}
 
 
 class Session:
@@ -134,28 +127,6 @@ class Session:
         self.launcher.close()
         self._forget_notices()
         self.console.close()  # whose own zero is the last word to a robot that outlives this program
-
-
-class Launching:
-    """One running launch."""
-
-    def __init__(
-        self, target: Callable[[], None], printed: Callable[[int, str, str], None], env: Mapping[str, str]
-    ) -> None:
-        self._process = NodeProcess("launch")
-
-        def tell(text: str) -> None:
-            line = LAUNCH_LINE.match(text)
-            if line:
-                printed(LEVELS.get(line[1], Severity.INFO), line[2], line[3])
-            elif text.strip():
-                printed(Severity.INFO, "launch", text.rstrip("\n"))
-
-        self._process.start(target, env={**env, **ENVIRONMENT, **marking(env)}, stdout=tell, stderr=tell)
-
-    def join(self, timeout: float | None = None) -> object:
-        """Wait for the end, at most so many seconds."""
-        return self._process.wait(timeout)
 
 
 def run(options: Options) -> int:

@@ -1,0 +1,142 @@
+"""A launch host in a process of its own: what it starts, tells and ends, and what becomes of that when it dies."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+if not hasattr(os, "fork"):
+    pytest.skip("needs fork", allow_module_level=True)
+
+from bot_console.tui.cli.launch_host import start_host
+from bot_console.tui.console.launch_host.proxy import HostedLauncher
+from bot_console.tui.console.model import ProcessState
+from launcher_bench import HEAD, WAITS
+
+PATIENCE = 40.0
+CRASHES = "import ctypes\nprint('up', flush=True)\nctypes.string_at(0)\n"
+
+
+class Hosted:
+    """A host, its stand-in, and a folder for programs."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.printed: list[tuple[int, str, str]] = []
+        self.log = folder / "host.log"
+        self.process, connection = start_host(["--workspace", str(folder), "--isolation", "process"], log=self.log)
+        self.launcher = HostedLauncher(connection, lambda *record: None, lambda *line: self.printed.append(line))
+
+    def launch(self, **programs: str) -> Any:
+        """Launch these programs, by name; the answer."""
+        nodes: list[str] = []
+        for name, text in programs.items():
+            path = self.folder / f"{name}.py"
+            path.write_text(text)
+            nodes.append(f"Node(executable={str(path)!r}, exec_name={name!r}, name={name!r})")
+        file = self.folder / "x.launch.py"
+        file.write_text(HEAD.format(entities=f"[{', '.join(nodes)}]"))
+        return self.launcher.launch(str(file), {}).result(PATIENCE)
+
+    def until(self, condition: Callable[[], Any]) -> Any:
+        """Wait until something is so."""
+        deadline = time.monotonic() + PATIENCE
+        while not (found := condition()):
+            assert time.monotonic() < deadline, (self.launcher.info(), self.printed, self.log.read_text())
+            threading.Event().wait(0.01)
+        return found
+
+    def named(self, name: str) -> Any:
+        """The process of that name."""
+        return self.until(
+            lambda: next((each for each in self.launcher.info().processes if each.label.startswith(name)), None)
+        )
+
+    def up(self, name: str) -> Any:
+        """Wait for the first line of a program; its process."""
+        self.until(lambda: any(label.startswith(name) and text == "up" for _, label, text in self.printed))
+        return self.named(name)
+
+
+@pytest.fixture
+def hosted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Hosted]:
+    monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
+    made = Hosted(tmp_path)
+    yield made
+    made.launcher.close()
+    assert made.process.wait(PATIENCE) is not None
+
+
+def is_running(pid: int) -> bool:
+    """Whether there is such a process that is no zombie."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
+def test_a_node_has_a_process_and_a_crash_takes_nothing_else_along(hosted: Hosted) -> None:
+    assert hosted.launch(waiter=WAITS, crasher=CRASHES).ok
+    waiter = hosted.up("waiter")
+    assert is_running(waiter.pid) and waiter.pid != hosted.process.pid
+    hosted.up("crasher")
+    crashed = hosted.until(lambda: (each := hosted.named("crasher")).state is ProcessState.CRASHED and each)
+    assert crashed.exit_code == -signal.SIGSEGV and is_running(waiter.pid)
+    hosted.until(lambda: any('crasher.py", line 3' in text for _, label, text in hosted.printed if "crasher" in label))
+    answer = hosted.launcher.restart(waiter.key).result(PATIENCE)
+    assert answer.ok and hosted.named("waiter").pid != waiter.pid
+    hosted.launcher.close()
+    assert hosted.process.wait(PATIENCE) == 0 and hosted.log.read_text() == ""
+    assert hosted.named("waiter").state is ProcessState.EXITED
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
+def test_a_killed_host_takes_its_processes_along_and_the_console_says_so(hosted: Hosted) -> None:
+    assert hosted.launch(waiter=WAITS).ok
+    pid = hosted.up("waiter").pid
+    hosted.process.kill()
+    hosted.until(lambda: not is_running(pid))
+    hosted.until(lambda: hosted.launcher.info().problem)
+    assert hosted.named("waiter").state is ProcessState.CRASHED
+    answer = hosted.launcher.start(hosted.named("waiter").key).result(PATIENCE)
+    assert not answer.ok and "launch host has ended" in answer.text
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
+def test_what_an_owner_started_ends_with_it(tmp_path: Path) -> None:
+    program = tmp_path / "waiter.py"
+    program.write_text(WAITS)
+    file = tmp_path / "x.launch.py"
+    file.write_text(HEAD.format(entities=f"[Node(executable={str(program)!r})]"))
+    owner = (
+        "import time\n"
+        "from bot_console.tui.cli.launch_host import start_host\n"
+        "from bot_console.tui.console.launch_host.proxy import HostedLauncher\n"
+        "process, connection = start_host(['--isolation', 'process'])\n"
+        "launcher = HostedLauncher(connection, lambda *record: None, lambda *line: None)\n"
+        f"print(launcher.launch({str(file)!r}, {{}}).result(40).ok, process.pid, flush=True)\n"
+        "print(launcher.info().processes[0].pid, flush=True)\n"
+        "time.sleep(60)\n"
+    )
+    environment = {**os.environ, "ROS_LOG_DIR": str(tmp_path / "log")}
+    command = [sys.executable, "-c", owner]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as started:
+        assert started.stdout is not None
+        ok, host = started.stdout.readline().split()
+        node = int(started.stdout.readline())
+        assert ok == "True" and is_running(int(host)) and is_running(node)
+        started.kill()
+    deadline = time.monotonic() + PATIENCE
+    while is_running(int(host)) or is_running(node):
+        assert time.monotonic() < deadline
+        threading.Event().wait(0.01)

@@ -1,0 +1,32 @@
+"""What launched processes tell of themselves, as lines of the log."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from bot_console.runtime.process import NodeProcess, on_notice
+from bot_console.tui.console.model import Severity
+from launch.child import News, on_news
+
+Printed = Callable[[int, str, str], None]
+
+
+def tell_news(printed: Printed) -> Callable[[], None]:
+    """Have notices and crashes of all processes printed, threads of this one or not; returns what ends that."""
+
+    def noticed(process: NodeProcess, text: str) -> None:
+        printed(Severity.WARN, process.name, text)
+
+    def heard(news: News) -> None:
+        if news.kind == "notice":
+            printed(Severity.WARN, news.process, str(news.facts["text"]))
+        elif news.kind == "crash":
+            printed(Severity.ERROR, news.process, str(news.facts["text"]))
+
+    forget = (on_notice(noticed), on_news(heard))
+
+    def forget_both() -> None:
+        for each in forget:
+            each()
+
+    return forget_both

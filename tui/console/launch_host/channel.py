@@ -1,0 +1,105 @@
+"""One JSON object a line over a stream socket, both ways, without ever holding up whoever sends."""
+
+from __future__ import annotations
+
+import json
+import socket
+import threading
+from collections import deque
+from collections.abc import Callable, Mapping
+from typing import Any
+
+Message = Mapping[str, Any]
+
+SPARE_BYTES = 4 << 20
+"""What may wait for a reader before messages that can be spared are dropped, and counted."""
+MOST_BYTES = 64 << 20
+"""What may wait at all: a reader that lets more come together is given up."""
+
+
+class Channel:
+    """A connection with a thread that reads and one that writes."""
+
+    def __init__(
+        self, connection: socket.socket, received: Callable[[Message], None], lost: Callable[[], None]
+    ) -> None:
+        """`received` is called in the reading thread; `lost` once, when the other side has gone or this one closes."""
+        self._socket = connection
+        self._received = received
+        self._lost = lost
+        self._news = threading.Condition()
+        self._waiting: deque[bytes] = deque()
+        self._bytes = self._dropped = 0
+        self._closed = False
+        self._threads = [
+            threading.Thread(target=each, name="launch host", daemon=True) for each in (self._read, self._write)
+        ]
+
+    def start(self) -> None:
+        """Begin to read and write."""
+        for each in self._threads:
+            each.start()
+
+    def send(self, message: Message, *, spare: bool = False) -> None:
+        """Queue a message; one that can be spared is dropped where the other side does not read."""
+        line = json.dumps(message).encode() + b"\n"
+        with self._news:
+            if self._closed:
+                return
+            if spare and self._bytes > SPARE_BYTES:
+                self._dropped += 1
+                return
+            if self._bytes > MOST_BYTES:
+                self._shut()
+                return
+            if self._dropped:
+                told = json.dumps({"dropped": self._dropped}).encode() + b"\n"
+                self._dropped = 0
+                line = told + line
+            self._waiting.append(line)
+            self._bytes += len(line)
+            self._news.notify()
+
+    def close(self, patience: float = 1.0) -> None:
+        """Write what waits, at most so many seconds, then hang up; a second call does nothing."""
+        with self._news:
+            self._news.wait_for(lambda: self._closed or not self._bytes, patience)
+            self._shut()
+
+    def _shut(self) -> None:
+        self._closed = True
+        self._news.notify_all()
+        try:
+            self._socket.shutdown(socket.SHUT_RDWR)
+        except OSError:  # the other side was faster
+            return
+
+    def _read(self) -> None:
+        try:
+            with self._socket.makefile("rb") as lines:
+                for line in lines:
+                    self._received(json.loads(line))
+        except (OSError, ValueError):  # gone, or no launch host at all
+            pass
+        finally:
+            with self._news:
+                self._shut()
+            self._socket.close()
+            self._lost()
+
+    def _write(self) -> None:
+        while True:
+            with self._news:
+                self._news.wait_for(lambda: self._closed or self._waiting)
+                if self._closed:
+                    return
+                line = self._waiting.popleft()
+            try:
+                self._socket.sendall(line)
+            except OSError:  # the reading thread sees it, too
+                with self._news:
+                    self._shut()
+                return
+            with self._news:
+                self._bytes -= len(line)
+                self._news.notify_all()

@@ -1,0 +1,169 @@
+"""Serves a launcher to consoles: their wishes come in, what it knows and what processes print goes out."""
+
+from __future__ import annotations
+
+import socket
+import threading
+from collections import deque
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Future
+from functools import partial
+from typing import Any, Protocol
+
+from bot_console.tui.console.launch_host.channel import Channel, Message
+from bot_console.tui.console.launch_host.plain import of_arguments, of_info
+from bot_console.tui.console.model import LaunchArgument, LaunchInfo
+from bot_console.tui.console.process_output import Add
+from bot_console.tui.console.protocol import Answer
+
+LOOK_S = 0.1
+"""Seconds between two looks at what has changed."""
+LINES_KEPT = 1000
+"""Lines of output that a console which comes later is given."""
+
+Printed = Callable[[int, str, str], None]
+
+
+class HostedService(Protocol):
+    """What a host serves: a launcher that tells what it knows and can be closed."""
+
+    def info(self) -> LaunchInfo:
+        """What is known now; the same object until something changes."""
+        ...
+
+    def arguments(self, path: str) -> Sequence[LaunchArgument]:
+        """The arguments of a launch file; raises `ValueError`."""
+        ...
+
+    def files(self) -> Sequence[str]:
+        """Launch files to choose from."""
+        ...
+
+    def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
+        """Run one more launch file."""
+        ...
+
+    def close(self) -> None:
+        """End everything."""
+        ...
+
+
+class _Console:
+    """One connected console."""
+
+    def __init__(self, owner: bool) -> None:
+        self.owner = owner
+        self.channel: Channel
+        self.known: LaunchInfo | None = None
+        self.next_event = 0
+
+
+class LaunchHost:
+    """A launcher and the consoles that steer it. Methods may be called from any thread."""
+
+    def __init__(self, make: Callable[[Add, Printed], HostedService]) -> None:
+        """`make` is given what takes log records and what takes printed lines."""
+        self._lock = threading.RLock()
+        self._consoles: list[_Console] = []
+        self._lines: deque[Message] = deque(maxlen=LINES_KEPT)
+        self.over = threading.Event()
+        """Set when everything was ended: because a console asked for it, or the one that owns this host has gone."""
+        self._replies: deque[tuple[_Console, Message]] = deque()
+        self._wake = threading.Event()
+        self._ended = False
+        self._service = make(self._record, self.printed)
+        threading.Thread(target=self._look, name="look", daemon=True).start()
+
+    def connect(self, connection: socket.socket, *, owner: bool = False) -> None:
+        """Serve one more console; when an owner hangs up, everything ends."""
+        console = _Console(owner)
+        console.channel = Channel(connection, partial(self._received, console), partial(self._lost, console))
+        with self._lock:
+            for each in self._lines:
+                console.channel.send(each, spare=True)
+            self._consoles.append(console)
+        console.channel.start()
+        self._wake.set()
+
+    def _record(self, stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:
+        self._line({"record": [stamp, severity, name, text, list(site)]})
+
+    def printed(self, severity: int, name: str, text: str) -> None:
+        """Pass a line on to all consoles."""
+        self._line({"printed": [severity, name, text]})
+
+    def _line(self, message: Message) -> None:
+        with self._lock:
+            self._lines.append(message)
+            for each in self._consoles:
+                each.channel.send(message, spare=True)
+
+    def _look(self) -> None:
+        """Tell what is new; alone in doing so, or an older state might come after a newer one."""
+        while not self.over.is_set():
+            self._wake.wait(LOOK_S)
+            self._wake.clear()
+            ended = self._ended
+            replies = [self._replies.popleft() for _ in range(len(self._replies))]
+            info = self._service.info()  # newer than the replies: who has an answer knows what it speaks of
+            with self._lock:
+                for each in self._consoles:
+                    self._tell(each, info)
+            for console, message in replies:
+                console.channel.send(message)
+            if ended:
+                self.over.set()
+
+    def _tell(self, console: _Console, info: LaunchInfo) -> None:
+        if info is not console.known:
+            console.channel.send({"info": of_info(info, console.next_event)})
+            console.known = info
+            console.next_event = info.timeline[-1].seq + 1 if info.timeline else 0
+
+    def _received(self, console: _Console, message: Message) -> None:
+        number, verb, words = message.get("id"), message.get("do"), message.get("with", [])
+        reply = partial(self._reply, console, number)
+        if verb in ("launch", "start", "stop", "kill", "restart"):
+            outcome: Future[Answer] = getattr(self._service, verb)(*words)
+            outcome.add_done_callback(lambda done: reply(answer=[done.result().ok, done.result().text]))
+        elif verb == "arguments":
+            threading.Thread(target=self._arguments, args=(reply, *words), daemon=True).start()
+        elif verb == "files":
+            reply(value=list(self._service.files()))
+        elif verb == "close":
+            threading.Thread(target=self._close, args=(reply,), daemon=True).start()
+        else:
+            reply(error=f"this launch host does not know '{verb}': it is of another version")
+
+    def _reply(self, console: _Console, number: Any, **what: Any) -> None:
+        self._replies.append((console, {"id": number, **what}))
+        self._wake.set()
+
+    def _arguments(self, reply: Callable[..., None], path: str) -> None:
+        try:
+            reply(value=of_arguments(self._service.arguments(path)))
+        except ValueError as error:
+            reply(error=str(error))
+
+    def _close(self, reply: Callable[..., None] | None = None) -> None:
+        self._service.close()
+        if reply is not None:
+            reply(value=True)
+        self._ended = True
+        self._wake.set()
+
+    def _lost(self, console: _Console) -> None:
+        with self._lock:
+            self._consoles.remove(console)
+        if console.owner and not self.over.is_set():
+            self._close()
+
+    def close(self) -> None:
+        """End everything, then hang up."""
+        if not self.over.is_set():
+            self._close()
+            self.over.wait(1.0)
+        with self._lock:
+            consoles = list(self._consoles)
+        for each in consoles:
+            each.channel.close()

@@ -1,0 +1,59 @@
+"""What a launcher tells, as plain data and back."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict
+from typing import Any
+
+from bot_console.tui.console.model import (
+    LaunchArgument,
+    LaunchEvent,
+    LaunchInfo,
+    ProcessInfo,
+    ProcessState,
+    Severity,
+)
+
+
+def of_info(info: LaunchInfo, timeline_from: int) -> dict[str, Any]:
+    """What a launcher knows, with the events of the timeline from that number on."""
+    return {
+        "files": list(info.files),
+        "problem": info.problem,
+        "processes": [{**asdict(each), "state": each.state.value} for each in info.processes],
+        "timeline": [
+            [each.seq, each.stamp, each.text, int(each.severity)] for each in info.timeline if each.seq >= timeline_from
+        ],
+    }
+
+
+def to_info(data: Mapping[str, Any], before: LaunchInfo, kept: int) -> LaunchInfo:
+    """What `of_info` has made, on top of what was known before; what has not changed is the same object."""
+    known = {each.key: each for each in before.processes}
+    processes: list[ProcessInfo] = []
+    for each in data["processes"]:
+        process = _process(each)
+        same = known.get(process.key)
+        processes.append(same if same is not None and same == process else process)
+    events = (LaunchEvent(seq, stamp, text, Severity(severity)) for seq, stamp, text, severity in data["timeline"])
+    timeline = (*before.timeline, *events)[-kept:]
+    return LaunchInfo(tuple(data["files"]), tuple(processes), timeline, data["problem"])
+
+
+def _process(data: Mapping[str, Any]) -> ProcessInfo:
+    fields = dict(data)
+    fields.update(state=ProcessState(data["state"]), nodes=tuple(data["nodes"]), group=tuple(data["group"]))
+    return ProcessInfo(**fields)
+
+
+def of_arguments(arguments: Iterable[LaunchArgument]) -> list[dict[str, Any]]:
+    """The arguments of a launch file."""
+    return [asdict(each) for each in arguments]
+
+
+def to_arguments(data: Sequence[Mapping[str, Any]]) -> tuple[LaunchArgument, ...]:
+    """What `of_arguments` has made."""
+    return tuple(
+        LaunchArgument(each["name"], each["description"], each["default"], tuple(each["choices"])) for each in data
+    )

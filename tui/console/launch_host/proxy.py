@@ -1,0 +1,163 @@
+"""A launcher that lives in another process, as the console sees it."""
+
+from __future__ import annotations
+
+import itertools
+import socket
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Future
+from concurrent.futures import TimeoutError as TooLate
+from dataclasses import replace
+from typing import Any
+
+from bot_console.tui.console.launch_host.channel import Channel, Message
+from bot_console.tui.console.launch_host.plain import to_arguments, to_info
+from bot_console.tui.console.launch_process import ENDED
+from bot_console.tui.console.launch_timeline import KEPT
+from bot_console.tui.console.launcher import CLOSED
+from bot_console.tui.console.model import LaunchArgument, LaunchInfo, ProcessInfo, ProcessState, Severity
+from bot_console.tui.console.process_output import Add
+from bot_console.tui.console.protocol import Answer
+
+GONE = "the launch host has ended, and with it all that it had started"
+FILES_S = 2.0
+"""Seconds after which a list of files that does not come is empty."""
+ARGUMENTS_S = 30.0
+"""Seconds that a launch file may take to say its arguments: it is a program."""
+
+
+class HostedLauncher:
+    """The stand-in of a launch host. Methods may be called from any thread."""
+
+    def __init__(
+        self, connection: socket.socket, record: Add, printed: Callable[[int, str, str], None], *, owner: bool = True
+    ) -> None:
+        """An owner's `close` ends what runs, that of any other console only the connection."""
+        self._record = record
+        self._printed = printed
+        self._owner = owner
+        self._lock = threading.Lock()
+        self._numbers = itertools.count(1)
+        self._asked: dict[int, Future[Message]] = {}
+        self._info = LaunchInfo()
+        self._closed = False
+        self._gone = threading.Event()
+        self._channel = Channel(connection, self._received, self._lost)
+        self._channel.start()
+
+    def info(self) -> LaunchInfo:
+        """What is known now; the same object until something changes."""
+        return self._info
+
+    def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
+        """Run one more launch file; the answer comes when its first process runs or it has failed or ended."""
+        return self._want("launch", path, dict(arguments))
+
+    def start(self, key: str) -> Future[Answer]:
+        """Start an ended process again; the answer comes when it runs."""
+        return self._want("start", key)
+
+    def stop(self, key: str) -> Future[Answer]:
+        """Stop a process as Ctrl-C does; the answer comes when it has ended."""
+        return self._want("stop", key)
+
+    def kill(self, key: str) -> Future[Answer]:
+        """End a process at once, as SIGKILL does; launch starts it again where its launch file says so."""
+        return self._want("kill", key)
+
+    def restart(self, key: str) -> Future[Answer]:
+        """Stop, then start; the answer comes when it runs again."""
+        return self._want("restart", key)
+
+    def arguments(self, path: str) -> Sequence[LaunchArgument]:
+        """The arguments a launch file declares; raises `ValueError` when it cannot be read."""
+        try:
+            message = self._ask("arguments", path).result(ARGUMENTS_S)
+        except TooLate:
+            raise ValueError(f"{path} has not said its arguments for {ARGUMENTS_S:g} s") from None
+        if "error" in message:
+            raise ValueError(message["error"])
+        return to_arguments(message["value"])
+
+    def files(self) -> Sequence[str]:
+        """Launch files of the host's workspace."""
+        try:
+            return tuple(self._ask("files").result(FILES_S).get("value", ()))
+        except TooLate:
+            return ()
+
+    def close(self, patience: float = 12.0) -> None:
+        """End what runs where this is the owner's, and hang up, after so many seconds at most."""
+        with self._lock:
+            if self._closed:
+                return
+        if self._owner:
+            ended = self._ask("close")
+            try:
+                ended.result(patience)
+            except TooLate:
+                self._printed(Severity.WARN, "launch", f"the launch host has not ended within {patience:g} s")
+        with self._lock:
+            self._closed = True
+        self._channel.close()
+        self._gone.wait(1.0)
+
+    def _want(self, verb: str, *words: Any) -> Future[Answer]:
+        outcome: Future[Answer] = Future()
+
+        def answered(done: Future[Message]) -> None:
+            message = done.result()
+            ok, text = message.get("answer", (False, message.get("error", "")))
+            outcome.set_result(Answer(ok, text))
+
+        self._ask(verb, *words).add_done_callback(answered)
+        return outcome
+
+    def _ask(self, verb: str, *words: Any) -> Future[Message]:
+        asked: Future[Message] = Future()
+        with self._lock:
+            refusal = CLOSED if self._closed else GONE if self._gone.is_set() else ""
+            number = next(self._numbers)
+            if not refusal:
+                self._asked[number] = asked
+        if refusal:
+            asked.set_result({"error": refusal})
+        else:
+            self._channel.send({"id": number, "do": verb, "with": list(words)})
+        return asked
+
+    def _received(self, message: Message) -> None:
+        if "info" in message:
+            self._info = to_info(message["info"], self._info, KEPT)
+        elif "record" in message:
+            stamp, severity, name, text, site = message["record"]
+            self._record(stamp, severity, name, text, (site[0], site[1], site[2]))
+        elif "printed" in message:
+            severity, name, text = message["printed"]
+            self._printed(severity, name, text)
+        elif "dropped" in message:
+            self._printed(Severity.WARN, "launch", f"{message['dropped']} lines were dropped: they came too fast")
+        else:
+            with self._lock:
+                asked = self._asked.pop(message.get("id", 0), None)
+            if asked is not None:
+                asked.set_result(message)
+
+    def _lost(self) -> None:
+        with self._lock:
+            self._gone.set()
+            left = list(self._asked.values())
+            self._asked.clear()
+            why = CLOSED if self._closed else GONE
+        if why == GONE and any(each.state not in ENDED for each in self._info.processes):
+            processes = tuple(map(_with_its_host, self._info.processes))
+            self._info = replace(self._info, processes=processes, problem=GONE)
+        for each in left:
+            each.set_result({"error": why})
+
+
+def _with_its_host(process: ProcessInfo) -> ProcessInfo:
+    if process.state in ENDED:
+        return process
+    return replace(process, state=ProcessState.CRASHED, pid=None, cpu=None, problem=GONE)
