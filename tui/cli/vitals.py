@@ -20,6 +20,10 @@ class NodeVitals:
         """Processor time (s) of its threads."""
         return self._process.cpu_seconds()
 
+    def memory_bytes(self) -> int | None:
+        """None: threads share their memory."""
+        return None
+
     def hangs_in(self) -> str:
         """Where code of it still is although it was killed, as the runtime's notice says it."""
         process = self._process
@@ -31,6 +35,7 @@ class SystemVitals:
 
     def __init__(self, pid: int) -> None:
         self._stat = Path(f"/proc/{pid}/stat")
+        self._statm = Path(f"/proc/{pid}/statm")
 
     def cpu_seconds(self) -> float | None:
         """Processor time (s) of the process."""
@@ -39,6 +44,13 @@ class SystemVitals:
         except OSError:  # it has ended, or the system has no such file
             return None
         return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    def memory_bytes(self) -> int | None:
+        """What `top` calls RES: with what it shares with the fork server, if that has started it."""
+        try:
+            return int(self._statm.read_bytes().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+        except OSError:
+            return None
 
     def hangs_in(self) -> str:
         """Nothing survives a SIGKILL here."""

@@ -111,7 +111,7 @@ class LaunchedProcess:
         """It has ended; `respawns` says that launch will start it again by itself, `fault` which exception it left."""
         self._fault = fault
         self._alive = False
-        self.info = replace(self.info, exit_code=code, pid=None, cpu=None)
+        self.info = replace(self.info, exit_code=code, pid=None, cpu=None, memory=None)
         if not respawns:
             return self._end()
         if any(verb == "stop" for verb, _ in self._waiting):
@@ -155,11 +155,11 @@ class LaunchedProcess:
         problem = f"was killed, but code of it does not end: {where}"
         self.info = replace(self.info, state=ProcessState.ABANDONED, problem=problem)
 
-    def uses(self, cpu: float | None) -> bool:
-        """Note its share of a processor (1.0 is one whole); whether that is news."""
-        if cpu == self.info.cpu or not self._alive:
+    def uses(self, cpu: float | None, memory: int | None) -> bool:
+        """Note its share of a processor (1.0 is one whole) and its memory (MB); whether that is news."""
+        if (cpu, memory) == (self.info.cpu, self.info.memory) or not self._alive:
             return False
-        self.info = replace(self.info, cpu=cpu)
+        self.info = replace(self.info, cpu=cpu, memory=memory)
         return True
 
     def _settle(self, verbs: tuple[str, ...], answer: Answer) -> None:

@@ -16,10 +16,12 @@ from bot_console.tui.console.launch_run import LaunchRun, Listener
 from bot_console.tui.console.launch_timeline import LaunchTimeline
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo, ProcessState, Severity
 from bot_console.tui.console.process_output import Add, ProcessOutput
-from bot_console.tui.console.process_vitals import FindVitals, ProcessorShare, Vitals
+from bot_console.tui.console.process_vitals import FindVitals, Usage, Vitals
 from bot_console.tui.console.protocol import Answer
 
 CLOSED = "the console is closing"
+BUSY_S = 6.0
+"""Seconds after which a process that never waits is named."""
 
 
 class Joinable(Protocol):
@@ -40,7 +42,7 @@ class _Held:
         self.recipe = made_from
         self.output: ProcessOutput | None = None
         self.vitals: Vitals | None = None
-        self.share: ProcessorShare | None = None
+        self.usage: Usage | None = None
 
 
 class RosLauncher:
@@ -94,13 +96,21 @@ class RosLauncher:
             info = held.process.info
             if held.output is not None and held.process.alive:
                 held.output.settle()
-            if held.share is not None and held.process.alive:
-                self._dirty |= held.process.uses(held.share.share(now))
+            if held.usage is not None and held.process.alive:
+                self._look_at(held, held.usage, now)
             elif held.vitals is not None and info.exit_code == KILLED and info.state is not ProcessState.ABANDONED:
                 where = held.vitals.hangs_in() if info.state in ENDED else ""
                 if where:
                     held.process.abandoned(where)
                     self._tell(f"{info.label} is abandoned: {where}", Severity.WARN)
+
+    def _look_at(self, held: _Held, usage: Usage, now: float) -> None:
+        before = usage.busy_s
+        usage.look(now)
+        self._dirty |= held.process.uses(usage.share, usage.memory)
+        if before < BUSY_S <= usage.busy_s:
+            label = held.process.info.label
+            self._tell(f"{label} has kept a processor busy for {BUSY_S:g} s, without a break", Severity.WARN)
 
     def _tell(self, text: str, severity: Severity = Severity.INFO) -> None:
         self._timeline.tell(text, severity)
@@ -234,7 +244,7 @@ class RosLauncher:
         vitals = self._find_vitals(event.pid)
         with self._lock:
             held = self._by_action.get(event.action) or self._found(run, event, context)
-            held.vitals, held.share = vitals, ProcessorShare(vitals, time.monotonic()) if vitals else None
+            held.vitals, held.usage = vitals, Usage(vitals, time.monotonic()) if vitals else None
             held.output = ProcessOutput(event.process_name, self._record, self._printed, self._heard)
             order = held.process.started(event.process_name, event.pid, nodes)
             times = held.process.info.restarts
@@ -271,7 +281,7 @@ class RosLauncher:
             future = event.action.get_asyncio_future()
             respawns = future is not None and not future.done()
             order = held.process.exited(event.returncode, respawns, held.output.fault if held.output else "")
-            held.share = None
+            held.usage = None
             bad = held.process.info.state is ProcessState.CRASHED or held.process.info.problem
             text = f"{held.process.info.label} ended, exit code {event.returncode}"
             self._tell(text, Severity.ERROR if bad else Severity.INFO)

@@ -317,6 +317,9 @@ class ProcessInfo:
     exit_code: int | None = None
     problem: str = ""
     cpu: float | None = None
+    """Its share of a processor; 1.0 is one whole."""
+    memory: int | None = None
+    """What it holds in main memory, in MB (10^6 bytes); None where it has none of its own, as a thread has."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,29 +16,50 @@ class Vitals(Protocol):
         """Processor time that it has used, in s; None where the system does not tell."""
         ...
 
+    def memory_bytes(self) -> int | None:
+        """What it holds in main memory; None where the system does not tell, or where it has none of its own."""
+        ...
+
     def hangs_in(self) -> str:
         """Where code of it still is, although it was killed; empty when there is none."""
         ...
 
 
+BUSY_SHARE = 0.9
+"""The share of a processor from which a process counts as one that never waits."""
+
 FindVitals: TypeAlias = Callable[[int], "Vitals | None"]
 """Finds the vitals of a process by its pid, right after it was started; None where there are none."""
 
 
-class ProcessorShare:
-    """The share of one processor that a process uses, in whole percent, measured anew every second."""
+class Usage:
+    """What a process uses, measured anew every second: its share of one processor, and its memory."""
 
     def __init__(self, vitals: Vitals, now: float) -> None:
         self._vitals = vitals
         self._at = now
         self._used = vitals.cpu_seconds()
-        self._share: float | None = None
+        self.share: float | None = None
+        """1.0 is one whole processor, in whole percent; None as long as it is not known."""
+        self.memory: int | None = None
+        """MB (10^6 bytes), with two digits from 100 on so that it stands still while nothing happens."""
+        self.busy_s = 0.0
+        """How long (s) it has used nearly a whole processor, or more, without a break."""
 
-    def share(self, now: float) -> float | None:
-        """The share (1.0 is one whole processor), at a moment in steady s; None as long as it is not known."""
-        if now - self._at >= PERIOD:
-            used = self._vitals.cpu_seconds()
-            known = used is not None and self._used is not None
-            self._share = round(max(0.0, (used or 0.0) - (self._used or 0.0)) / (now - self._at), 2) if known else None
-            self._at, self._used = now, used
-        return self._share
+    def look(self, now: float) -> None:
+        """Measure, if it is time to, at a moment in steady s."""
+        passed = now - self._at
+        if passed < PERIOD:
+            return
+        used = self._vitals.cpu_seconds()
+        known = used is not None and self._used is not None
+        self.share = round(max(0.0, (used or 0.0) - (self._used or 0.0)) / passed, 2) if known else None
+        self.busy_s = self.busy_s + passed if (self.share or 0.0) >= BUSY_SHARE else 0.0
+        self._at, self._used = now, used
+        held = self._vitals.memory_bytes()
+        self.memory = None if held is None else _steady(held)
+
+
+def _steady(held: int) -> int:
+    megabytes = round(held / 1e6)
+    return megabytes if megabytes < 100 else round(megabytes, -1)

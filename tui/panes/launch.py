@@ -266,6 +266,7 @@ def facts(process: ProcessInfo, info: LaunchInfo) -> list[tuple[str, list[str]]]
     state = process.state.value + ("" if process.exit_code is None else f", last exit code {process.exit_code}")
     known = [f"state     {state}", f"pid       {process.pid or 'none'}", f"restarts  {process.restarts}"]
     known += [f"CPU       {process.cpu:.1%}"] if process.cpu is not None else []
+    known += [f"memory    {process.memory} MB"] if process.memory is not None else []
     events = [event_text(each) for each in info.timeline if process.label in each.text]
     return [
         ("Process", known),

@@ -113,6 +113,8 @@ class ProcessRows(RowList):
         columns.append("" if process.exit_code is None else f"  exit {process.exit_code}")
         if process.cpu is not None and width >= 60:
             columns.append(f"  {process.cpu:.0%} CPU")
+        if process.memory is not None and width >= 76:
+            columns.append(f"  {process.memory} MB")
         nodes = "  " + " ".join(process.nodes) if width >= 90 and process.nodes else ""
         if process.problem and (process.exit_code is None or width >= 60):
             columns.append(f"  {harmless(process.problem)}")

@@ -100,6 +100,31 @@ def test_a_node_has_a_process_and_a_crash_takes_nothing_else_along(hosted: Hoste
     assert hosted.named("waiter").state is ProcessState.EXITED
 
 
+FILLS = "import time\nheld = bytearray(300_000_000)\nprint('up', flush=True)\ntime.sleep(60)\n"
+LOOPS = "import time\nprint('up', flush=True)\nwhile True:\n    pass\n"
+FULL = """
+import resource
+held = int(open('/proc/self/statm').read().split()[0]) * resource.getpagesize() + 10_000_000
+resource.setrlimit(resource.RLIMIT_AS, (int(held), -1))
+print('up', flush=True)
+bytearray(100_000_000)
+"""
+
+
+@pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
+def test_who_uses_much_is_named_with_it_and_the_others_go_on(hosted: Hosted) -> None:
+    assert hosted.launch(waiter=WAITS, fills=FILLS, loops=LOOPS, full=FULL).ok
+    waiter = hosted.up("waiter")
+    hosted.until(lambda: (hosted.named("fills").memory or 0) >= 300)
+    hosted.until(lambda: (hosted.named("loops").cpu or 0.0) >= 0.2)
+    hosted.up("full")
+    hosted.until(lambda: hosted.named("full").state is ProcessState.CRASHED)
+    assert "MemoryError" in hosted.named("full").problem
+    assert hosted.named("waiter").memory < 100 and is_running(waiter.pid)
+    assert hosted.launcher.kill(hosted.named("loops").key).result(PATIENCE).ok
+    assert hosted.launcher.stop(waiter.key).result(PATIENCE).ok
+
+
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
 def test_a_killed_host_takes_its_processes_along_and_the_console_says_so(hosted: Hosted) -> None:
     assert hosted.launch(waiter=WAITS).ok

@@ -160,4 +160,4 @@ class HostedLauncher:
 def _with_its_host(process: ProcessInfo) -> ProcessInfo:
     if process.state in ENDED:
         return process
-    return replace(process, state=ProcessState.CRASHED, pid=None, cpu=None, problem=GONE)
+    return replace(process, state=ProcessState.CRASHED, pid=None, cpu=None, memory=None, problem=GONE)

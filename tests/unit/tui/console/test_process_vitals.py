@@ -1,0 +1,63 @@
+"""What a process uses of a processor and of memory, measured now and then."""
+
+from __future__ import annotations
+
+import os
+
+import pytest
+from bot_console.tui.cli.vitals import SystemVitals
+from bot_console.tui.console.process_vitals import Usage
+
+
+class Told:
+    """Vitals that a test sets."""
+
+    def __init__(self) -> None:
+        self.seconds: float | None = 0.0
+        self.bytes: int | None = 20_400_000
+
+    def cpu_seconds(self) -> float | None:
+        return self.seconds
+
+    def memory_bytes(self) -> int | None:
+        return self.bytes
+
+    def hangs_in(self) -> str:
+        return ""
+
+
+def test_a_share_over_each_second() -> None:
+    told = Told()
+    usage = Usage(told, 0.0)
+    told.seconds = 0.5
+    usage.look(0.9)
+    assert (usage.share, usage.memory) == (None, None)
+    usage.look(1.0)
+    assert (usage.share, usage.memory) == (0.5, 20)
+    told.seconds, told.bytes = 3.5, 1_231_000_000
+    usage.look(3.0)
+    assert (usage.share, usage.memory) == (1.5, 1230)
+
+
+def test_how_long_it_has_not_waited() -> None:
+    told = Told()
+    usage = Usage(told, 0.0)
+    for second, used in enumerate((0.95, 1.9, 2.0, 3.0), 1):
+        told.seconds = used
+        usage.look(float(second))
+    assert usage.busy_s == 1.0
+
+
+def test_what_nobody_tells_is_not_known() -> None:
+    told = Told()
+    usage = Usage(told, 0.0)
+    told.seconds = told.bytes = None
+    usage.look(1.0)
+    assert (usage.share, usage.memory, usage.busy_s) == (None, None, 0.0)
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="needs /proc")
+def test_this_process_and_none() -> None:
+    vitals = SystemVitals(os.getpid())
+    assert (vitals.memory_bytes() or 0) > 5_000_000 and (vitals.cpu_seconds() or 0.0) > 0.0
+    assert SystemVitals(1 << 22).memory_bytes() is None
