@@ -13,9 +13,10 @@ from bot_console.runtime.rmw.qos import Profile
 Notify = Callable[[], None]
 """Called, from any thread, when an endpoint has something new."""
 
-Event = Literal["matched", "incompatible", "alive", "gone", "asserted", "message"]
+Event = Literal["matched", "incompatible", "alive", "gone", "asserted", "lost", "message"]
 """What an endpoint's handlers are told. With "matched" comes 1 or -1, with "incompatible" the name of the policy, with
-"alive", "gone" and "asserted" the publisher (`Publisher` in `bus.py`) that came, went, or gave a sign of life.
+"alive", "gone" and "asserted" the publisher (`Publisher` in `bus.py`) that came, went, or gave a sign of life, with
+"lost" how many messages did not arrive.
 "message" is no event of a middleware: it tells those who watch that one was published or has come."""
 
 OnEvent = Callable[[Event, Any], None]

@@ -30,12 +30,13 @@ class LocalPublisher:
     """A publisher; `targets` are the subscriptions that receive, renewed when the graph changes."""
 
     __slots__ = (
-        *("_lifespan", "_now", "_number", "endpoint", "history", "lease", "on_event", "on_publish"),
-        *("open", "targets"),
+        *("_lifespan", "_lock", "_now", "_number", "_outlet", "elsewhere", "endpoint", "history", "lease"),
+        *("on_event", "on_publish", "open", "targets"),
     )
 
-    def __init__(self, endpoint: Endpoint, on_event: OnEvent) -> None:
+    def __init__(self, endpoint: Endpoint, on_event: OnEvent, lock: threading.RLock) -> None:
         self.endpoint = endpoint
+        self._lock = lock
         self.on_event = on_event
         self.on_publish: Notify | None = None
         """Called with each message, where somebody watches that."""
@@ -44,6 +45,9 @@ class LocalPublisher:
         self.lease: int | None = lease if manual and lease not in INFINITE else None
         """How long (ns) it counts as alive without a sign of life; None for as long as it is there."""
         self.targets: tuple[SubscriptionEndpoint, ...] = ()
+        self._outlet: SubscriptionEndpoint | None = None
+        self.elsewhere = 0
+        """How many subscriptions of other processes receive."""
         self.open = True
         self._number = 0
         self._now = current().clock.system_ns
@@ -99,7 +103,16 @@ class LocalPublisher:
 
     def matched_count(self) -> int:
         """How many subscriptions receive."""
-        return len(self.targets)
+        return len(self.targets) - (self._outlet is not None) + self.elsewhere
+
+    def send_elsewhere(self, outlet: SubscriptionEndpoint | None) -> None:
+        """Let a target take each message, serialized, for other processes; None where nobody wants it there."""
+        with self._lock:
+            if outlet is self._outlet or not self.open:
+                return
+            targets = tuple(each for each in self.targets if each is not self._outlet)
+            self._outlet = outlet
+            self.targets = targets if outlet is None else (*targets, outlet)
 
     @property
     def published(self) -> int:
@@ -153,7 +166,7 @@ class LocalBus:
         node = NodeId(name, namespace, enclave, next(self._numbers))
         with self._lock:
             self._nodes[node] = []
-        self._changed()
+        self.changed()
         return node
 
     def remove_node(self, node: NodeId) -> None:
@@ -162,11 +175,11 @@ class LocalBus:
             for thing in list(self._nodes.get(node, ())):
                 self._take_away(thing)
             self._nodes.pop(node, None)
-        self._changed()
+        self.changed()
 
     def create_publisher(self, endpoint: Endpoint, on_event: OnEvent) -> LocalPublisher:
         """Make a publisher and match it."""
-        publisher = LocalPublisher(endpoint, on_event)
+        publisher = LocalPublisher(endpoint, on_event, self._lock)
         with self._lock:
             if not self._own(endpoint.node, publisher):
                 return publisher
@@ -176,7 +189,7 @@ class LocalBus:
                 if self._match(publisher, each):
                     matched.append(each)
             publisher.targets = tuple(matched)
-        self._changed()
+        self.changed()
         return publisher
 
     def create_subscription(self, subscription: SubscriptionEndpoint) -> None:
@@ -193,7 +206,7 @@ class LocalBus:
                     publisher.targets = (*publisher.targets, subscription)
                     if late and publisher.history:
                         publisher.late(subscription)
-        self._changed()
+        self.changed()
 
     def _match(self, publisher: LocalPublisher, subscription: SubscriptionEndpoint) -> bool:
         """Whether the two go together, telling both sides."""
@@ -215,14 +228,14 @@ class LocalBus:
         with self._lock:
             if self._own(service.node, service):
                 self._services.setdefault(service.name, []).append(service)
-        self._changed()
+        self.changed()
 
     def create_client(self, client: ClientEndpoint) -> None:
         """Let a client appear in the graph."""
         with self._lock:
             if self._own(client.node, client):
                 self._clients.setdefault(client.name, []).append(client)
-        self._changed()
+        self.changed()
 
     def _own(self, node: NodeId, thing: Thing) -> bool:
         """Note what a node has; False when it has left the graph, as one that was killed while it went on."""
@@ -243,7 +256,7 @@ class LocalBus:
         """Take an endpoint away; a second time does nothing."""
         with self._lock:
             self._take_away(thing)
-        self._changed()
+        self.changed()
 
     def _take_away(self, thing: Thing) -> None:
         if isinstance(thing, LocalPublisher):
@@ -327,7 +340,8 @@ class LocalBus:
 
         return end
 
-    def _changed(self) -> None:
+    def changed(self) -> None:
+        """Tell those who watch the graph that it has changed."""
         for watcher in tuple(self._watchers):
             watcher()
 

@@ -173,12 +173,13 @@ class Session:
         return self._ended
 
     def declare_publisher(self, key: str, *, reliable: bool = True, cache: int = 0) -> Publisher:
-        """Make a publisher; with a `cache` late subscribers get as many of its last samples."""
+        """Make a publisher for other sessions; with a `cache` late subscribers get as many of its last samples."""
         import zenoh
 
         quality: dict[str, Any] = {
             "reliability": zenoh.Reliability.RELIABLE if reliable else zenoh.Reliability.BEST_EFFORT,
             "congestion_control": zenoh.CongestionControl.DROP,
+            "allowed_destination": zenoh.Locality.REMOTE,
         }
         ext = zenoh.ext
 
@@ -199,20 +200,22 @@ class Session:
     def declare_subscriber(
         self, key: str, received: Received, *, reliable: bool = True, history: int | None = None
     ) -> Declared:
-        """Make a subscriber; with a `history` it asks publishers for as many of their last samples."""
+        """Make a subscriber to other sessions; with a `history` it asks for as many of the last samples."""
         import zenoh
 
         def take(sample: zenoh.Sample) -> None:
             received(sample.payload.to_bytes(), _bytes(sample.attachment))
 
         ext = zenoh.ext
+        remote = zenoh.Locality.REMOTE
 
         def declare(session: zenoh.Session) -> Any:
             callback = zenoh.handlers.Callback(take, indirect=False)
             if history is None:
-                return session.declare_subscriber(key, callback)
+                return session.declare_subscriber(key, callback, allowed_origin=remote)
             return ext.declare_advanced_subscriber(
                 *(session, key, callback),
+                allowed_origin=remote,
                 history=ext.HistoryConfig(detect_late_publishers=True, max_samples=history),
                 recovery=ext.RecoveryConfig(periodic_queries=None, heartbeat=True) if reliable else None,
                 subscriber_detection=True,
@@ -237,7 +240,7 @@ class Session:
         )
 
     def declare_querier(self, key: str, timeout: float) -> Querier:
-        """Ask all queryables of a key, and end each request after `timeout` (s)."""
+        """Ask all queryables of a key in other sessions, and end each request after `timeout` (s)."""
         import zenoh
 
         return self._declare(
@@ -248,6 +251,7 @@ class Session:
                     target=zenoh.QueryTarget.ALL_COMPLETE,
                     consolidation=zenoh.ConsolidationMode.NONE,
                     congestion_control=zenoh.CongestionControl.DROP,
+                    allowed_destination=zenoh.Locality.REMOTE,
                     timeout=timeout,
                 ),
             )

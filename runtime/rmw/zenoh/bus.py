@@ -1,0 +1,263 @@
+"""The bus of several processes: local traffic goes from object to object, the rest in the wire format of rmw_zenoh."""
+
+from __future__ import annotations
+
+import itertools
+import threading
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from bot_console.runtime.rmw.bus import PublisherEndpoint, Thing
+from bot_console.runtime.rmw.endpoints import (
+    ClientEndpoint,
+    Endpoint,
+    Message,
+    NodeId,
+    Notify,
+    OnEvent,
+    ServiceEndpoint,
+    SubscriptionEndpoint,
+)
+from bot_console.runtime.rmw.local import LocalBus
+from bot_console.runtime.rmw.zenoh.attachment import gid_of
+from bot_console.runtime.rmw.zenoh.inlet import Inlet
+from bot_console.runtime.rmw.zenoh.keys import data_key
+from bot_console.runtime.rmw.zenoh.outlet import Outlet
+from bot_console.runtime.rmw.zenoh.qos_text import encode_qos
+from bot_console.runtime.rmw.zenoh.seen import Listener, Watches
+from bot_console.runtime.rmw.zenoh.services import Asking, RemoteClient, Served
+from bot_console.runtime.rmw.zenoh.session import Declared, Session
+from bot_console.runtime.rmw.zenoh.tokens import Kind, Token, TokenNode, entity_token, node_token
+from bot_console.runtime.rmw.zenoh.whole_graph import WholeGraph
+from bot_console.runtime.rosidl import type_hash
+
+SERVICE_QOS = "::,10:,:,:,,"
+"""Reliable, volatile, the last ten: rmw's default for services."""
+
+Way = Outlet | Inlet | Served | Asking
+
+
+@dataclass
+class Bridge:
+    """What an endpoint of this process has in the session."""
+
+    way: Way
+    token: Declared
+    watched: tuple[Kind, str, Listener] | None = None
+
+
+@dataclass
+class BridgedNode:
+    """A node of this process as others see it."""
+
+    node: TokenNode
+    token: Declared
+    bridges: dict[Any, Bridge] = field(default_factory=dict[Any, Bridge])
+
+
+class ZenohBus:
+    """The middleware of one ROS domain, shared with the other processes of the session's mesh."""
+
+    def __init__(self, session: Session, local: LocalBus) -> None:
+        self._session = session
+        self._local = local
+        self._numbers = itertools.count()
+        self._lock = threading.Lock()
+        self._nodes: dict[NodeId, BridgedNode] = {}
+        self._disowned: dict[Any, Bridge] = {}
+        self._watches = Watches(session)
+        self._whole: WholeGraph | None = None
+        self._whole_lock = threading.Lock()
+        session.on_rejoin = self._send_again
+
+    def add_node(self, name: str, namespace: str, enclave: str) -> NodeId:
+        """Let a node appear in the graph."""
+        node = self._local.add_node(name, namespace, enclave)
+        shown = TokenNode(self._session.zid, next(self._numbers), enclave, namespace, name)
+        token = self._session.declare_token(node_token(self._session.domain, shown))
+        with self._lock:
+            self._nodes[node] = BridgedNode(shown, token)
+        return node
+
+    def remove_node(self, node: NodeId) -> None:
+        """Let a node and all its endpoints leave the graph."""
+        with self._lock:
+            bridged = self._nodes.pop(node, None)
+        self._local.remove_node(node)
+        if bridged is None:
+            return
+        for bridge in bridged.bridges.values():
+            self._take_down(bridge)
+        bridged.token.undeclare()
+
+    def create_publisher(self, endpoint: Endpoint, on_event: OnEvent) -> PublisherEndpoint:
+        """Make a publisher; it serializes only where another process subscribes, or for those who come later."""
+        key, shown = self._names(endpoint.node, "MP", endpoint)
+        publisher = self._local.create_publisher(endpoint, on_event)
+        if shown:
+            outlet = Outlet(self._session, publisher, key)
+            watched: tuple[Kind, str, Listener] = ("MS", endpoint.topic, self._telling(outlet.saw))
+            self._keep(endpoint.node, publisher, Bridge(outlet, self._session.declare_token(shown), watched))
+        return publisher
+
+    def create_subscription(self, subscription: SubscriptionEndpoint) -> None:
+        """Let a subscription receive, from other processes too."""
+        endpoint = subscription.endpoint
+        key, shown = self._names(endpoint.node, "MS", endpoint)
+        self._local.create_subscription(subscription)
+        if shown:
+            inlet = Inlet(self._session, subscription, key)
+            watched: tuple[Kind, str, Listener] = ("MP", endpoint.topic, self._telling(inlet.saw))
+            self._watches.listen(*watched)  # who publishes is known before the first message comes
+            inlet.open()
+            self._keep(endpoint.node, subscription, Bridge(inlet, self._session.declare_token(shown), watched))
+
+    def create_service(self, service: ServiceEndpoint) -> None:
+        """Let a service server receive requests."""
+        key, shown = self._names(service.node, "SS", service)
+        self._local.create_service(service)
+        if shown:
+            served = Served(self._session, service, key)
+            self._keep(service.node, service, Bridge(served, self._session.declare_token(shown)))
+
+    def create_client(self, client: ClientEndpoint) -> None:
+        """Let a client of a service appear in the graph."""
+        key, shown = self._names(client.node, "SC", client)
+        self._local.create_client(client)
+        if shown:
+            asking = Asking(self._session, client, key)
+            watched: tuple[Kind, str, Listener] = ("SS", client.name, self._telling(asking.saw))
+            self._keep(client.node, client, Bridge(asking, self._session.declare_token(shown), watched))
+
+    def _names(self, node: NodeId, kind: Kind, thing: Endpoint | ServiceEndpoint | ClientEndpoint) -> tuple[str, str]:
+        """Key and token of a new entity, which gets its id; empty where its node has left the graph."""
+        with self._lock:
+            bridged = self._nodes.get(node)
+        if bridged is None:
+            return "", ""
+        if isinstance(thing, Endpoint):
+            name, cls, qos = thing.topic, thing.message_class, encode_qos(thing.qos)
+        else:
+            name, cls, qos = thing.name, thing.service_class, SERVICE_QOS
+        domain, hashed = self._session.domain, type_hash.text(cls)
+        token = entity_token(domain, bridged.node, next(self._numbers), kind, name, thing.type_name, hashed, qos)
+        if not isinstance(thing, ServiceEndpoint):
+            thing.gid = gid_of(token)
+        return data_key(domain, name, thing.type_name, hashed), token
+
+    def _keep(self, node: NodeId, thing: Any, bridge: Bridge) -> None:
+        with self._lock:
+            bridged = self._nodes.get(node)
+            if bridged is not None:
+                bridged.bridges[thing] = bridge
+        if bridged is None:  # the node has left meanwhile
+            self._take_down(bridge)
+        elif bridge.watched and not isinstance(bridge.way, Inlet):
+            self._watches.listen(*bridge.watched)
+
+    def _telling(self, saw: Listener) -> Listener:
+        """A listener whose changes the watchers of the graph hear of as well."""
+
+        def tell(token: Token, came: bool) -> None:
+            saw(token, came)
+            self._local.changed()
+
+        return tell
+
+    def _take_down(self, bridge: Bridge) -> None:
+        if bridge.watched:
+            self._watches.forget(*bridge.watched)
+        bridge.token.undeclare()
+        bridge.way.close()
+
+    def disown(self, thing: ServiceEndpoint | ClientEndpoint) -> None:
+        """Let a service server or client stay when its node leaves."""
+        self._local.disown(thing)
+        with self._lock:
+            bridged = self._nodes.get(thing.node)
+            bridge = bridged.bridges.pop(thing, None) if bridged else None
+            if bridge:
+                self._disowned[thing] = bridge
+
+    def remove(self, thing: Thing) -> None:
+        """Take an endpoint away; a second time does nothing."""
+        self._local.remove(thing)
+        node = thing.node if isinstance(thing, (ServiceEndpoint, ClientEndpoint)) else thing.endpoint.node
+        with self._lock:
+            bridged = self._nodes.get(node)
+            bridge = self._disowned.pop(thing, None) or (bridged.bridges.pop(thing, None) if bridged else None)
+        if bridge:
+            self._take_down(bridge)
+
+    def _bridge(self, thing: ServiceEndpoint | ClientEndpoint) -> Way | None:
+        with self._lock:
+            bridged = self._nodes.get(thing.node)
+            bridge = bridged.bridges.get(thing) if bridged else None
+        return bridge.way if bridge else None
+
+    def request(self, client: ClientEndpoint, number: int, request: Message) -> None:
+        """Send a request to the servers here and elsewhere; lost when there is none."""
+        self._local.request(client, number, request)
+        asking = self._bridge(client)
+        if isinstance(asking, Asking) and (asking.has_server or not self._local.has_server(client)):
+            asking.request(number, request)
+
+    def respond(self, client: ClientEndpoint, number: int, response: Message) -> None:
+        """Send a response to the client that asked."""
+        if isinstance(client, RemoteClient):
+            client.served.respond(client, number, response)
+        else:
+            self._local.respond(client, number, response)
+
+    def has_server(self, client: ClientEndpoint) -> bool:
+        """Whether a server of the client's service is there."""
+        asking = self._bridge(client)
+        return self._local.has_server(client) or (isinstance(asking, Asking) and asking.has_server)
+
+    def _graph(self) -> WholeGraph:
+        """The graph of the other processes, looked at from the first question on."""
+        with self._whole_lock:
+            if self._whole is None:
+                self._whole = WholeGraph(self._session, self._local.changed)
+            return self._whole
+
+    def nodes(self) -> Sequence[NodeId]:
+        """All nodes."""
+        return [*self._local.nodes(), *self._graph().nodes()]
+
+    def publishers(self) -> Sequence[Endpoint]:
+        """All publishers."""
+        return [*self._local.publishers(), *self._graph().publishers()]
+
+    def subscriptions(self) -> Sequence[Endpoint]:
+        """All subscriptions."""
+        return [*self._local.subscriptions(), *self._graph().subscriptions()]
+
+    def servers(self) -> Sequence[ServiceEndpoint]:
+        """All service servers."""
+        return [*self._local.servers(), *self._graph().servers()]
+
+    def clients(self) -> Sequence[ClientEndpoint]:
+        """All service clients."""
+        return [*self._local.clients(), *self._graph().clients()]
+
+    def on_graph_change(self, callback: Notify) -> Callable[[], None]:
+        """Call back at each change of the graph that this process looks at; returns what ends that."""
+        return self._local.on_graph_change(callback)
+
+    def published(self) -> int:
+        """How many messages the present publishers of this process have published in all."""
+        return self._local.published()
+
+    def close(self) -> None:
+        """Leave the mesh; what is within this process goes on."""
+        self._session.close()
+
+    def _send_again(self) -> None:
+        """The session was opened anew: it has to have again what latching publishers keep."""
+        with self._lock:
+            ways = [bridge.way for each in self._nodes.values() for bridge in each.bridges.values()]
+        for way in ways:
+            if isinstance(way, Outlet) and way.latching:
+                way.send_again()

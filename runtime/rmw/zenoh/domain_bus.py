@@ -1,0 +1,39 @@
+"""The bus that the processes of a user share, one for each ROS domain."""
+
+from __future__ import annotations
+
+import os
+import threading
+
+from bot_console.runtime.rmw.bus import Bus
+from bot_console.runtime.rmw.local import local_bus
+from bot_console.runtime.rmw.zenoh.bus import ZenohBus
+from bot_console.runtime.rmw.zenoh.session import open_session
+
+RANGE_VARIABLE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
+
+_buses: dict[int, ZenohBus] = {}
+_lock = threading.Lock()
+
+
+def shared_bus(domain: int) -> Bus:
+    """The bus of a domain, made at first use; the one within this process where the range of discovery is OFF.
+
+    To be given to `choose_middleware`. Raises what `open_session` raises.
+    """
+    if os.environ.get(RANGE_VARIABLE, "").upper() == "OFF":
+        return local_bus(domain)
+    with _lock:
+        if domain not in _buses:
+            session = open_session(domain)
+            session.watch()
+            _buses[domain] = ZenohBus(session, local_bus(domain))
+        return _buses[domain]
+
+
+def close_shared_buses() -> None:
+    """Leave all domains; contexts that still use their bus are not heard any more."""
+    with _lock:
+        for bus in _buses.values():
+            bus.close()
+        _buses.clear()

@@ -1,0 +1,115 @@
+"""The way of messages from other processes into a subscription's queue."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from bot_console.runtime.process import current
+from bot_console.runtime.process.notices import notify
+from bot_console.runtime.rmw.endpoints import SubscriptionEndpoint, depth
+from bot_console.runtime.rmw.qos_matching import INFINITE, incompatible_policy
+from bot_console.runtime.rmw.zenoh.attachment import gid_of, unpack
+from bot_console.runtime.rmw.zenoh.keys import FormatError
+from bot_console.runtime.rmw.zenoh.outlet import mismatch
+from bot_console.runtime.rmw.zenoh.session import Declared, Session
+from bot_console.runtime.rmw.zenoh.tokens import Token
+from bot_console.runtime.rosidl.cdr import CdrError, deserialize
+
+ALL_KEPT = 1000
+"""How many messages of before a subscription asks for whose profile keeps all."""
+
+
+@dataclass(eq=False)
+class RemotePublisher:
+    """A publisher of another process, as far as the subscription knows it. `lifespan` is in ns, None without limit."""
+
+    fits: bool = True
+    lifespan: int | None = None
+    number: int = 0
+    """The number of its last message."""
+
+    lease: int | None = None
+
+
+class Inlet:
+    """Receives for one subscription what others publish."""
+
+    def __init__(self, session: Session, subscription: SubscriptionEndpoint, key: str) -> None:
+        self._subscription = subscription
+        self._key = key
+        self._publishers: dict[bytes, RemotePublisher] = {}
+        self._process = current()
+        self._session = session
+        self._declared: Declared | None = None
+        qos = subscription.endpoint.qos
+        self._latched = qos.durability.name in ("TRANSIENT_LOCAL", "BEST_AVAILABLE")
+
+    def open(self) -> None:
+        """Begin to receive."""
+        qos = self._subscription.endpoint.qos
+        history = (depth(qos) or ALL_KEPT) if self._latched else None
+        reliable = qos.reliability.name != "BEST_EFFORT"
+        self._declared = self._session.declare_subscriber(self._key, self.received, reliable=reliable, history=history)
+
+    def received(self, payload: bytes, attachment: bytes | None) -> None:
+        """A message has come, on one of Zenoh's threads."""
+        subscription = self._subscription
+        try:
+            number, stamp, gid = unpack(attachment)
+            publisher = self._publishers.get(gid)
+            if publisher is None:
+                publisher = self._publishers[gid] = RemotePublisher()
+            if not publisher.fits or (self._latched and number <= publisher.number):
+                return
+            if publisher.number and number > publisher.number + 1:
+                self._lost(number - publisher.number - 1)
+            publisher.number = number
+            message = payload if subscription.raw else deserialize(payload, subscription.endpoint.message_class)
+        except (FormatError, CdrError) as error:
+            notify(self._process, f"a message on '{subscription.endpoint.topic}' was dropped: {error}")
+            return
+        expires = None if publisher.lifespan is None else stamp + publisher.lifespan
+        subscription.queue.append((message, stamp, number, expires))
+        subscription.notify()
+
+    def _lost(self, count: int) -> None:
+        endpoint = self._subscription.endpoint
+        self._subscription.on_event("lost", count)
+        if endpoint.qos.reliability.name == "RELIABLE":
+            notify(
+                self._process,
+                f"messages of '{endpoint.topic}' were lost between processes: they are published faster than they can "
+                "be taken; publish less often, or use KEEP_ALL on the publisher",
+            )
+
+    def saw(self, token: Token, came: bool) -> None:
+        """A publisher of another process came or went."""
+        subscription = self._subscription
+        endpoint = subscription.endpoint
+        if token.type_name != endpoint.type_name:
+            return
+        if not self._key.endswith("/" + token.type_hash):
+            if came:
+                notify(self._process, mismatch(endpoint.topic, endpoint.type_name, token))
+            return
+        gid = gid_of(token.key)
+        policy = incompatible_policy(token.qos, endpoint.qos)
+        if came:
+            publisher = self._publishers.setdefault(gid, RemotePublisher())
+            publisher.fits = not policy
+            lifespan = token.qos.lifespan.nanoseconds
+            publisher.lifespan = None if lifespan in INFINITE else lifespan
+        else:
+            publisher = self._publishers.pop(gid, RemotePublisher())
+        if policy:
+            if came:
+                subscription.on_event("incompatible", policy)
+            return
+        subscription.matched += 1 if came else -1
+        subscription.on_event("matched", 1 if came else -1)
+        subscription.on_event("alive" if came else "gone", publisher)
+
+    def close(self) -> None:
+        """Receive nothing any more."""
+        if self._declared is not None:
+            self._declared.undeclare()

@@ -1,0 +1,43 @@
+"""Keys under which topics and services travel, and how names and types are written in them.
+
+The format is that of rmw_zenoh. A key ends with the hash of the type, so two sides with different definitions of a type
+do not hear each other at all.
+"""
+
+from __future__ import annotations
+
+NO_HASH = "TypeHashNotSupported"
+"""Stands for the hash on ROS 2 Humble, which has none."""
+
+
+class FormatError(ValueError):
+    """A text or bytes that are not of the format; the message says what is wrong."""
+
+
+def dds_type(type_name: str) -> str:
+    """`std_msgs/msg/String` as `std_msgs::msg::dds_::String_`."""
+    package, kind, short = type_name.split("/")
+    return f"{package}::{kind}::dds_::{short}_"
+
+
+def ros_type(dds: str) -> str:
+    """`std_msgs::msg::dds_::String_` as `std_msgs/msg/String`; raises `FormatError`."""
+    parts = dds.split("::")
+    if len(parts) != 4 or parts[2] != "dds_" or not parts[3].endswith("_") or not all(parts):
+        raise FormatError(f"no type of ROS: {dds!r}")
+    return f"{parts[0]}/{parts[1]}/{parts[3][:-1]}"
+
+
+def data_key(domain: int, name: str, type_name: str, type_hash: str) -> str:
+    """The key of a topic or service; `name` is fully qualified."""
+    return f"{domain}/{name.strip('/')}/{dds_type(type_name)}/{type_hash}"
+
+
+def mangled(name: str) -> str:
+    """A name in one part of a key: each slash becomes a per cent sign, and nothing is the root."""
+    return name.replace("/", "%") or "%"
+
+
+def demangled(part: str) -> str:
+    """The name that a part of a key stands for."""
+    return part.replace("%", "/")

@@ -1,0 +1,96 @@
+"""The way of a publisher's messages to other processes: serialized where somebody there wants them."""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import Any
+
+from bot_console.runtime.process import current
+from bot_console.runtime.process.notices import notify
+from bot_console.runtime.rmw.endpoints import SubscriptionEndpoint, depth
+from bot_console.runtime.rmw.local import LocalPublisher
+from bot_console.runtime.rmw.qos_matching import incompatible_policy
+from bot_console.runtime.rmw.zenoh.attachment import pack
+from bot_console.runtime.rmw.zenoh.session import Publisher, Session
+from bot_console.runtime.rmw.zenoh.tokens import Token
+
+ALL_KEPT = 1000
+"""How many messages a latching publisher keeps for others where its profile says all."""
+
+
+class Outlet(deque[Any]):
+    """Stands among the local subscriptions of a publisher as the one for all other processes.
+
+    What the publisher puts into its queue goes out at once. A latching publisher's messages always do: those who come
+    later get them from the session, not from the program.
+    """
+
+    def __init__(self, session: Session, publisher: LocalPublisher, key: str) -> None:
+        super().__init__()
+        self._session = session
+        self._publisher = publisher
+        self._key = key
+        self._gid = publisher.endpoint.gid
+        self._out: Publisher | None = None
+        self._process = current()
+        self._target = SubscriptionEndpoint(publisher.endpoint, True, self, _nothing)
+        self.latching = publisher.history is not None
+        if self.latching:
+            self._open()
+            publisher.send_elsewhere(self._target)
+
+    def append(self, entry: Any) -> None:
+        """Send one message that the publisher has serialized."""
+        data, stamp, number, _ = entry
+        out = self._out or self._open()
+        out.put(data, pack(number, stamp, self._gid))
+
+    def _open(self) -> Publisher:
+        qos = self._publisher.endpoint.qos
+        cache = (depth(qos) or ALL_KEPT) if self.latching else 0
+        reliable = qos.reliability.name != "BEST_EFFORT"
+        self._out = self._session.declare_publisher(self._key, reliable=reliable, cache=cache)
+        return self._out
+
+    def saw(self, token: Token, came: bool) -> None:
+        """A subscription of another process came or went."""
+        publisher = self._publisher
+        endpoint = publisher.endpoint
+        if token.type_name != endpoint.type_name:
+            return
+        if not self._key.endswith("/" + token.type_hash):
+            if came:
+                notify(self._process, mismatch(endpoint.topic, endpoint.type_name, token))
+            return
+        policy = incompatible_policy(endpoint.qos, token.qos)
+        if policy:
+            if came:
+                publisher.on_event("incompatible", policy)
+            return
+        publisher.elsewhere += 1 if came else -1
+        if not self.latching:
+            publisher.send_elsewhere(self._target if publisher.elsewhere else None)
+        publisher.on_event("matched", 1 if came else -1)
+
+    def send_again(self) -> None:
+        """Give the session, which was opened anew, what a latching publisher has kept."""
+        self._publisher.late(self._target)
+
+    def close(self) -> None:
+        """Send nothing any more."""
+        self._publisher.send_elsewhere(None)
+        if self._out is not None:
+            self._out.undeclare()
+
+
+def mismatch(topic: str, type_name: str, token: Token) -> str:
+    """What is said where two processes have different definitions of a type: they do not hear each other."""
+    node = f"{token.node.namespace.rstrip('/')}/{token.node.name}"
+    return (
+        f"'{topic}': {type_name} is defined otherwise in node {node} (hash {token.type_hash}), "
+        "so no messages pass: build both from the same definition"
+    )
+
+
+def _nothing() -> None:
+    """What is sent wakes nobody here."""

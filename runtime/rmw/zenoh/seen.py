@@ -1,0 +1,92 @@
+"""What this process looks at of the graph: the tokens of other processes under a key, as they come and go."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from contextlib import suppress
+
+from bot_console.runtime.rmw.zenoh.keys import FormatError
+from bot_console.runtime.rmw.zenoh.session import Declared, Session
+from bot_console.runtime.rmw.zenoh.tokens import Kind, Token, parse_token, tokens_of
+
+Listener = Callable[[Token, bool], None]
+"""Called with a token that came (True) or went; it may append and wake, and nothing else."""
+
+
+class SeenTokens:
+    """The tokens of other sessions under one key; a listener hears of those that are there and of every change."""
+
+    def __init__(self, session: Session, key: str) -> None:
+        self._own = session.zid
+        self._lock = threading.RLock()
+        self._tokens: dict[str, Token] = {}
+        self._listeners: list[Listener] = []
+        self._declared: Declared = session.watch_tokens(key, self.saw)
+
+    def saw(self, key: str, came: bool) -> None:
+        """A token came or went; one that is no token of the format is ignored, as are those of this session."""
+        with suppress(FormatError):
+            token = parse_token(key)
+            if token.node.zid == self._own:
+                return
+            with self._lock:
+                if came == (key in self._tokens):
+                    return
+                if came:
+                    self._tokens[key] = token
+                else:
+                    del self._tokens[key]
+                for listener in tuple(self._listeners):
+                    listener(token, came)
+
+    def listen(self, listener: Listener) -> None:
+        """Tell a listener of what is there, and of all changes from now on."""
+        with self._lock:
+            self._listeners.append(listener)
+            for token in tuple(self._tokens.values()):
+                listener(token, True)
+
+    def forget(self, listener: Listener) -> bool:
+        """Tell a listener no more; whether nobody listens now."""
+        with self._lock:
+            if listener in self._listeners:
+                self._listeners.remove(listener)
+            return not self._listeners
+
+    def tokens(self) -> list[Token]:
+        """Those that are there."""
+        with self._lock:
+            return list(self._tokens.values())
+
+    def close(self) -> None:
+        """Look no more."""
+        self._declared.undeclare()
+
+
+class Watches:
+    """What is looked at for the endpoints of this process: one key for each topic or service and kind, shared."""
+
+    def __init__(self, session: Session) -> None:
+        self._session = session
+        self._lock = threading.Lock()
+        self._seen: dict[tuple[Kind, str], SeenTokens] = {}
+
+    def listen(self, kind: Kind, topic: str, listener: Listener) -> SeenTokens:
+        """Tell a listener of the tokens of one kind for one topic or service."""
+        with self._lock:
+            seen = self._seen.get((kind, topic))
+            if seen is None:
+                seen = SeenTokens(self._session, tokens_of(self._session.domain, kind, topic))
+                self._seen[kind, topic] = seen
+        seen.listen(listener)
+        return seen
+
+    def forget(self, kind: Kind, topic: str, listener: Listener) -> None:
+        """Tell a listener no more."""
+        with self._lock:
+            seen = self._seen.get((kind, topic))
+            if seen is None or not seen.forget(listener):
+                return
+            del self._seen[kind, topic]
+        seen.close()

@@ -1,0 +1,142 @@
+"""Requests and responses between processes."""
+
+from __future__ import annotations
+
+import threading
+from typing import Any
+
+from bot_console.runtime.process import current
+from bot_console.runtime.process.notices import notify
+from bot_console.runtime.rmw.endpoints import ClientEndpoint, NodeId, ServiceEndpoint
+from bot_console.runtime.rmw.zenoh.attachment import pack, unpack
+from bot_console.runtime.rmw.zenoh.keys import FormatError
+from bot_console.runtime.rmw.zenoh.session import Declared, Querier, Query, Session
+from bot_console.runtime.rmw.zenoh.tokens import Token
+from bot_console.runtime.rosidl.cdr import CdrError, deserialize, serialize
+
+TIMEOUT = 600.0
+"""After this time, in s, an answer is waited for no more; as rmw_zenoh does."""
+RESULT_TIMEOUT = 30 * 86400.0
+"""The same for the result of an action, which comes when the goal has ended."""
+RESULT = "/_action/get_result"
+MOST_PENDING = 1000
+"""So many unanswered requests a server remembers; the oldest are given up."""
+
+Caller = tuple[bytes, int]
+"""A request: the client's id, and its number there."""
+
+
+class RemoteClient(ClientEndpoint):
+    """A client of another process, as the queue of the server that it asked names it."""
+
+    served: Served
+
+
+class Served:
+    """Puts the requests of other processes into a server's queue, and sends the responses back."""
+
+    def __init__(self, session: Session, service: ServiceEndpoint, key: str) -> None:
+        self._service = service
+        self._lock = threading.Lock()
+        self._pending: dict[Caller, Query] = {}
+        self._process = current()
+        self._clock = current().clock
+        self._declared: Declared = session.declare_queryable(key, self.asked)
+
+    def asked(self, query: Query) -> None:
+        """A request has come, on one of Zenoh's threads."""
+        service = self._service
+        try:
+            number, _, gid = unpack(query.attachment)
+            if number < 0 or not query.payload:
+                raise FormatError("its number is negative, or it is empty")
+            request = deserialize(query.payload, service.service_class.Request)
+        except (FormatError, CdrError) as error:
+            notify(self._process, f"a request to '{service.name}' was dropped: {error}")
+            query.drop()
+            return
+        with self._lock:
+            if (gid, number) in self._pending:
+                query.drop()
+                return
+            self._pending[gid, number] = query
+            oldest = self._pending.pop(next(iter(self._pending))) if len(self._pending) > MOST_PENDING else None
+        if oldest is not None:
+            oldest.drop()
+        client = RemoteClient(NOWHERE, service.name, service.type_name, _nothing, service.service_class, gid=gid)
+        client.served = self
+        service.queue.append((client, number, request))
+        service.notify()
+
+    def respond(self, client: RemoteClient, number: int, response: Any) -> None:
+        """Send a response; without a request that waits for it nothing happens."""
+        with self._lock:
+            query = self._pending.pop((client.gid, number), None)
+        if query is not None:
+            query.answer(serialize(response), pack(number, self._clock.system_ns(), client.gid))
+
+    def close(self) -> None:
+        """Serve no more."""
+        self._declared.undeclare()
+        with self._lock:
+            pending, self._pending = self._pending, {}
+        for query in pending.values():
+            query.drop()
+
+
+class Asking:
+    """Sends the requests of a client to servers of other processes, and puts their responses into its queue."""
+
+    def __init__(self, session: Session, client: ClientEndpoint, key: str) -> None:
+        self._session = session
+        self._client = client
+        self._key = key
+        self._process = current()
+        self._clock = current().clock
+        self._querier: Querier | None = None
+        self._servers = 0
+
+    @property
+    def has_server(self) -> bool:
+        """Whether another process has a server of this service."""
+        return self._servers > 0
+
+    def saw(self, token: Token, came: bool) -> None:
+        """A server of another process came or went."""
+        if token.type_name == self._client.type_name and self._key.endswith("/" + token.type_hash):
+            self._servers += 1 if came else -1
+
+    def request(self, number: int, request: Any) -> None:
+        """Ask the servers of other processes; without any nothing happens."""
+        if self._querier is None:
+            timeout = RESULT_TIMEOUT if self._client.name.endswith(RESULT) else TIMEOUT
+            self._querier = self._session.declare_querier(self._key, timeout)
+        attachment = pack(number, self._clock.system_ns(), self._client.gid)
+        self._querier.get(serialize(request), attachment, self._replied, _nothing)
+
+    def _replied(self, payload: bytes, attachment: bytes | None) -> None:
+        """A response has come, on one of Zenoh's threads."""
+        client = self._client
+        try:
+            number, _, gid = unpack(attachment)
+            if gid != client.gid:
+                return
+            response = deserialize(payload, client.service_class.Response)
+        except (FormatError, CdrError) as error:
+            notify(self._process, f"a response of '{client.name}' was dropped: {error}")
+            return
+        client.queue.append((number, response))
+        client.notify()
+
+    def close(self) -> None:
+        """Ask no more."""
+        if self._querier is not None:
+            self._querier.undeclare()
+
+
+NOWHERE = NodeId("", "/")
+"""The node of a client that is not looked up."""
+
+
+def _nothing() -> None:
+    """Nobody is there to be told."""

@@ -1,0 +1,95 @@
+"""Liveliness tokens: how nodes, publishers, subscriptions, servers and clients show in the graph."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+from bot_console.runtime.rmw.zenoh.keys import FormatError, dds_type, demangled, mangled, ros_type
+from bot_console.runtime.rmw.zenoh.qos_text import WireQos, decode_qos
+
+Kind = Literal["NN", "MP", "MS", "SS", "SC"]
+"""Node, publisher, subscription, service server, service client."""
+
+NODE_PARTS = 9
+ENTITY_PARTS = 13
+SPACE = "@ros2_lv"
+DEFAULT_QOS = WireQos()
+KINDS: tuple[str, ...] = get_args(Kind)
+
+
+@dataclass(frozen=True)
+class TokenNode:
+    """The node that a token names; `zid` is the session's, `number` the node's in it."""
+
+    zid: str
+    number: int
+    enclave: str
+    namespace: str
+    name: str
+
+
+@dataclass(frozen=True)
+class Token:
+    """What a token says; `topic`, type and hash are empty for a node. `number` is the entity's in its session."""
+
+    key: str
+    kind: Kind
+    node: TokenNode
+    number: int
+    topic: str = ""
+    type_name: str = ""
+    type_hash: str = ""
+    qos: WireQos = DEFAULT_QOS
+
+
+def node_token(domain: int, node: TokenNode) -> str:
+    """The token of a node."""
+    return _head(domain, node, node.number, "NN")
+
+
+def entity_token(
+    domain: int, node: TokenNode, number: int, kind: Kind, topic: str, type_name: str, type_hash: str, qos: str
+) -> str:
+    """The token of an entity of a node; `topic` is a full name, of a service too, `qos` the text of a profile."""
+    head = _head(domain, node, number, kind)
+    return f"{head}/{mangled(topic)}/{dds_type(type_name)}/{type_hash}/{qos}"
+
+
+def _head(domain: int, node: TokenNode, number: int, kind: Kind) -> str:
+    names = f"{mangled(node.enclave)}/{mangled(node.namespace)}/{node.name}"
+    return f"{SPACE}/{domain}/{node.zid}/{node.number}/{number}/{kind}/{names}"
+
+
+def parse_token(key: str) -> Token:
+    """What a token says; parts beyond those known are ignored. Raises `FormatError`."""
+    parts = key.split("/")
+    if len(parts) < NODE_PARTS or parts[0] != SPACE:
+        raise FormatError(f"no liveliness token of ROS: {key!r}")
+    zid, kind = parts[2], parts[5]
+    if kind not in KINDS or (kind != "NN" and len(parts) < ENTITY_PARTS):
+        raise FormatError(f"no liveliness token of ROS: {key!r}")
+    _natural(parts[1], key)
+    node = TokenNode(zid, _natural(parts[3], key), demangled(parts[6]), demangled(parts[7]), parts[8])
+    number = _natural(parts[4], key)
+    if kind == "NN":
+        return Token(key, "NN", node, number)
+    topic, dds, type_hash, qos = parts[9:ENTITY_PARTS]
+    known: Kind = kind  # pyright: ignore[reportAssignmentType] -- one of `KINDS`, as was checked
+    return Token(key, known, node, number, demangled(topic), ros_type(dds), type_hash, decode_qos(qos))
+
+
+def _natural(part: str, key: str) -> int:
+    if not (part.isascii() and part.isdecimal() and len(part) <= 20):
+        raise FormatError(f"no number: {part!r} in {key!r}")
+    return int(part)
+
+
+def all_tokens(domain: int) -> str:
+    """The key that all tokens of a domain match."""
+    return f"{SPACE}/{domain}/**"
+
+
+def tokens_of(domain: int, kind: Kind, topic: str) -> str:
+    """The key that the tokens of one kind for one topic or service match."""
+    return f"{SPACE}/{domain}/*/*/*/{kind}/*/*/*/{mangled(topic)}/**"

@@ -1,0 +1,149 @@
+"""What rclpy promises holds between two processes: one shared system for the whole module."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from bot_console.runtime.rmw.local import local_bus
+from bot_console.runtime.rmw.middleware import choose_middleware
+from bot_console.runtime.rmw.zenoh.domain_bus import close_shared_buses, shared_bus
+from example_interfaces.action import Fibonacci
+from helpers.mesh import eventually
+from rcl_interfaces.msg import Log, ParameterEvent
+from rclpy.action import ActionClient
+from rclpy.context import Context
+from rclpy.event_handler import SubscriptionEventCallbacks
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.parameter_client import AsyncParameterClient
+from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+
+DOMAIN = 61
+PEER = Path(__file__).resolve().parents[1] / "helpers" / "zenoh_peer.py"
+PATIENCE = 60.0
+
+
+class Here:
+    """This process's node, served while something is waited for."""
+
+    def __init__(self):
+        self.context = Context()
+        self.context.init([], domain_id=DOMAIN)
+        self.node = Node("here", context=self.context)
+        self.executor = SingleThreadedExecutor(context=self.context)
+        self.executor.add_node(self.node)
+
+    def until(self, true):
+        def spun():
+            self.executor.spin_once(timeout_sec=0.01)
+            return true()
+
+        assert eventually(spun)
+
+    def result(self, future):
+        self.until(future.done)
+        return future.result()
+
+
+@pytest.fixture(scope="module")
+def here(tmp_path_factory):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("BOT_CONSOLE_SOCKET_DIR", str(tmp_path_factory.mktemp("mesh") / "s"))
+        patch.setenv("ROS_DOMAIN_ID", str(DOMAIN))
+        choose_middleware(shared_bus)
+        peer = subprocess.Popen([sys.executable, str(PEER)], env=dict(os.environ))
+        system = Here()
+        try:
+            client = system.node.create_client(Trigger, "/pull")
+            assert client.wait_for_service(PATIENCE)
+            yield system
+        finally:
+            peer.kill()
+            peer.wait()
+            system.node.destroy_node()
+            system.context.shutdown()
+            choose_middleware(local_bus)
+            close_shared_buses()
+
+
+def test_what_is_said_is_heard_once_and_in_order(here):
+    heard = []
+    here.node.create_subscription(String, "/echo", lambda m: heard.append(m.data), 1000)
+    publisher = here.node.create_publisher(String, "/say", 1000)
+    here.until(lambda: publisher.get_subscription_count() == 1)
+    here.until(lambda: here.node.count_publishers("/echo") == 1)
+    said = [str(each) for each in range(200)]
+    for each in said:
+        publisher.publish(String(data=each))
+    here.until(lambda: len(heard) >= 200)
+    assert heard == said
+
+
+def test_a_latched_message_waits_for_those_who_come_later(here):
+    heard = []
+    qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    here.node.create_subscription(String, "/latched", lambda m: heard.append(m.data), qos)
+    here.until(lambda: heard)
+    assert heard == ["kept"]
+
+
+def test_a_profile_that_does_not_fit_is_told_and_nothing_is_received(here):
+    told, heard, fitting = [], [], []
+    events = SubscriptionEventCallbacks(incompatible_qos=told.append)
+    here.node.create_subscription(String, "/poor", heard.append, 10, event_callbacks=events)
+    here.node.create_subscription(String, "/poor", fitting.append, qos_profile_sensor_data)
+    here.until(lambda: told and len(fitting) > 3)
+    assert heard == []
+    assert told[0].total_count == 1
+
+
+def test_a_service_answers_and_its_log_line_arrives(here):
+    lines = []
+    qos = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    here.node.create_subscription(Log, "/rosout", lambda line: lines.append(line.msg), qos)
+    client = here.node.create_client(Trigger, "/pull")
+    here.until(client.service_is_ready)
+    answer = here.result(client.call_async(Trigger.Request()))
+    assert (answer.success, answer.message) == (True, "pulled")
+    here.until(lambda: "somebody pulled" in lines)
+
+
+def test_an_action_gives_feedback_and_a_result(here):
+    client = ActionClient(here.node, Fibonacci, "/fibonacci")
+    here.until(client.server_is_ready)
+    feedback = []
+    goal = here.result(client.send_goal_async(Fibonacci.Goal(order=3), feedback.append))
+    assert goal.accepted
+    result = here.result(goal.get_result_async()).result
+    assert list(result.sequence) == [0, 1, 1, 2, 3]
+    # The last ones may come after the goal is known to have ended, and are dropped then, as on real ROS.
+    assert list(feedback[0].feedback.sequence) == [0, 1, 1]
+
+
+def test_parameters_are_read_and_set_and_the_change_is_told(here):
+    events = []
+    here.node.create_subscription(ParameterEvent, "/parameter_events", events.append, 10)
+    client = AsyncParameterClient(here.node, "/other/peer")
+    here.until(client.services_are_ready)
+    here.until(lambda: here.node.count_publishers("/parameter_events") >= 2)
+    assert here.result(client.get_parameters(["speed"])).values[0].double_value == 1.5
+    assert here.result(client.set_parameters([Parameter("speed", value=2.5)])).results[0].successful
+    here.until(lambda: any(each.node == "/other/peer" for each in events))
+    refused = here.result(client.set_parameters([Parameter("speed", value="fast")])).results[0]
+    assert not refused.successful and refused.reason
+
+
+def test_the_graph_shows_both(here):
+    names = here.node.get_node_names_and_namespaces()
+    assert sorted(names) == [("here", "/"), ("peer", "/other")]
+    (info,) = here.node.get_publishers_info_by_topic("/echo")
+    assert (info.node_name, info.node_namespace, info.topic_type) == ("peer", "/other", "std_msgs/msg/String")
+    assert str(info.topic_type_hash).startswith("RIHS01_df668c74")
+    assert info.qos_profile.depth == 1000
+    services = dict(here.node.get_service_names_and_types_by_node("peer", "/other"))
+    assert services["/pull"] == ["std_srvs/srv/Trigger"]

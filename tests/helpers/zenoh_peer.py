@@ -1,0 +1,56 @@
+"""The other process of the tests of two: one node with an entity of each kind, in the domain of the environment."""
+
+from bot_console.runtime.importer import install
+
+install()
+
+import rclpy
+from bot_console.runtime.rmw.middleware import choose_middleware
+from bot_console.runtime.rmw.zenoh.domain_bus import shared_bus
+from example_interfaces.action import Fibonacci
+from rclpy.action import ActionServer
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+
+
+class Peer(Node):
+    """Latches one message, echoes, answers, counts, and offers a topic that nobody who wants reliability can have."""
+
+    def __init__(self) -> None:
+        super().__init__("peer", namespace="other")
+        self.declare_parameter("speed", 1.5)
+        self.latched = self.create_publisher(
+            String, "/latched", QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        )
+        self.latched.publish(String(data="overwritten"))
+        self.latched.publish(String(data="kept"))
+        self.echo = self.create_publisher(String, "/echo", 1000)
+        self.create_subscription(String, "/say", self.echo.publish, 1000)
+        self.poor = self.create_publisher(
+            String, "/poor", QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+        )
+        self.create_timer(0.05, lambda: self.poor.publish(String(data="poor")))
+        self.create_service(Trigger, "/pull", self.pull)
+        self.server = ActionServer(self, Fibonacci, "/fibonacci", self.count)
+
+    def pull(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        """Answer."""
+        response.success, response.message = True, "pulled"
+        self.get_logger().info("somebody pulled")
+        return response
+
+    def count(self, handle):
+        """Give feedback for each number."""
+        feedback = Fibonacci.Feedback(sequence=[0, 1])
+        for _ in range(handle.request.order):
+            feedback.sequence.append(feedback.sequence[-1] + feedback.sequence[-2])
+            handle.publish_feedback(feedback)
+        handle.succeed()
+        return Fibonacci.Result(sequence=feedback.sequence)
+
+
+choose_middleware(shared_bus)
+rclpy.init()
+rclpy.spin(Peer())

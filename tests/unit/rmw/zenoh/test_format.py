@@ -1,0 +1,94 @@
+"""The wire format of rmw_zenoh against fixed points: captures of live nodes, and hashes that others publish."""
+
+import pytest
+from bot_console.runtime.rmw.zenoh.attachment import gid_of, pack, unpack
+from bot_console.runtime.rmw.zenoh.keys import FormatError, data_key, ros_type
+from bot_console.runtime.rmw.zenoh.qos_text import Durability, History, Reliability, WireQos, decode_qos, encode_qos
+from bot_console.runtime.rmw.zenoh.tokens import TokenNode, entity_token, node_token, parse_token
+from bot_console.runtime.rosidl import type_hash
+from example_interfaces.srv import AddTwoInts
+from rclpy.duration import Duration
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import String
+
+STRING_HASH = "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
+SCAN_HASH = "RIHS01_64c191398013af96509d518dac71d5164f9382553fce5c1f8cca5be7924bd828"
+TALKER = (
+    "@ros2_lv/0/a52f44b281e33efee354a095ad96d9e9/0/11/MP/%/%/talker/%chatter/"
+    f"std_msgs::msg::dds_::String_/{STRING_HASH}/::,7:,:,:,,"
+)
+SCAN = (
+    "@ros2_lv/0/bc01d34e8cc07aeb6d6d61354c9fce76/0/5/MP/%/%/robot/%scan/"
+    f"sensor_msgs::msg::dds_::LaserScan_/{SCAN_HASH}/2::,5:,:,:,,"
+)
+ATTACHMENT = bytes.fromhex("1a00000000000000 05301f32f9a2dc18 10 3e1e8c9234b1602a9dba5860eed86e33".replace(" ", ""))
+
+
+def test_hashes_of_types():
+    assert type_hash.text(String) == STRING_HASH
+    assert type_hash.text(LaserScan) == SCAN_HASH
+    assert type_hash.text(AddTwoInts).startswith("RIHS01_e118de6b")
+    assert type_hash.text(AddTwoInts).endswith("c81a")
+
+
+@pytest.mark.parametrize(("token", "depth", "reliability"), [(TALKER, 7, 1), (SCAN, 5, 2)])
+def test_a_captured_token_is_read_and_written_again(token, depth, reliability):
+    read = parse_token(token)
+    assert (read.kind, read.qos.depth, read.qos.reliability) == ("MP", depth, reliability)
+    told = read.topic, read.type_name, read.type_hash, encode_qos(read.qos)
+    assert entity_token(0, read.node, read.number, "MP", *told) == token
+
+
+def test_the_attachment_of_the_captured_talker():
+    attachment = unpack(ATTACHMENT)
+    assert attachment.number == 26
+    assert attachment.gid == gid_of(TALKER)
+    assert pack(*attachment) == ATTACHMENT
+
+
+def test_names_within_namespaces():
+    node = TokenNode("abc", 3, "/", "/robot/arm", "driver")
+    assert node_token(5, node) == "@ros2_lv/5/abc/3/3/NN/%/%robot%arm/driver"
+    assert parse_token(node_token(5, node)).node == node
+    assert data_key(5, "/robot/arm/scan", "std_msgs/msg/String", "H") == (
+        "5/robot/arm/scan/std_msgs::msg::dds_::String_/H"
+    )
+    assert ros_type("rcl_interfaces::srv::dds_::SetParameters_") == "rcl_interfaces/srv/SetParameters"
+
+
+@pytest.mark.parametrize(
+    ("profile", "text"),
+    [
+        (QoSProfile(depth=10), "::,10:,:,:,,"),
+        (QoSProfile(depth=42), "::,:,:,:,,"),
+        (QoSProfile(depth=0), "::,:,:,:,,"),
+        (QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT), "2::,5:,:,:,,"),
+        (QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL), ":1:,1:,:,:,,"),
+        (QoSProfile(history=HistoryPolicy.KEEP_ALL, depth=10), "::2,10:,:,:,,"),
+        (QoSProfile(depth=10, lifespan=Duration(seconds=10)), "::,10:,:10,0:,,"),
+        (QoSProfile(depth=10, deadline=Duration(nanoseconds=5)), "::,10:0,5:,:,,"),
+    ],
+)
+def test_qualities_of_service(profile, text):
+    assert encode_qos(profile) == text
+    assert encode_qos(decode_qos(text)) == text
+
+
+def test_what_a_text_leaves_out_is_as_by_default():
+    assert decode_qos("::,:,:,:,,") == WireQos()
+    assert decode_qos("2:1:2,:,:,:,,") == WireQos(Reliability.BEST_EFFORT, Durability.TRANSIENT_LOCAL, History.KEEP_ALL)
+
+
+def test_a_part_that_later_releases_append_is_accepted():
+    assert parse_token(SCAN + "/backends:cpu").qos == parse_token(SCAN).qos
+
+
+def test_a_sender_that_is_too_old_is_told_from_garbage():
+    old = b"\x0fsequence_number" + bytes(40)
+    with pytest.raises(FormatError, match="too old"):
+        unpack(old)
+    assert unpack(pack(15, 1, bytes(16))).number == 15  # begins with the same byte
+    for wrong in (None, b"", bytes(33), bytes(32)):
+        with pytest.raises(FormatError):
+            unpack(wrong)
