@@ -73,6 +73,12 @@ class Publisher:
             self._explain(error)
             raise
 
+    def _publish_own(self, msg: Any) -> None:
+        """Publish a well-formed message of the right class that nobody else holds."""
+        if self.destroyed or self._context.ended:
+            self._refuse()
+        self._endpoint.publish_own(msg)
+
     def _publish_other(self, msg: Any) -> None:
         if self.destroyed or self._context.ended:
             self._refuse()

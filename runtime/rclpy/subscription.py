@@ -9,7 +9,7 @@ from enum import Enum
 from typing import Any
 
 from bot_console.runtime.process import current
-from bot_console.runtime.rmw.endpoints import SubscriptionEndpoint
+from bot_console.runtime.rmw.endpoints import Shared, SubscriptionEndpoint, own
 from rclpy.impl.destroyable import SubscriptionHandle
 from rclpy.impl.entity import SUBSCRIPTION, Entity
 from rclpy.impl.reexports import reexporting
@@ -114,7 +114,7 @@ class Subscription(Entity):
         while self._queue:
             message, stamp, number, expires = self._queue.popleft()
             if expires is None or current().clock.system_ns() <= expires:
-                return message, self._info(stamp, number)
+                return own(message), self._info(stamp, number)
         return None
 
     def run(self) -> Any:
@@ -127,6 +127,8 @@ class Subscription(Entity):
             self.notify()  # a reentrant group lets the next one begin before this one has ended
         if expires is not None and current().clock.system_ns() > expires:
             return None
+        if message.__class__ is Shared:  # as `own`, which would be a call for each message
+            message = message.take()
         result = self._callback(message) if self._message_only else self._callback(message, self._info(stamp, number))
         return result if self._is_async else None
 

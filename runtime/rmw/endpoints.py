@@ -24,6 +24,35 @@ OnEvent = Callable[[Event, Any], None]
 Message = Any
 """A message, request or response. The generated classes have no base class; `_copy_()` copies and checks one."""
 
+
+class Shared:
+    """A message in the queues of several: each that takes it gets a copy of its own, the last one the message itself.
+
+    Copied when it is taken, a message costs its publisher and the queues the same for any number of subscriptions,
+    and what a full queue drops is never copied.
+    """
+
+    __slots__ = ("_left", "_message")
+
+    def __init__(self, message: Message, takers: int) -> None:
+        self._message = message
+        self._left = takers
+
+    def take(self) -> Message:
+        """A message that nobody else holds."""
+        if self._left == 1:
+            return self._message
+        copy = self._message._copy_()
+        # Two threads at once may count as one: then a copy too many is made, never one too few.
+        self._left -= 1
+        return copy
+
+
+def own(message: Message) -> Message:
+    """A message of a queue as its taker's own."""
+    return message.take() if message.__class__ is Shared else message
+
+
 _gids = itertools.count(1)
 
 
@@ -74,7 +103,10 @@ class Endpoint:
 
 @dataclass(eq=False)
 class SubscriptionEndpoint:
-    """Receives messages: `queue` holds what has come, as (message, source ns, sequence number, expiry ns)."""
+    """Receives messages: `queue` holds what has come, as (message, source ns, sequence number, expiry ns).
+
+    The message may be `Shared`; `own` makes it the taker's.
+    """
 
     endpoint: Endpoint
     raw: bool

@@ -1,4 +1,4 @@
-"""The bus within one process: a publish copies the message into each subscription's queue, nothing else."""
+"""The bus within one process: a publish copies the message once and puts it into each subscription's queue."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from bot_console.runtime.rmw.endpoints import (
     Notify,
     OnEvent,
     ServiceEndpoint,
+    Shared,
     SubscriptionEndpoint,
     depth,
 )
@@ -56,38 +57,37 @@ class LocalPublisher:
         self.history: deque[Any] | None = deque(maxlen=depth(endpoint.qos)) if keeps else None
 
     def publish(self, message: Message) -> None:
-        """Copy the message into the queue of each matched subscription."""
-        if not self.open:
-            return
-        targets = self.targets
-        if self.lease is not None or self.on_publish is not None:
-            self.assert_liveliness()
-        if not targets and self.history is None:
-            message._copy_()  # what cannot be sent is refused although nobody listens
-            self._number += 1
-            return
-        stamp = self._now()
-        self._number = number = self._number + 1
-        if self.history is not None:
-            self.history.append((message._copy_(), stamp, number))
-        expires = stamp + self._lifespan if self._lifespan else None
-        for target in targets:
-            given = _serialize(message) if target.raw else message._copy_()
-            target.queue.append((given, stamp, number, expires))
-            target.notify()
+        """Copy the message, which refuses what cannot be sent although nobody listens, and give it to all."""
+        if self.open:
+            self._give(message._copy_())
 
     def publish_own(self, message: Message) -> bool:
         """Publish a message that is well formed and that nobody else holds: it is not copied where that is needless.
 
         False when the publisher is closed.
         """
-        if self.targets:
-            self.publish(message)
-        elif self.open:
-            self._number += 1
-            if self.history is not None:
-                self.history.append((message, self._now(), self._number))
+        if self.open:
+            self._give(message)
         return self.open
+
+    def _give(self, message: Message) -> None:
+        """Put a message of the middleware's own into the queue of each matched subscription."""
+        if self.lease is not None or self.on_publish is not None:
+            self.assert_liveliness()
+        targets, history = self.targets, self.history
+        self._number = number = self._number + 1
+        if not targets and history is None:
+            return
+        stamp = self._now()
+        takers = len(targets)
+        if history is not None:
+            history.append((message, stamp, number))
+            takers += 1  # what is kept is never taken
+        expires = stamp + self._lifespan if self._lifespan else None
+        given = Shared(message, takers) if takers > 1 else message
+        for target in targets:
+            target.queue.append((_serialize(message) if target.raw else given, stamp, number, expires))
+            target.notify()
 
     def publish_raw(self, data: bytes) -> None:
         """Give serialized data as it is, or as a message to subscriptions that want one."""

@@ -11,6 +11,7 @@ from typing import Any
 from action_msgs.msg import GoalStatus as GoalStatus  # programs import it from here
 from action_msgs.srv import CancelGoal
 from bot_console.runtime.process import current
+from bot_console.runtime.rmw.endpoints import own
 from rclpy.action.client_goal_handle import ClientGoalHandle
 from rclpy.action.endpoints import ClientEndpoints, action_names
 from rclpy.action.entity import ActionEntity, call, take
@@ -77,12 +78,12 @@ class ActionClient(ActionEntity):
         if result is not None:
             self._settle(self._results, "result", *result)
         if feedback is not None:
-            message = feedback[0]
+            message = own(feedback[0])
             callback = self._feedback_callbacks.get(bytes(message.goal_id.uuid))
             if callback is not None:
                 await call(callback, message)
         if status is not None:
-            self._receive_status(status[0])
+            self._receive_status(own(status[0]))
 
     def _receive_goal(self, number: int, response: Any) -> None:
         goal_id = self._goals.subject(number)

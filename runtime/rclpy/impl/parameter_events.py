@@ -10,6 +10,8 @@ from rcl_interfaces.msg import ParameterEvent, ParameterValue
 from rclpy.impl.parameter_types import FIELDS
 from rclpy.parameter import Parameter
 
+CARRIED_AS_THEY_ARE = frozenset((bool, float, str))
+"""Classes whose every value goes over the wire as it is."""
 NANO = 1_000_000_000
 
 
@@ -27,9 +29,12 @@ def parameter_event(node: str, now: int, new: list[Any], changed: list[Any], del
 
 
 def event_parameter(parameter: Parameter) -> ParameterMsg:
-    """A parameter as it stands in an event. The bus checks the fields when it copies the event."""
+    """A parameter as it stands in an event, well formed; raises `FieldTypeError` where the wire could not carry it."""
     code = parameter._type_._value_
     value = ParameterValue(type=code, check_fields=False)
-    if code:
-        setattr(value, FIELDS[code], parameter._value)
-    return ParameterMsg(name=parameter._name, value=value, check_fields=False)
+    message = ParameterMsg(name=parameter._name, value=value, check_fields=False)
+    if not code:
+        return message
+    given = parameter._value
+    setattr(value, FIELDS[code], given)
+    return message if given.__class__ in CARRIED_AS_THEY_ARE else message._copy_()

@@ -91,7 +91,7 @@ class ParameterSetting:
                 return result
         self._ros_use()  # the event names the node, and a destroyed one refuses that before anything is stored
         event = self._ros_store(parameters, descriptors, keep_not_set)
-        self._parameter_event_publisher.publish(event)
+        self._parameter_event_publisher._publish_own(event)
         for callback in self._post_set_parameters_callbacks:
             callback(parameters)
         return SetParametersResult(successful=True, check_fields=False)

@@ -316,3 +316,15 @@ def test_what_an_event_cannot_carry_is_told_to_the_caller(ros: Any) -> None:
     node = node_of(ros)
     with pytest.raises(TypeError, match="integer_value"):
         node.set_parameters([given("a", 2**63)])
+
+
+def test_an_event_holds_values_of_its_own(ros: Any) -> None:
+    listener, node, words, number = Listener(ros), ros.node(), ["a", "b"], type("Number", (int,), {})(3)
+    node.declare_parameters("", [("words", ["x"]), ("number", 1)])
+    listener.heard()
+    node.set_parameters_atomically([given("words", words), given("number", number)])
+    words[0] = "changed"
+    ros.settle()
+    (event,) = listener.events
+    assert event.changed_parameters[0].value.string_array_value == ["a", "b"]
+    assert type(event.changed_parameters[1].value.integer_value) is int

@@ -143,6 +143,42 @@ def test_every_subscription_gets_a_copy_of_its_own(ros: Any) -> None:
     assert isinstance(got[0].ranges, array)
 
 
+def test_nobody_sees_what_another_callback_made_of_a_message(ros: Any) -> None:
+    node, got = ros.node(), []
+    profile = QoSProfile(depth=2, durability=LATCHED)
+
+    def change(scan: LaserScan) -> None:
+        got.append((list(scan.ranges), scan.header.frame_id))
+        scan.ranges[0] = 99.0
+        scan.header.frame_id = "changed"
+
+    for _ in range(3):
+        node.create_subscription(LaserScan, "scan", change, profile)
+    taken = node.create_subscription(LaserScan, "scan", change, profile).take
+    publisher = node.create_publisher(LaserScan, "scan", profile)
+    for _ in range(3):  # one more than a queue holds
+        publisher.publish(LaserScan(ranges=[1.0]))
+    change(taken()[0])
+    ros.settle()
+    node.create_subscription(LaserScan, "scan", change, profile)
+    ros.settle()
+    assert got == [([1.0], "")] * (4 * 2 + 2)
+
+
+def test_publishing_costs_one_copy_for_any_number_of_subscriptions(ros: Any, monkeypatch: Any) -> None:
+    node, copies = ros.node(), []
+    copy = LaserScan._copy_
+    monkeypatch.setattr(LaserScan, "_copy_", lambda scan: copies.append(1) or copy(scan))
+    for _ in range(20):
+        node.create_subscription(LaserScan, "scan", lambda scan: None, 1)
+    publisher = node.create_publisher(LaserScan, "scan", 10)
+    publisher.publish(LaserScan())
+    publisher.publish(LaserScan())
+    assert len(copies) == 2
+    ros.settle()
+    assert len(copies) == 2 + 19
+
+
 def test_values_come_as_the_wire_would_bring_them(ros: Any) -> None:
     node, got = ros.node(), []
     node.create_subscription(Float32, "t", got.append, 10)

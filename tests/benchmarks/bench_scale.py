@@ -1,0 +1,106 @@
+"""What grows with the system, and how: `python tests/benchmarks/bench_scale.py [CURVE ...]`, JSON out.
+
+Processor time, the least of some runs; each curve's last entry over its first is its `growth`, within one run.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from collections.abc import Callable
+from typing import Any
+
+from bot_console.runtime.importer import install
+
+install()
+
+import rclpy
+from rcl_interfaces.msg import ParameterEvent
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.parameter import Parameter
+from sensor_msgs.msg import LaserScan
+
+RUNS = 5
+MICRO = 1e6
+
+
+def least(action: Callable[[], Any], count: int) -> float:
+    """Seconds of processor time for one of `count` in an action, the least of some runs."""
+    found: list[float] = []
+    for _ in range(RUNS):
+        start = time.process_time()
+        action()
+        found.append((time.process_time() - start) / count)
+    return min(found)
+
+
+def set_atomically(count: int) -> float:
+    """Microseconds for a parameter of a `set_parameters_atomically` that somebody hears of."""
+    node, executor = rclpy.create_node("tuned"), SingleThreadedExecutor()
+    node.declare_parameters("", [(f"p{number}", 0.0) for number in range(count)])
+    node.create_subscription(ParameterEvent, "/parameter_events", lambda event: None, 10)
+    executor.add_node(node)
+    parameters = [Parameter(f"p{number}", value=1.0) for number in range(count)]
+    times = max(1, 10_000 // count)
+
+    def action() -> None:
+        for _ in range(times):
+            node.set_parameters_atomically(parameters)
+            executor.spin_once(timeout_sec=0)
+
+    cost = least(action, times * count)
+    end(executor, [node])
+    return cost * MICRO
+
+
+def fan_out(count: int) -> float:
+    """Microseconds for a subscription that gets a scan of 360 ranges and intensities, callback included."""
+    executor = SingleThreadedExecutor()
+    nodes = [rclpy.create_node(f"listener{number}") for number in range(count)]
+    for node in nodes:
+        node.create_subscription(LaserScan, "scan", lambda scan: None, 10)
+        executor.add_node(node)
+    publisher = nodes[0].create_publisher(LaserScan, "scan", 10)
+    scan = LaserScan(ranges=[1.0] * 360, intensities=[2.0] * 360)
+    times = max(1, 5_000 // count)
+
+    def action() -> None:
+        for _ in range(times):
+            publisher.publish(scan)
+            for _ in range(count):
+                executor.spin_once(timeout_sec=0)
+
+    cost = least(action, times * count)
+    end(executor, nodes)
+    return cost * MICRO
+
+
+def end(executor: Any, nodes: list[Any]) -> None:
+    """Let nothing of a curve reach the next one."""
+    executor.shutdown()
+    for node in nodes:
+        node.destroy_node()
+
+
+CURVES: dict[str, tuple[Callable[[int], float], tuple[int, ...]]] = {
+    "set_parameters_atomically_us_each": (set_atomically, (10, 100, 1_000, 10_000)),
+    "laserscan_fan_out_us_each": (fan_out, (1, 10, 50, 200)),
+}
+
+
+def main(wanted: list[str]) -> None:
+    """Measure the curves that were named, else all."""
+    rclpy.init(args=[])
+    table: dict[str, Any] = {}
+    for name in wanted or CURVES:
+        measure, sizes = CURVES[name]
+        row = {size: measure(size) for size in sizes}
+        first, *_, last = row.values()
+        table[name] = {**{size: round(value, 2) for size, value in row.items()}, "growth": round(last / first, 2)}
+    print(json.dumps(table, indent=1))
+    rclpy.shutdown()
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
