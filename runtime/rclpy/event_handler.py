@@ -11,6 +11,7 @@ from rclpy.impl.event_handlers import (
     EventHandler,
     IncompatibleHandler,
     LivelinessHandler,
+    LostHandler,
     MatchedHandler,
     MissedHandler,
 )
@@ -180,6 +181,15 @@ class SubscriptionEventCallbacks(_EventCallbacks):
     def __init__(self, *, message_lost: Callback | None = None, **callbacks: Any) -> None:
         super().__init__(**callbacks)
         self.message_lost = message_lost
+
+    def create_event_handlers(
+        self, callback_group: Any, logger: Callable[[], Any], topic: str, qos: QoSProfile
+    ) -> list[EventHandler]:
+        """The handlers of a subscription of a topic."""
+        handlers = super().create_event_handlers(callback_group, logger, topic, qos)
+        if self.message_lost is not None:
+            handlers.append(LostHandler(QoSMessageLostInfo, self.message_lost, callback_group))
+        return handlers
 
     def _liveliness(self, callback: Callback, group: Any, qos: QoSProfile) -> list[EventHandler]:
         return [LivelinessHandler(QoSLivelinessChangedInfo, callback, group)]

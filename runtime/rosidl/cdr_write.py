@@ -96,7 +96,7 @@ def write_numbers(values: Any, code: str, out: bytearray) -> None:
         out += bytes(-len(out) % size)
     if sys.byteorder == "big" and size > 1:
         values = values.byteswap() if hasattr(values, "dtype") else _swapped(values)
-    out += values.tobytes()
+    out += memoryview(values)
 
 
 def _swapped(values: array[Any]) -> array[Any]:

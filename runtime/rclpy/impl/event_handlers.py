@@ -93,6 +93,24 @@ class IncompatibleHandler(EventHandler):
         return info
 
 
+class LostHandler(EventHandler):
+    """Messages did not arrive."""
+
+    kinds = ("lost",)
+    _total = _new = 0
+
+    def happened(self, kind: str, what: int) -> None:
+        """So many were lost."""
+        self._total += what
+        self._new += what
+        self._tell()
+
+    def _info(self) -> Any:
+        info = self._info_type(self._total, self._new)
+        self._new = 0
+        return info
+
+
 class TimedHandler(EventHandler):
     """Events that come about because nothing happens in time."""
 

@@ -1,0 +1,56 @@
+"""What comes from other processes: numbers tell what was lost, garbage is dropped and said."""
+
+import pytest
+from bot_console.runtime.process import on_notice
+from bot_console.runtime.rmw.endpoints import Endpoint, NodeId, SubscriptionEndpoint, queue_for
+from bot_console.runtime.rmw.zenoh.attachment import pack
+from bot_console.runtime.rmw.zenoh.inlet import Inlet
+from rclpy.qos import QoSProfile
+from rclpy.serialization import serialize_message
+from std_msgs.msg import String
+
+GID = bytes(range(16))
+QOS = QoSProfile(depth=10)
+
+
+@pytest.fixture
+def notices():
+    said = []
+    forget = on_notice(lambda process, text: said.append(text))
+    yield said
+    forget()
+
+
+@pytest.fixture
+def received():
+    events = []
+    endpoint = Endpoint(NodeId("n", "/"), "/t", "std_msgs/msg/String", QOS, bytes(16), String)
+    subscription = SubscriptionEndpoint(
+        endpoint, False, queue_for(QOS), lambda: None, lambda kind, what: events.append((kind, what))
+    )
+    return Inlet(None, subscription, "key"), subscription.queue, events
+
+
+def give(inlet, number):
+    inlet.received(serialize_message(String(data=str(number))), pack(number, 5, GID))
+
+
+def test_a_gap_in_the_numbers_is_an_event(received, notices):
+    inlet, queue, events = received
+    for number in (7, 8, 11):
+        give(inlet, number)
+    assert [(message.data, stamp, number) for message, stamp, number, _ in queue] == [
+        ("7", 5, 7),
+        ("8", 5, 8),
+        ("11", 5, 11),
+    ]
+    assert events == [("lost", 2)]
+
+
+@pytest.mark.parametrize(("payload", "attachment"), [(b"\0\1\0\0\xff", pack(1, 1, GID)), (b"", None), (b"", b"x")])
+def test_garbage_is_dropped(received, payload, attachment):
+    inlet, queue, _ = received
+    inlet.received(payload, attachment)
+    assert not queue
+    give(inlet, 2)
+    assert len(queue) == 1
