@@ -1,7 +1,5 @@
 """`python -m bot_console.tui`: the same as `bot-console`."""
 
-import sys
+from bot_console.tui.cli import program
 
-from bot_console.tui.cli import main
-
-sys.exit(main())
+program()

@@ -37,7 +37,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         return int(signal.SIGINT)
     except RuntimeError as error:  # among them what the client library refuses
         return _finish(str(error))
-    except Exception:  # a verb's border: upstream ends in this traceback, and a console goes on after it
+    except Exception as error:  # a verb's border: upstream ends in this traceback, and a console goes on after it
+        if type(error).__name__ == "ExternalShutdownException":  # SIGTERM; not imported, as not every verb needs rclpy
+            return 128 + signal.SIGTERM
         traceback.print_exc()
         return 1
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Sequence
+from typing import NoReturn
 
 from bot_console.tui.cli import ros2
+from bot_console.tui.cli.domain import end_program
 from bot_console.tui.opening import is_rqt
 
 Words = list[str]
@@ -19,7 +21,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         if command:
             return command(words[1:])
         if words and words[0] in ros2.VERBS:
-            return ros2.verb(words)
+            return ros2.taking_part(words)
     from bot_console.tui.cli.arguments import parse
 
     options = parse(words)
@@ -32,6 +34,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     return show(options)
 
 
+def program() -> NoReturn:
+    """The command as a process."""
+    end_program(main())
+
+
 def _run(words: Words) -> int:
     from bot_console.tui.cli.run import run
 
@@ -42,13 +49,13 @@ def _launch(words: Words) -> int:
     from bot_console.tui.cli.workspaces import tell_whose
 
     tell_whose(next((each for each in words if not each.startswith("-")), ""))
-    return ros2.main(["launch", *words])
+    return ros2.taking_part(["launch", *words])
 
 
 def _ros2(words: Words) -> int:
     if words and words[0] in ("run", "launch"):
         return _COMMANDS[words[0]](words[1:])
-    return ros2.verb(words) if words and words[0] in ros2.VERBS else ros2.main(words)
+    return ros2.taking_part(words) if words and words[0] in ros2.VERBS else ros2.main(words)
 
 
 def _export(words: Words) -> int:

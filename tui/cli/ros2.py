@@ -1,18 +1,15 @@
-"""`ros2` verbs from a shell of their own, where no system runs to speak to."""
+"""`ros2` verbs from a shell of their own, asked of what runs in the domain."""
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
 
+from bot_console.tui.cli.domain import take_part
+
 VERBS = ("action", "interface", "lifecycle", "node", "param", "pkg", "service", "topic")
 ALONE = ("interface", "pkg")
 """These answer from files and need no running system."""
-
-NOTHING_RUNS = (
-    "Nothing is running here: a system started by bot-console lives inside that program. "
-    "Type the command there, after a colon: ros2 {}"
-)
 
 
 def main(words: Sequence[str]) -> int:
@@ -25,9 +22,10 @@ def main(words: Sequence[str]) -> int:
     return run(words)
 
 
-def verb(words: Sequence[str]) -> int:
-    """Run a verb that needs no system; of the others say that nothing is running, unless help is asked for."""
-    if words[0] in ALONE or len(words) == 1 or any(word in ("-h", "--help") for word in words):
-        return main(words)
-    print(NOTHING_RUNS.format(" ".join(words)), file=sys.stderr)
-    return 1
+def taking_part(words: Sequence[str]) -> int:
+    """Run a command line in the domain that the environment names; what answers from files needs none."""
+    problem = "" if words[0] in ALONE else take_part()
+    if problem:
+        print(problem, file=sys.stderr)
+        return 1
+    return main(words)

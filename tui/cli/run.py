@@ -22,7 +22,12 @@ def run(words: list[str]) -> int:
     tell_whose(rest[0] if rest else "")
     if not (given.watch or given.headless):
         from bot_console.runtime.run import main
+        from bot_console.tui.cli.domain import take_part
 
+        problem = take_part()
+        if problem:
+            print(problem, file=sys.stderr)
+            return 1
         return main(rest)
     if not rest:
         parser.error("name a file or a package: bot-console run --watch FILE.py, or PACKAGE EXECUTABLE")

@@ -71,6 +71,10 @@ class ZenohBus:
         self._whole_lock = threading.Lock()
         session.on_rejoin = self._send_again
 
+    def leave(self) -> None:
+        """Take the session's socket away, for a process that ends at once."""
+        self._session.leave()
+
     def add_node(self, name: str, namespace: str, enclave: str) -> NodeId:
         """Let a node appear in the graph."""
         node = self._local.add_node(name, namespace, enclave)

@@ -1,0 +1,120 @@
+"""Every command recorded on real ROS 2, typed in a second terminal: what it is asked of runs in other processes."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+from helpers.cli_records import COURSE, Row, filled, normal, rows, usage_of_other_interpreter
+from helpers.mesh import eventually
+
+PROGRAM = "from bot_console.tui.cli import program; program()"
+ENDLESS = 30.0
+"""Seconds after which a command that ends by itself counts as hanging."""
+
+Words = Sequence[str]
+
+
+def systems() -> list[Any]:
+    """The recorded systems that have programs of their own; those asked much are for the long run."""
+    names = {row["id"].partition("/")[0]: row["system"] for row in rows() if row["system"]}
+    return [
+        pytest.param(programs, id=name, marks=() if name in ("duplicates", "step2_overrides") else pytest.mark.soak)
+        for name, programs in names.items()
+    ]
+
+
+class Terminals:
+    """A system, each of its programs in a terminal of its own, and a terminal more to ask from."""
+
+    def __init__(self, programs: Sequence[Words], folder: Path) -> None:
+        self._folder = folder
+        self.history: list[Words] = []
+        """What was asked that may have changed the system."""
+        self._programs = [self._start(words, subprocess.DEVNULL) for words in programs]
+        assert eventually(lambda: len(self._run(["ros2", "node", "list", "--all"], None)[0].split()) > len(programs))
+
+    def ask(self, row: Row) -> tuple[str, str, int]:
+        """Ask a command: what it printed, in the form of the records, and its exit code."""
+        for name, text in row["files"].items():
+            (self._folder / name).write_text(text, "utf-8")
+        out, err, code = self._run(row["argv"], row["stop_after_s"])
+        return normal(out, self._folder), normal(err, self._folder), code
+
+    def change(self, words: Words) -> None:
+        """Ask a command for its effect."""
+        self._run(words, 2.0)
+        self.history.append(words)
+
+    def _run(self, words: Words, stop_after: float | None) -> tuple[str, str, int]:
+        process = self._start(words, subprocess.PIPE)
+        try:
+            out, err = process.communicate(timeout=stop_after or ENDLESS)
+        except subprocess.TimeoutExpired:
+            process.send_signal(signal.SIGINT)
+            out, err = process.communicate(timeout=ENDLESS)
+        return out, err, process.returncode
+
+    def _start(self, words: Words, output: int) -> subprocess.Popen[str]:
+        words = filled(words, self._folder)
+        if words[1] == "-c":
+            (self._folder / "program.py").write_text(words[2], "utf-8")
+            words = ["python", str(self._folder / "program.py"), *words[3:]]
+        arguments = words[1:] if words[0] == "ros2" else ["run", *words[1:]]
+        return subprocess.Popen(
+            [sys.executable, "-c", PROGRAM, *arguments],
+            stdin=subprocess.DEVNULL,
+            stdout=output,
+            stderr=output,
+            text=True,
+            cwd=COURSE,
+            env={**os.environ, "COLUMNS": "80"},
+        )
+
+    def close(self) -> None:
+        """End the programs."""
+        for each in self._programs:
+            each.kill()
+            each.wait()
+
+
+def in_order(of_system: Sequence[Row]) -> list[Row]:
+    """The rows so that each stands where its system is as it was: those that change it last of their kind."""
+    changing = [words for row in of_system for words in row["before"]]
+    return sorted(of_system, key=lambda row: (len(row["before"]), row["argv"] in changing))
+
+
+@pytest.mark.timeout(600)
+@pytest.mark.parametrize("programs", systems())
+def test_commands_of_a_second_terminal(programs: list[Words], tmp_path: Path):
+    of_system = [row for row in rows() if row["system"] == programs and not usage_of_other_interpreter(row)]
+    changing = [words for row in of_system for words in row["before"]]
+    terminals = Terminals(programs, tmp_path)
+    differences: list[tuple[str, object, object]] = []
+    try:
+        for row in in_order(of_system):
+            if row["before"] != terminals.history:
+                terminals.close()
+                terminals = Terminals(programs, tmp_path)
+                for words in row["before"]:
+                    terminals.change(words)
+            seen = terminals.ask(row)
+            if row["argv"] in changing:
+                terminals.history.append(row["argv"])
+            recorded = (normal(row["stdout"], tmp_path), normal(row["stderr"], tmp_path), row["exit"])
+            if seen != recorded:
+                differences.append((row["id"], recorded, seen))
+    finally:
+        terminals.close()
+    assert differences == []
+
+
+@pytest.mark.skipif(bool(rows()), reason="there are records")
+def test_records_are_there() -> None:
+    pytest.skip("BOT_CONSOLE_ORACLE and BOT_CONSOLE_COURSE name no records")
