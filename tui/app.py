@@ -22,8 +22,8 @@ from bot_console.tui.opening import Opening, is_rqt, rqt_opening
 from bot_console.tui.pane_table import PANES
 from bot_console.tui.panes.broken import BrokenPane
 from bot_console.tui.panes.pane import Pane
-from bot_console.tui.panes.parameters import ParametersPane
-from bot_console.tui.panes.plot import PlotPane
+from bot_console.tui.panes.parameters.pane import ParametersPane
+from bot_console.tui.panes.plot.pane import PlotPane
 from bot_console.tui.screens.door import screen_for
 from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.screens.output import OutputScreen
@@ -67,7 +67,7 @@ class BotConsoleApp(GuardedApp):
     TITLE = "bot-console"
     CSS_PATH: ClassVar[CSSPathType | None] = [
         HERE / "app.tcss",
-        *(HERE / "panes" / f"{each.id}.tcss" for each in PANES),
+        *(HERE / "panes" / each.id / "pane.tcss" for each in PANES),
     ]
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("app")]
     ENABLE_COMMAND_PALETTE = False

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PaneEntry:
-    """A pane: its id (also the module's name), its class, and the digit that jumps to it."""
+    """A pane: its id (also the name of its folder), its class, and the digit that jumps to it."""
 
     id: str
     digit: str
@@ -27,7 +27,7 @@ class PaneEntry:
 
     def load(self) -> type[Pane]:
         """The class of the pane."""
-        return getattr(importlib.import_module(f"bot_console.tui.panes.{self.id}"), self.class_name)
+        return getattr(importlib.import_module(f"bot_console.tui.panes.{self.id}.pane"), self.class_name)
 
 
 PANES = (

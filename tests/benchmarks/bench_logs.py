@@ -14,9 +14,9 @@ import time
 from collections.abc import Callable
 
 import numpy as np
-from bot_console.tui.console.log_search import matching
-from bot_console.tui.console.log_store import CAPACITY, LogStore
-from bot_console.tui.console.log_view import LogViews
+from bot_console.tui.console.logs.search import matching
+from bot_console.tui.console.logs.store import CAPACITY, LogStore
+from bot_console.tui.console.logs.view import LogViews
 from bot_console.tui.console.model import LogFilter, Severity
 
 RUNS = 5

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from bot_console.tui.console.launch_process import LaunchedProcess, Order
+from bot_console.tui.console.launch.process import LaunchedProcess, Order
 from bot_console.tui.console.model import LaunchArgument
 from bot_console.tui.console.protocol import Answer
 from fakes import CLOSED, FakeConsole, done

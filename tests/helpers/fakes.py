@@ -10,9 +10,9 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from bot_console.tui.console.log_search import matching
-from bot_console.tui.console.log_store import LogStore
-from bot_console.tui.console.log_view import SearchedView
+from bot_console.tui.console.logs.search import matching
+from bot_console.tui.console.logs.store import LogStore
+from bot_console.tui.console.logs.view import SearchedView
 from bot_console.tui.console.model import (
     Change,
     ChangeSource,
@@ -25,8 +25,8 @@ from bot_console.tui.console.model import (
     Severity,
     Value,
 )
-from bot_console.tui.console.parameter_file import save
-from bot_console.tui.console.profiles import differences
+from bot_console.tui.console.parameters.file import save
+from bot_console.tui.console.parameters.profiles import differences
 from bot_console.tui.console.protocol import Answer, LogView, Samples
 from bot_console.tui.console.values import refusal
 

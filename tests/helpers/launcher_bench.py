@@ -10,7 +10,7 @@ from typing import Any
 
 from bot_console.runtime.process import NodeProcess
 from bot_console.tui.cli.vitals import find_vitals
-from bot_console.tui.console.launcher import RosLauncher
+from bot_console.tui.console.launch.launcher import RosLauncher
 from bot_console.tui.console.model import LaunchInfo, ProcessInfo
 
 PATIENCE = 15.0

@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.panes.pane import Pane
-from bot_console.tui.panes.steering import SteeringPane
+from bot_console.tui.panes.steering.pane import SteeringPane
 from fake_launcher import FakeLauncher
 from fakes import FakeConsole
 from textual.pilot import Pilot

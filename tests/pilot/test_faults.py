@@ -10,8 +10,8 @@ import pytest
 from bot_console.tui import crash
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.panes.broken import BrokenPane
-from bot_console.tui.panes.parameters import ParameterRows, ParametersPane
-from bot_console.tui.panes.steering import SteeringPane
+from bot_console.tui.panes.parameters.pane import ParameterRows, ParametersPane
+from bot_console.tui.panes.steering.pane import SteeringPane
 from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.status_bar import StatusBar

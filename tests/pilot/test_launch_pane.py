@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from bot_console.tui.console.model import LaunchInfo, ProcessState
-from bot_console.tui.panes.launch import LaunchPane
-from bot_console.tui.panes.launch_rows import ProcessRows
+from bot_console.tui.panes.launch.pane import LaunchPane
+from bot_console.tui.panes.launch.rows import ProcessRows
 from bot_console.tui.screens.confirm import ConfirmScreen
 from bot_console.tui.screens.launch_arguments import ArgumentsScreen
 from bot_console.tui.screens.picker import PickerScreen

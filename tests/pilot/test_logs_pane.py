@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from bot_console.tui.console.model import Severity
-from bot_console.tui.panes.logs import LogRows, LogsPane
+from bot_console.tui.panes.logs.pane import LogRows, LogsPane
 from piloting import Session, run
 from samples import empty, live
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from bot_console.tui.opening import Opening
-from bot_console.tui.panes.parameters import ParameterRows, ParametersPane
-from bot_console.tui.panes.plot import PlotPane
+from bot_console.tui.panes.parameters.pane import ParameterRows, ParametersPane
+from bot_console.tui.panes.plot.pane import PlotPane
 from piloting import Session, run
 from samples import NEAREST, SPEED, live
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from types import MappingProxyType
 
-from bot_console.tui.panes.parameters import ParameterRows, ParametersPane
+from bot_console.tui.panes.parameters.pane import ParameterRows, ParametersPane
 from piloting import Session, run
 from samples import empty, faulty, live
 

@@ -6,7 +6,7 @@ import csv
 import math
 from pathlib import Path
 
-from bot_console.tui.panes.plot import PlotPane
+from bot_console.tui.panes.plot.pane import PlotPane
 from piloting import Session, run
 from samples import LIMIT, NEAREST, SPEED, empty, faulty, live
 

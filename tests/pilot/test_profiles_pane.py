@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from bot_console.tui.console.model import SetOutcome
-from bot_console.tui.panes.profiles import ProfilesPane
+from bot_console.tui.panes.profiles.pane import ProfilesPane
 from bot_console.tui.screens.confirm import ConfirmScreen
 from piloting import Session, run
 from samples import differences, empty, live

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from bot_console.tui.panes.steering import SteeringPane
+from bot_console.tui.panes.steering.pane import SteeringPane
 from piloting import Clock, Session, run
 from samples import driving, empty, live
 

@@ -6,7 +6,7 @@ import random
 
 import pytest
 from bot_console.tui.pane_table import PANES
-from bot_console.tui.panes.graph import GraphPane
+from bot_console.tui.panes.graph.pane import GraphPane
 from bot_console.tui.screens.door import screen_for
 from bot_console.tui.screens.facts import FactsScreen
 from bot_console.tui.screens.output import OutputScreen

@@ -12,7 +12,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 PLANTED = {
     "tui/console/model.py": "import rclpy",
-    "tui/panes/logs.py": "import bot_console.runtime.importer",
+    "tui/panes/logs/pane.py": "import bot_console.runtime.importer",
     "tui/console/node.py": "import bot_console.runtime.importer",
     "runtime/run.py": "import bot_console.tui.format",
     "runtime/process/current.py": "import bot_console.runtime.rmw.bus",

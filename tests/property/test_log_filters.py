@@ -1,7 +1,7 @@
 """The filter grammar against a naive model, one record at a time; the log finds the same in blobs of many records."""
 
-from bot_console.tui.console.log_search import matching
-from bot_console.tui.console.log_store import LogStore
+from bot_console.tui.console.logs.search import matching
+from bot_console.tui.console.logs.store import LogStore
 from bot_console.tui.console.model import LogFilter, Severity
 from hypothesis import given, settings
 from hypothesis import strategies as st

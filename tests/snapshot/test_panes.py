@@ -9,7 +9,7 @@ import pytest
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.opening import Opening
 from bot_console.tui.pane_table import PANES
-from bot_console.tui.panes.steering import SteeringPane
+from bot_console.tui.panes.steering.pane import SteeringPane
 from fake_launcher import FakeLauncher
 from fakes import FakeConsole
 from piloting import Clock

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree
-from bot_console.tui.console.parameter_file import save
+from bot_console.tui.console.parameters.file import save
 from bot_console.tui.save_file import save_file
 
 LINES = 2000

@@ -49,9 +49,9 @@ def main(words: Sequence[str] | None = None) -> int:
     from bot_console.tui.cli.process_news import tell_news
     from bot_console.tui.cli.vitals import find_vitals
     from bot_console.tui.cli.workspaces import choose, launch_environment, launch_files
+    from bot_console.tui.console.launch.launcher import RosLauncher
+    from bot_console.tui.console.launch.output import Add
     from bot_console.tui.console.launch_host.host import LaunchHost, Printed
-    from bot_console.tui.console.launcher import RosLauncher
-    from bot_console.tui.console.process_output import Add
     from launch.child import close_fork_server
     from launch.isolation import isolate_by_default
 

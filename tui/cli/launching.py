@@ -6,8 +6,8 @@ import re
 from collections.abc import Callable, Mapping
 
 from bot_console.runtime.process import NodeProcess
+from bot_console.tui.console.launch.output import marking
 from bot_console.tui.console.model import Severity
-from bot_console.tui.console.process_output import marking
 
 ENVIRONMENT = {"OVERRIDE_LAUNCH_PROCESS_OUTPUT": "own_log"}
 """Launch does not repeat on its screen what processes print, since the console reads that from launch's events."""

@@ -20,7 +20,7 @@ from bot_console.tui.cli.launching import Launching
 from bot_console.tui.cli.vitals import find_vitals
 from bot_console.tui.cli.workspaces import SYSTEM_LAUNCH, choose, launch_environment, launch_files
 from bot_console.tui.console.connection import RosConsole
-from bot_console.tui.console.launcher import RosLauncher
+from bot_console.tui.console.launch.launcher import RosLauncher
 from bot_console.tui.console.model import LaunchInfo, ProcessState, Severity
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from bot_console.runtime.process import NodeProcess, ProcessState
 from bot_console.runtime.process.node_process import running_process
-from bot_console.tui.console.process_vitals import Vitals
+from bot_console.tui.console.launch.vitals import Vitals
 
 
 class NodeVitals:

@@ -33,8 +33,8 @@ from bot_console.tui.console.model import (
 from bot_console.tui.console.protocol import Answer, LogFindings, LogView, Samples
 
 if TYPE_CHECKING:
-    from bot_console.tui.console.log_store import LogStore
-    from bot_console.tui.console.log_view import LogViews
+    from bot_console.tui.console.logs.store import LogStore
+    from bot_console.tui.console.logs.view import LogViews
     from bot_console.tui.console.node import ConsoleNode
 
 T = TypeVar("T")
@@ -95,10 +95,10 @@ class RosConsole:
 
     def _serve(self) -> None:
         try:
-            from bot_console.tui.console.log_store import LogStore
-            from bot_console.tui.console.log_view import LogViews
+            from bot_console.tui.console.logs.store import LogStore
+            from bot_console.tui.console.logs.view import LogViews
             from bot_console.tui.console.node import ConsoleNode
-            from bot_console.tui.console.profiles import find
+            from bot_console.tui.console.parameters.profiles import find
 
             self._logs = LogStore()
             self._views = LogViews(self._logs)
@@ -169,7 +169,7 @@ class RosConsole:
         """Numbers of the records that pass a filter."""
         if not self._logs:
             return ()
-        from bot_console.tui.console.log_search import matching
+        from bot_console.tui.console.logs.search import matching
 
         return matching(self._logs, which, after, limit)
 

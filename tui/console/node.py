@@ -12,8 +12,8 @@ from typing import Any
 import rclpy
 from bot_console.tui.console.calls import Calls, NoAnswer
 from bot_console.tui.console.drive_link import DriveLink
-from bot_console.tui.console.graph_watch import GraphWatch
-from bot_console.tui.console.journal import Journal
+from bot_console.tui.console.graph.watch import GraphWatch
+from bot_console.tui.console.launch.output import Add
 from bot_console.tui.console.model import (
     ChangeSource,
     GraphInfo,
@@ -23,12 +23,12 @@ from bot_console.tui.console.model import (
     Severity,
     Value,
 )
-from bot_console.tui.console.parameter_file import save
-from bot_console.tui.console.parameter_mirror import ParameterMirror
-from bot_console.tui.console.parameter_setter import ParameterSetter
-from bot_console.tui.console.plot_watch import PlotWatch
-from bot_console.tui.console.process_output import Add
-from bot_console.tui.console.profiles import differences
+from bot_console.tui.console.parameters.file import save
+from bot_console.tui.console.parameters.journal import Journal
+from bot_console.tui.console.parameters.mirror import ParameterMirror
+from bot_console.tui.console.parameters.profiles import differences
+from bot_console.tui.console.parameters.setter import ParameterSetter
+from bot_console.tui.console.plot.watch import PlotWatch
 from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.world_watch import WorldWatch
 from bot_console.tui.save_file import NotSaved, typed_path

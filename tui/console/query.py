@@ -15,8 +15,8 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from bot_console.tui.console.logs.patterns import Pattern
 from bot_console.tui.console.model import Severity
-from bot_console.tui.console.patterns import Pattern
 
 SEVERITY_WORDS: Mapping[str, Severity] = {
     "unset": Severity.UNSET,

@@ -10,10 +10,10 @@ from concurrent.futures import Future
 from functools import partial
 from typing import Any, Protocol
 
+from bot_console.tui.console.launch.output import Add
 from bot_console.tui.console.launch_host.channel import Channel, Message
 from bot_console.tui.console.launch_host.plain import of_arguments, of_info
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo
-from bot_console.tui.console.process_output import Add
 from bot_console.tui.console.protocol import Answer
 
 LOOK_S = 0.1

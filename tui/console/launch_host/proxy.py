@@ -11,13 +11,13 @@ from concurrent.futures import TimeoutError as TooLate
 from dataclasses import replace
 from typing import Any
 
+from bot_console.tui.console.launch.launcher import CLOSED
+from bot_console.tui.console.launch.output import Add
+from bot_console.tui.console.launch.process import ENDED
+from bot_console.tui.console.launch.timeline import KEPT
 from bot_console.tui.console.launch_host.channel import Channel, Message
 from bot_console.tui.console.launch_host.plain import to_arguments, to_info
-from bot_console.tui.console.launch_process import ENDED
-from bot_console.tui.console.launch_timeline import KEPT
-from bot_console.tui.console.launcher import CLOSED
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo, ProcessInfo, ProcessState, Severity
-from bot_console.tui.console.process_output import Add
 from bot_console.tui.console.protocol import Answer
 
 GONE = "the launch host has ended, and with it all that it had started"

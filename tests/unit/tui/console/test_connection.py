@@ -6,7 +6,7 @@ import pytest
 import rclpy
 from bot_console.tui.console import connection
 from bot_console.tui.console.connection import RosConsole
-from bot_console.tui.console.graph_watch import GraphWatch
+from bot_console.tui.console.graph.watch import GraphWatch
 from rclpy.context import Context
 from rigs import PATIENCE, until
 from std_srvs.srv import Trigger

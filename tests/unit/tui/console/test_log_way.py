@@ -9,7 +9,7 @@ import pytest
 from bot_console.runtime.importer import install
 from bot_console.tui.cli.session import Launching
 from bot_console.tui.console.connection import RosConsole
-from bot_console.tui.console.launcher import RosLauncher
+from bot_console.tui.console.launch.launcher import RosLauncher
 from bot_console.tui.console.model import LogFilter
 from launcher_bench import HEAD
 

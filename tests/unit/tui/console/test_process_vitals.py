@@ -6,7 +6,7 @@ import os
 
 import pytest
 from bot_console.tui.cli.vitals import SystemVitals
-from bot_console.tui.console.process_vitals import Usage
+from bot_console.tui.console.launch.vitals import Usage
 
 
 class Told:

@@ -2,7 +2,7 @@
 
 import sysconfig
 
-from bot_console.tui.console.tracebacks import TRACEBACK, Printed, Traceback
+from bot_console.tui.console.logs.tracebacks import TRACEBACK, Printed, Traceback
 
 LIBRARY = sysconfig.get_path("stdlib")
 LINES = [

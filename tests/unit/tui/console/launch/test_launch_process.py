@@ -1,0 +1,155 @@
+"""The state machine of one launched process, without launch."""
+
+import pytest
+from bot_console.tui.console.launch.process import ENDED, LaunchedProcess, Order
+from bot_console.tui.console.model import ProcessState
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
+
+VERBS = ("start", "stop", "kill", "restart")
+
+
+def running():
+    process = LaunchedProcess("key", "node-1")
+    process.started("node-1", 7)
+    return process
+
+
+def test_it_starts_as_starting():
+    process = LaunchedProcess("key", "node-1", ("a.launch.py",))
+    assert (process.info.state, process.info.group) == (ProcessState.STARTING, ("a.launch.py",))
+
+
+@pytest.mark.parametrize(
+    ("code", "state"),
+    [(0, ProcessState.EXITED), (1, ProcessState.CRASHED), (-2, ProcessState.CRASHED), (-9, ProcessState.CRASHED)],
+)
+def test_an_end_that_nobody_asked_for(code, state):
+    process = running()
+    assert process.exited(code, respawns=False) is Order.NOTHING
+    assert (process.info.state, process.info.exit_code, bool(process.info.problem)) == (state, code, code != 0)
+
+
+@pytest.mark.parametrize(
+    ("code", "state"),
+    [(0, ProcessState.EXITED), (-2, ProcessState.EXITED), (-15, ProcessState.EXITED), (1, ProcessState.CRASHED)],
+)
+def test_a_stop(code, state):
+    process = running()
+    order, answer = process.want("stop")
+    assert (order, process.info.state, answer.done()) == (Order.SHUT_DOWN, ProcessState.STOPPING, False)
+    process.exited(code, respawns=False)
+    assert (process.info.state, answer.result().ok) == (state, True)
+
+
+def test_restart_starts_when_it_has_ended_and_answers_when_it_runs():
+    process = running()
+    order, answer = process.want("restart")
+    assert order is Order.SHUT_DOWN
+    assert process.exited(0, respawns=False) is Order.START
+    assert (process.info.state, answer.done()) == (ProcessState.STARTING, False)
+    process.started("node-2", 8)
+    assert (process.info.label, process.info.restarts, answer.result().ok) == ("node-2", 1, True)
+
+
+def test_stop_before_it_runs_is_done_as_soon_as_it_does():
+    process = LaunchedProcess("key", "node-1")
+    order, answer = process.want("stop")
+    assert order is Order.SHUT_DOWN
+    assert process.started("node-1", 7) is Order.SHUT_DOWN
+    process.exited(-2, respawns=False)
+    assert answer.result().ok
+
+
+def test_a_start_that_fails():
+    process = running()
+    process.exited(0, respawns=False)
+    order, answer = process.want("start")
+    assert order is Order.START
+    process.over("no such file")
+    assert (process.info.state, process.info.problem) == (ProcessState.CRASHED, "no such file")
+    assert (answer.result().ok, answer.result().text) == (False, "node-1: no such file")
+
+
+def test_the_news_that_it_is_over_may_come_before_that_of_its_end():
+    process = running()
+    assert process.over() is Order.NOTHING
+    assert process.info.state is ProcessState.RUNNING
+    process.exited(0, respawns=False)
+    assert process.info.state is ProcessState.EXITED
+
+
+class Life(RuleBasedStateMachine):
+    """Any order of wishes and events: each wish is answered once all is quiet, and the state tells the truth."""
+
+    def __init__(self):
+        super().__init__()
+        self.process = LaunchedProcess("key", "node-1")
+        self.due = True
+        self.killed = False
+        self.told = False
+        self.answers = []
+
+    def obey(self, order):
+        self.due |= order is Order.START
+        self.told |= order in (Order.SHUT_DOWN, Order.KILL)
+
+    @rule(verb=st.sampled_from(VERBS))
+    def want(self, verb):
+        order, answer = self.process.want(verb)
+        self.answers.append(answer)
+        self.obey(order)
+
+    @precondition(lambda self: self.due and not self.process.alive)
+    @rule(works=st.booleans())
+    def launch_starts(self, works):
+        self.due, self.told = False, False
+        self.obey(self.process.started("node-1", 7) if works else self.process.over("why"))
+
+    @precondition(lambda self: self.process.alive)
+    @rule(code=st.sampled_from([0, 1, -2, -9, -15]), respawns=st.booleans())
+    def ends(self, code, respawns):
+        respawns = respawns and not self.told
+        self.due = respawns
+        order = self.process.exited(code, respawns)
+        self.obey(order)
+        if not respawns and order is not Order.START:
+            self.obey(self.process.over())
+
+    @invariant()
+    def the_state_is_true(self):
+        state = self.process.info.state
+        assert not (self.process.alive and (state in ENDED or state is ProcessState.STARTING))
+        assert (self.process.info.pid is not None) == self.process.alive
+        if state in ENDED:
+            assert all(answer.done() for answer in self.answers)
+            assert not self.due
+
+
+TestLife = Life.TestCase
+TestLife.settings = settings(max_examples=80, stateful_step_count=20, deadline=None)
+
+
+@given(st.lists(st.sampled_from(VERBS), max_size=6))
+def test_wishes_while_it_runs_lead_to_one_end(verbs):
+    process = running()
+    answers = [process.want(verb)[1] for verb in verbs]
+    for _ in range(3):
+        if process.alive:
+            if process.info.state is ProcessState.RUNNING:
+                process.told_to_end()
+            if process.exited(0, respawns=False) is Order.START:
+                process.started("node-1", 8)
+    assert all(answer.done() for answer in answers)
+
+
+def test_a_stop_that_comes_just_after_a_crash_is_done_when_launch_gives_up_the_respawn():
+    process = LaunchedProcess("k", "n-1")
+    process.started("n-1", 1)
+    order, stop = process.want("stop")
+    assert order is Order.SHUT_DOWN
+    assert process.exited(1, respawns=True) is Order.NOTHING
+    assert not stop.done() and process.info.state is ProcessState.STOPPING
+    process.over()
+    assert stop.result(0).ok and process.info.state is ProcessState.CRASHED

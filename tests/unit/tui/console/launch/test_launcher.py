@@ -1,0 +1,343 @@
+"""The launcher over the embedded launch: processes steered one by one, several launch files, files that fail."""
+
+import itertools
+import re
+
+import pytest
+from bot_console.tui.console.model import LaunchArgument, ProcessState, Severity
+from launcher_bench import DEAF, ENDS, FAILS, PATIENCE, WAITS, Bench
+
+_domains = itertools.count(4000)
+
+
+@pytest.fixture
+def bench(tmp_path, monkeypatch):
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(next(_domains)))
+    monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
+    made = Bench(tmp_path)
+    yield made
+    made.launcher.close()
+
+
+@pytest.fixture
+def waiter(bench):
+    """A launched node that waits."""
+    path = bench.program(WAITS, "waits.py")
+    assert bench.run(f"[Node(executable={path!r}, name='bob', namespace='ns')]").ok
+    bench.until(lambda: any(text == "up" for _, _, text in bench.printed), "its first line")
+    return bench.process()
+
+
+def test_what_is_shown_of_a_process(bench, waiter):
+    assert (waiter.state, waiter.nodes, waiter.group) == (ProcessState.RUNNING, ("/ns/bob",), ("system.launch.py",))
+    assert waiter.pid and waiter.restarts == 0 and waiter.exit_code is None
+    assert bench.info is bench.info
+
+
+def test_stop_then_start_again(bench, waiter):
+    assert bench.do("stop", waiter).ok
+    ended = bench.process()
+    assert (ended.state, ended.exit_code, ended.pid) == (ProcessState.EXITED, 0, None)
+    assert bench.do("start", ended).ok
+    again = bench.process()
+    assert (again.key, again.state, again.restarts) == (waiter.key, ProcessState.RUNNING, 1)
+    assert again.nodes == ("/ns/bob",)
+    assert again.exit_code == 0, "the last exit stays visible"
+
+
+def test_restart(bench, waiter):
+    assert bench.do("restart", waiter).ok
+    again = bench.process()
+    assert (again.state, again.restarts) == (ProcessState.RUNNING, 1)
+    assert again.pid != waiter.pid
+
+
+def test_restart_of_an_ended_process_starts_it(bench, waiter):
+    bench.do("stop", waiter)
+    assert bench.do("restart", waiter).ok
+    assert bench.process().state is ProcessState.RUNNING
+
+
+def test_kill(bench, waiter):
+    assert bench.do("kill", waiter).ok
+    killed = bench.process()
+    assert (killed.state, killed.exit_code) == (ProcessState.CRASHED, -9)
+    assert "killed" in killed.problem
+    assert bench.do("start", killed).ok
+
+
+@pytest.mark.parametrize(
+    ("before", "verb", "text"),
+    [("", "start", "runs already"), ("stop", "stop", "does not run"), ("stop", "kill", "does not run")],
+)
+def test_what_makes_no_sense_is_refused_with_the_reason(bench, waiter, before, verb, text):
+    if before:
+        bench.do(before, waiter)
+    answer = bench.do(verb, waiter)
+    assert not answer.ok
+    assert text in answer.text
+
+
+def test_an_unknown_process(bench):
+    answer = bench.launcher.stop("nobody").result(PATIENCE)
+    assert (answer.ok, answer.text) == (False, "there is no process nobody")
+
+
+def test_a_process_that_ignores_signals_is_killed_by_the_escalation(bench):
+    path = bench.program(DEAF)
+    bench.run(f"[ExecuteProcess(cmd=['python3', '-u', {path!r}], sigterm_timeout='0.1', sigkill_timeout='0.1')]")
+    bench.until(lambda: any("up" in text for _, _, text in bench.printed), "its first line")
+    assert bench.do("stop", bench.process()).ok
+    assert bench.process().exit_code == -9
+
+
+def test_kill_while_it_is_stopping(bench):
+    path = bench.program(DEAF)
+    bench.run(f"[ExecuteProcess(cmd=['python3', '-u', {path!r}], sigterm_timeout='600')]")
+    bench.until(lambda: any("up" in text for _, _, text in bench.printed), "its first line")
+    stopping = bench.launcher.stop(bench.process().key)
+    assert bench.process().state is ProcessState.STOPPING
+    assert not stopping.done()
+    assert bench.do("kill", bench.process()).ok
+    assert stopping.result(PATIENCE).ok
+
+
+def test_stop_takes_a_restart_back(bench):
+    path = bench.program(DEAF)
+    bench.run(f"[ExecuteProcess(cmd=['python3', '-u', {path!r}], sigterm_timeout='1.0', sigkill_timeout='0.1')]")
+    bench.until(lambda: any("up" in text for _, _, text in bench.printed), "its first line")
+    key = bench.process().key
+    restart, stop = bench.launcher.restart(key), bench.launcher.stop(key)
+    assert stop.result(PATIENCE).ok
+    assert not restart.result(PATIENCE).ok
+    assert bench.process().restarts == 0
+
+
+def test_a_respawning_process(bench):
+    path = bench.program(FAILS)
+    bench.run(f"[Node(executable={path!r}, respawn=True, respawn_delay=0.01)]")
+    bench.until(lambda: bench.process().restarts >= 3, "the third respawn")
+    assert bench.process().exit_code == 1
+    assert bench.do("stop", bench.process()).ok
+    stopped = bench.process()
+    assert stopped.state in (ProcessState.EXITED, ProcessState.CRASHED)
+    bench.until(lambda: bench.texts()[-1] == "system.launch.py has ended", "the end of the launch")
+    assert bench.process().restarts == stopped.restarts
+
+
+def test_stop_during_the_delay_of_a_respawn(bench):
+    path = bench.program(ENDS)
+    bench.run(f"[Node(executable={path!r}, respawn=True, respawn_delay=600.0)]")
+    bench.until(lambda: bench.process().exit_code is not None, "its end")
+    assert bench.process().state is ProcessState.STARTING
+    assert bench.do("stop", bench.process()).ok
+    assert bench.process().state is ProcessState.EXITED
+
+
+def test_a_killed_process_that_respawns_comes_back(bench):
+    path = bench.program(WAITS)
+    bench.run(f"[Node(executable={path!r}, respawn=True)]")
+    assert bench.do("kill", bench.process()).ok
+    bench.until(lambda: bench.process().state is ProcessState.RUNNING, "the respawn")
+    assert bench.process().restarts == 1
+
+
+def test_it_still_respawns_after_a_restart(bench):
+    path = bench.program(WAITS)
+    bench.run(f"[Node(executable={path!r}, respawn=True)]")
+    assert bench.do("restart", bench.process()).ok
+    assert bench.do("kill", bench.process()).ok
+    bench.until(lambda: bench.process().restarts == 2 and bench.process().state is ProcessState.RUNNING, "the respawn")
+
+
+def test_a_crash_is_told_and_leaves_the_others_alone(bench):
+    fails, waits = bench.program(FAILS, "fails.py"), bench.program(WAITS, "waits.py")
+    bench.run(f"[Node(executable={waits!r}), Node(executable={fails!r})]")
+    bench.until(lambda: len(bench.info.processes) == 2 and bench.process("fails").exit_code == 1, "the crash")
+    crashed = bench.process("fails")
+    assert (crashed.state, crashed.problem) == (ProcessState.CRASHED, "RuntimeError: the fault (fails.py:1)")
+    assert bench.process("waits").state is ProcessState.RUNNING
+    assert next(each for each in bench.info.timeline if each.severity is Severity.ERROR).text.startswith("fails.py")
+
+
+def test_a_program_that_went_missing_does_not_end_the_launch(bench):
+    fails, waits = bench.folder / "fails.py", bench.program(WAITS, "waits.py")
+    bench.program(FAILS, "fails.py")
+    bench.run(f"[Node(executable={waits!r}), Node(executable={str(fails)!r})]")
+    bench.until(lambda: len(bench.info.processes) == 2 and bench.process("fails").exit_code == 1, "the crash")
+    fails.unlink()
+    answer = bench.do("start", bench.process("fails"))
+    assert not answer.ok
+    assert bench.process("fails").state is ProcessState.CRASHED
+    assert bench.process("waits").state is ProcessState.RUNNING
+
+
+def test_the_tree_names_files_and_groups(bench):
+    path = bench.program(WAITS)
+    bench.file(f"[Node(executable={path!r}, name='inner')]", "inner.launch.py")
+    inner = str(bench.folder / "inner.launch.py")
+    bench.run(
+        f"[GroupAction([PushRosNamespace('left'), IncludeLaunchDescription({inner!r})]),"
+        f" IncludeLaunchDescription({inner!r}), Node(executable={path!r}, name='outer')]",
+    )
+    bench.until(lambda: len(bench.info.processes) == 3, "three processes")
+    assert {each.nodes[0]: each.group for each in bench.info.processes} == {
+        "/left/inner": ("system.launch.py", "left", "inner.launch.py"),
+        "/inner": ("system.launch.py", "inner.launch.py"),
+        "/outer": ("system.launch.py",),
+    }
+
+
+def test_two_launch_files_at_once_and_one_of_them_twice(bench):
+    path = bench.program(WAITS)
+    bench.run(f"[Node(executable={path!r}, name='a')]", "a.launch.py")
+    bench.run(f"[Node(executable={path!r}, name='b')]", "b.launch.py")
+    bench.run(f"[Node(executable={path!r}, name='c')]", "b.launch.py")
+    assert [each.group for each in bench.info.processes] == [("a.launch.py",), ("b.launch.py",), ("b.launch.py (2)",)]
+    assert bench.do("stop", bench.info.processes[0]).ok
+    assert [each.state for each in bench.info.processes[1:]] == [ProcessState.RUNNING] * 2
+
+
+SYNTAX = "def generate_launch_description(:\n    pass\n"
+RAISES = "def generate_launch_description():\n    return 1 / 0\n"
+NOTHING = "x = 1\n"
+EXITS = "import sys\nsys.exit('no robot today')\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (SYNTAX, r"line 1: syntax error: invalid syntax"),
+        (RAISES, r"line 2: ZeroDivisionError: division by zero"),
+        (NOTHING, r"broken.launch.py.* does not contain the required function"),
+        (EXITS, r"line 2: SystemExit: no robot today"),
+    ],
+)
+@pytest.mark.parametrize("included", [False, True])
+def test_a_launch_file_that_fails_is_one_message_and_nothing_else_stops(bench, waiter, text, message, included):
+    path = bench.folder / "broken.launch.py"
+    path.write_text(text)
+    asked = bench.file(f"[IncludeLaunchDescription({str(path)!r})]", "asked.launch.py") if included else str(path)
+    answer = bench.launcher.launch(asked, {}).result(PATIENCE)
+    assert not answer.ok
+    assert re.search(message, answer.text), answer.text
+    assert answer.text.startswith(str(path))
+    assert "\n" not in answer.text
+    bench.until(lambda: bench.info.problem == answer.text, "the message")
+    assert bench.process().state is ProcessState.RUNNING
+
+
+def test_a_missing_package(bench):
+    answer = bench.run("[LogInfo(msg='x'),\n Node(package='not_there', executable='x')]")
+    assert not answer.ok
+    assert "system.launch.py, line 9: package 'not_there' not found" in answer.text
+
+
+def test_an_endless_include(bench):
+    answer = bench.launcher.launch(bench.file("[IncludeLaunchDescription(__file__)]"), {}).result(3 * PATIENCE)
+    assert answer.text.endswith("line 8: launch files include each other without end")
+
+
+def test_a_missing_file(bench):
+    answer = bench.launcher.launch("/nowhere/x.launch.py", {}).result(PATIENCE)
+    assert (answer.ok, answer.text) == (False, "/nowhere/x.launch.py: No such file or directory")
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "message"),
+    [
+        ("c.launch.xml", "<launch>\n<nodel/>\n</launch>", "line 2: Unrecognized"),
+        ("b.launch.xml", "<launch>\n<node>\n</launch>", "line 3: mismatched tag"),
+        ("b.launch.yaml", "launch:\n- {a: b\n- c", "line 3: expected"),
+    ],
+)
+def test_other_kinds_of_launch_files(bench, name, text, message):
+    path = bench.folder / name
+    path.write_text(text)
+    assert message in bench.launcher.launch(str(path), {}).result(PATIENCE).text
+    with pytest.raises(ValueError, match=message):
+        bench.launcher.arguments(str(path))
+
+
+def test_arguments_as_a_form(bench):
+    path = bench.file(
+        "[DeclareLaunchArgument('must', description='needed'), DeclareLaunchArgument('size', default_value='1'),"
+        " DeclareLaunchArgument('same', default_value=LaunchConfiguration('size')),"
+        " DeclareLaunchArgument('lost', default_value=LaunchConfiguration('nowhere')),"
+        " DeclareLaunchArgument('mode', default_value='b', choices=['a', 'b'], description='Which')]"
+    )
+    assert bench.launcher.arguments(path) == [
+        LaunchArgument("must", "needed"),
+        LaunchArgument("size", "", "1"),
+        LaunchArgument("same", "", "1"),
+        LaunchArgument("lost", "", "LaunchConfig('nowhere')"),
+        LaunchArgument("mode", "Which.", "b", ("a", "b")),
+    ]
+    assert bench.launcher.files() == (path,)
+
+
+def test_arguments_reach_the_launch(bench):
+    answer = bench.run("[DeclareLaunchArgument('must'), Node(executable=LaunchConfiguration('must'))]")
+    assert "must" in answer.text and not answer.ok
+    path = bench.program(WAITS)
+    assert bench.run("[DeclareLaunchArgument('must'), Node(executable=LaunchConfiguration('must'))]", must=path).ok
+
+
+def test_a_launch_that_shuts_itself_down(bench):
+    ends, waits = bench.program(ENDS, "ends.py"), bench.program(WAITS, "waits.py")
+    bench.run(f"[Node(executable={waits!r}), Node(executable={ends!r}, on_exit=Shutdown(reason='enough'))]")
+    bench.until(lambda: bench.process("waits").exit_code is not None, "the end of the other")
+    assert "system.launch.py ends: enough" in bench.texts()
+    assert bench.process("waits").state is ProcessState.EXITED
+    assert bench.do("start", bench.process("waits")).ok
+
+
+def test_what_a_process_uses_of_a_processor(bench, waiter, monkeypatch):
+    from bot_console.tui.console.launch import vitals as process_vitals
+
+    monkeypatch.setattr(process_vitals, "PERIOD", 0.0)
+    bench.until(lambda: bench.process().cpu is not None, "its processor share")
+
+
+STUBBORN = """
+import os
+
+
+def compute():
+    while not os.path.exists({stop!r}):
+        sum(range(1000))
+
+
+print("up", flush=True)
+while not os.path.exists({stop!r}):
+    try:
+        compute()
+    except BaseException:
+        pass
+"""
+
+
+def test_code_that_survives_being_killed_is_told(bench):
+    stop = bench.folder / "stop"
+    path = bench.program(STUBBORN.format(stop=str(stop)))
+    try:
+        bench.run(f"[Node(executable={path!r})]")
+        bench.until(lambda: any("up" in text for _, _, text in bench.printed), "its first line")
+        assert bench.do("kill", bench.process()).ok
+        assert bench.process().exit_code == -9
+        bench.until(lambda: bench.process().state is ProcessState.ABANDONED, "the notice")
+        assert f"It hangs in {path}:" in bench.process().problem
+        assert "is abandoned" in bench.texts()[-1]
+        bench.program(WAITS)
+        assert bench.do("start", bench.process()).ok
+        assert bench.process().state is ProcessState.RUNNING
+    finally:
+        stop.touch()
+
+
+def test_closing(bench, waiter):
+    bench.launcher.close()
+    bench.launcher.close()
+    assert bench.process().state is ProcessState.EXITED
+    for answer in (bench.launcher.start(waiter.key), bench.launcher.launch("x", {})):
+        assert answer.result(PATIENCE).text == "the console is closing"

@@ -1,0 +1,101 @@
+"""Output of processes: what a logger wrote is told from a print by its mark, taken only where `/rosout` lacks it."""
+
+import pytest
+from bot_console.tui.console.launch.output import (
+    ENVELOPE,
+    ENVELOPE_VARIABLE,
+    FORMAT_VARIABLE,
+    PATIENCE_S,
+    OutputReader,
+    ProcessOutput,
+    Undecided,
+    marking,
+)
+from hypothesis import given
+from hypothesis import strategies as st
+
+RED, RESET = "\x1b[31m", "\x1b[0m"
+
+
+def marked(message: str, on_rosout: str = "0", usual: str = "", stamp: int = 5) -> str:
+    fields = {"{severity}": "WARN", "{time_as_nanoseconds}": str(stamp), "{name}": "n", "{file_name}": "f.py",
+              "{function_name}": "g", "{line_number}": "7", "{on_rosout}": on_rosout, "{line}": usual,
+              "{message}": message}  # fmt: skip
+    text = ENVELOPE
+    for token, value in fields.items():
+        text = text.replace(token, value)
+    return text + "\n"
+
+
+def read(*pieces: str) -> tuple[list[tuple[object, ...]], list[str]]:
+    records: list[tuple[object, ...]] = []
+    printed: list[str] = []
+    reader = OutputReader(lambda record, on_rosout: records.append((*record, on_rosout)), printed.append)
+    for piece in pieces:
+        reader.feed(piece)
+    reader.close()
+    return records, printed
+
+
+def test_a_logger_line_among_prints() -> None:
+    records, printed = read("hello\n" + marked("two\nlines") + "no end")
+    assert records == [(5, 30, "n", "two\nlines", ("f.py", "g", 7), False)]
+    assert printed == ["hello", "no end"]
+
+
+def test_a_print_without_an_end_before_a_logger_line() -> None:
+    assert read("prompt> " + marked("x"))[1] == ["prompt> "]
+
+
+def test_colours_around_a_marked_line_are_no_prints() -> None:
+    records, printed = read(RED + marked("x").rstrip("\n") + RESET + "\n" + "after\n")
+    assert [record[3] for record in records] == ["x"]
+    assert printed == ["after"]
+
+
+@pytest.mark.parametrize("text", ["has \x1f in it", "has \x1d in it", "ends so \x1f"])
+def test_a_message_may_hold_what_marks_are_made_of(text: str) -> None:
+    records, printed = read(marked(text, usual=f"[n] {text.split(maxsplit=1)[0]}"))
+    assert [record[3] for record in records] == [text]
+    assert not printed
+
+
+@given(st.data(), st.lists(st.one_of(st.just("print\n"), st.builds(marked, st.text("ab\n ", max_size=5))), max_size=8))
+def test_pieces_do_not_matter(data: st.DataObject, parts: list[str]) -> None:
+    text = "".join(parts)
+    cuts = sorted(data.draw(st.lists(st.integers(0, len(text)), max_size=6)))
+    pieces = [text[a:b] for a, b in zip([0, *cuts], [*cuts, len(text)], strict=True)]
+    assert read(*pieces) == read(text)
+
+
+def test_only_what_rosout_lacks_is_taken() -> None:
+    taken: list[str] = []
+    output = ProcessOutput("n-1", lambda *record: taken.append(record[3]), lambda *line: taken.append(line[2]))
+    output.feed(marked("on both", "1") + marked("here alone", "0") + "a print\n", stderr=False)
+    output.feed(marked("on both", "1"), stderr=True)
+    assert taken == ["here alone", "a print"]
+
+
+def test_a_line_of_a_real_logger_counts_when_rosout_never_brings_that_logger() -> None:
+    now, heard, taken = [0.0], {"n"}, []
+    undecided = Undecided(lambda *record: taken.append(record[2]), heard.__contains__, lambda: now[0])
+    for name in ("n", "late", "nodeless"):
+        undecided.wait((1, 20, name, "x", ("", "", 0)))
+    assert not taken
+    heard.add("late")
+    now[0] = PATIENCE_S + 0.1
+    undecided.settle()
+    assert taken == ["nodeless"]
+    undecided.wait((2, 20, "last words", "x", ("", "", 0)))
+    undecided.settle(ended=True)
+    assert taken == ["nodeless", "last words"]
+
+
+def test_a_real_logger_prints_the_field_that_it_does_not_know_as_it_is() -> None:
+    assert read(marked("x", "{on_rosout}"))[0][0][-1] is None
+
+
+def test_a_format_of_the_users_stays_inside_the_mark() -> None:
+    variables = marking({FORMAT_VARIABLE: "{name}> {message}"})
+    assert variables[FORMAT_VARIABLE] == ENVELOPE.replace("{line}", "{name}> {message}")
+    assert variables[ENVELOPE_VARIABLE] == ENVELOPE

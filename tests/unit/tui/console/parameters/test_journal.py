@@ -1,0 +1,46 @@
+"""The journal numbers changes, and undo and redo mirror each other."""
+
+from bot_console.tui.console.model import ChangeSource
+from bot_console.tui.console.parameters.journal import Journal, Step
+
+
+def test_entries_are_numbered_and_bounded() -> None:
+    journal = Journal(2)
+    for number in range(3):
+        journal.record(number, "/n", "p", (number, number + 1), ChangeSource.OTHER, "no" if number == 2 else "")
+    assert [each.seq for each in journal.after(0)] == [1, 2]
+    assert [each.accepted for each in journal.after(1)] == [True, False]
+    assert (journal.state.first, journal.state.end, journal.state.dropped) == (1, 3, 1)
+
+
+def test_undo_then_redo() -> None:
+    journal = Journal()
+    step = Step("/n", {"p": 1}, {"p": 2})
+    journal.did(step, ChangeSource.EDIT)
+    assert journal.state.can_undo
+    assert journal.take_undo() is step
+    journal.did(step, ChangeSource.UNDO)
+    assert (journal.state.can_undo, journal.state.can_redo) == (False, True)
+    assert journal.take_redo() is step
+    journal.did(step, ChangeSource.REDO)
+    assert (journal.state.can_undo, journal.state.can_redo) == (True, False)
+    assert journal.take_redo() is None
+
+
+def test_a_new_edit_forgets_what_could_be_redone() -> None:
+    journal = Journal()
+    journal.did(Step("/n", {"p": 1}, {"p": 2}), ChangeSource.EDIT)
+    undone = journal.take_undo()
+    assert undone is not None
+    journal.did(undone, ChangeSource.UNDO)
+    journal.did(Step("/n", {"q": 1}, {"q": 2}), ChangeSource.EDIT)
+    assert not journal.state.can_redo
+
+
+def test_a_refused_undo_is_put_back() -> None:
+    journal = Journal()
+    journal.did(Step("/n", {"p": 1}, {"p": 2}), ChangeSource.EDIT)
+    step = journal.take_undo()
+    assert step is not None
+    journal.put_back(step, ChangeSource.UNDO)
+    assert journal.state.can_undo

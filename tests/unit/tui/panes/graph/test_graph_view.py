@@ -1,0 +1,64 @@
+"""Which part of the graph is drawn."""
+
+from __future__ import annotations
+
+import pytest
+from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.console.query import parse
+from bot_console.tui.panes.graph.export import exported
+from bot_console.tui.panes.graph.view import GraphView, Mode, shown, summary
+from bot_console.tui.widgets.diagram.drawing import draw
+from bot_console.tui.widgets.diagram.graph import Digraph, Item
+from samples import graph
+
+
+def ids(view: GraphView, info: GraphInfo | None = None) -> set[str]:
+    return {item.id.removeprefix("topic:") for item in shown(info or graph(), view).graph.items}
+
+
+def test_dead_ends_are_marked_and_can_be_hidden() -> None:
+    assert "topic:/cmd_vel_teleop" in shown(graph(), GraphView()).dead_ends
+    assert "topic:/telemetry/speed" in shown(graph(), GraphView()).dead_ends
+    assert "/telemetry/speed" not in ids(GraphView(dead_sinks=False))
+    assert "/cmd_vel_teleop" in ids(GraphView(dead_sinks=False))
+    assert "/cmd_vel_teleop" not in ids(GraphView(leaves=False))
+    assert not {"/cmd_vel_teleop", "/telemetry/speed"} & ids(GraphView(mode=Mode.ACTIVE))
+
+
+def test_nodes_only_links_publishers_to_listeners() -> None:
+    found = shown(graph(), GraphView(mode=Mode.NODES)).graph
+    assert ("/sensor_handler", "/safety_monitor") in found.edges
+    assert ("/simulator", "/sensor_handler") in found.edges
+    assert all(item.boxed for item in found.items)
+
+
+def test_hidden_nodes_and_tool_topics_come_on_request() -> None:
+    info = GraphInfo((NodeInfo("/_hidden", (Endpoint("/x", ("a/msg/B",)),)), NodeInfo("/seen")))
+    assert ids(GraphView(), info) == {"/seen"}
+    assert ids(GraphView(debug=True), info) == {"/seen", "/_hidden", "/x"}
+
+
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        ("/odom", {"/odom", "/simulator", "/robot_navigator", "/motion_controller", "/telemetry_publisher"}),
+        ("!robot !motion !telemetry /odom", {"/odom", "/simulator"}),
+        ("node:sensor", {"/sensor_handler", "/scan_raw", "/scan"}),
+        ("nowhere", set()),
+    ],
+)
+def test_filters(words: str, expected: set[str]) -> None:
+    assert ids(GraphView(query=parse(words))) == expected
+
+
+def test_a_topic_with_two_types_is_told() -> None:
+    info = GraphInfo((NodeInfo("/a", (Endpoint("/t", ("x/msg/A",)),), (Endpoint("/t", ("x/msg/B",)),)),))
+    assert "x/msg/A, x/msg/B" in summary(info, "topic:/t")
+
+
+def test_exports_quote_what_needs_it() -> None:
+    odd = Digraph((Item("a", 'say "hi"'), Item("b\\", "b", False)), (("a", "b\\"),))
+    drawing = draw(odd)
+    assert "#quot;hi#quot;" in exported(odd, drawing, ".mmd")
+    assert '"a" -> "b\\\\";' in exported(odd, drawing, ".dot")
+    assert exported(odd, drawing, ".txt").count("▶") == 1

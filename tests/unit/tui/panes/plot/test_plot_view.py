@@ -1,0 +1,98 @@
+"""Plots as numbers and text: reduction, limits, ticks, gaps."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from bot_console.tui.panes.plot.curves import Curve, reach
+from bot_console.tui.panes.plot.parts import limits_of, wrong_limits
+from bot_console.tui.panes.plot.view import Axes, Mark, framed, legend, limits, short_number, strips, tick_step
+from hypothesis import given
+from hypothesis import strategies as st
+from rich.cells import cell_len
+
+
+def curve(values: list[float], rate: float = 10.0, path: str = "/t/data") -> Curve:
+    return Curve(path, 0, np.arange(len(values)) / rate, np.array(values, float))
+
+
+def width_of(line: tuple[tuple[str, str], ...]) -> int:
+    return sum(cell_len(text) for text, _ in line)
+
+
+@given(st.lists(st.floats(-1e6, 1e6), min_size=2, max_size=300), st.integers(4, 60))
+def test_no_peak_is_lost_however_many_samples_fall_into_a_column(values: list[float], columns: int) -> None:
+    shown = curve(values)
+    seen = reach(*shown.between(0.0, shown.times[-1]), 0.0, float(shown.times[-1]), columns)
+    assert np.nanmax(seen.high) == pytest.approx(max(values), abs=1e-9)
+    assert np.nanmin(seen.low) == pytest.approx(min(values), abs=1e-9)
+    assert not np.isnan(seen.low).any()
+
+
+def test_a_value_that_is_not_finite_leaves_a_gap_and_nothing_else() -> None:
+    shown = curve([1.0] * 10 + [math.nan, math.inf, -math.inf] + [1.0] * 10)
+    seen = reach(*shown.between(0.0, 2.2), 0.0, 2.2, 22)
+    gap = np.isnan(seen.low)
+    assert gap[10:12].all() and not gap[:9].any() and not gap[14:].any()
+
+
+def test_a_parameter_holds_its_value_until_the_next_change() -> None:
+    shown = Curve("/n:p", 0, np.array([1.0, 5.0]), np.array([2.0, 3.0]))
+    times, values = shown.between(0.0, 8.0)
+    assert times.tolist() == [1.0, 5.0, 5.0, 8.0] and values.tolist() == [2.0, 2.0, 3.0, 3.0]
+
+
+def test_nothing_is_drawn_before_the_first_sample() -> None:
+    shown = curve([1.0, 2.0])
+    seen = reach(*shown.between(-5.0, 0.1), -5.0, 0.1, 51)
+    assert np.isnan(seen.low[:49]).all()
+
+
+@pytest.mark.parametrize(("span", "most", "step"), [(10, 5, 2), (1, 4, 0.5), (7, 10, 1), (0.03, 6, 0.005), (0, 5, 1)])
+def test_ticks_stand_at_round_numbers(span: float, most: int, step: float) -> None:
+    assert tick_step(span, most) == pytest.approx(step)
+
+
+@given(st.floats(-1e9, 1e9), st.floats(0, 1e6))
+def test_the_limits_hold_everything_and_are_never_equal(low: float, span: float) -> None:
+    seen = reach(np.array([0.0, 1.0]), np.array([low, low + span]), 0.0, 1.0, 4)
+    bottom, top = limits([seen])
+    slack = 1e-9 * max(1.0, abs(low), abs(low + span))
+    assert bottom <= low + slack and top >= low + span - slack and top > bottom
+
+
+@given(st.lists(st.floats(allow_nan=True, allow_infinity=True), max_size=60), st.integers(16, 130), st.integers(4, 40))
+def test_any_series_gives_lines_of_the_width_that_was_asked_for(values: list[float], width: int, height: int) -> None:
+    axes = Axes(0.0, 5.0)
+    lines = framed([curve(values)], [Mark(1.0), Mark(2.0, True), Mark(99.0)], axes, width, height)
+    assert len(lines) == height
+    assert {width_of(line) for line in lines} == {width}
+    assert len(strips([curve(values), curve(values)], axes, width, height, 0)) <= height
+
+
+@pytest.mark.parametrize("limits", [(-1e300, 1e300), (1e300, math.nextafter(1e300, math.inf)), (0.0, 5e-324)])
+def test_extreme_values_and_limits_come_to_an_end(limits: tuple[float, float]) -> None:
+    for values in (list(limits), [-1.7e308, 1.7e308]):
+        for axes in (Axes(0.0, 5.0), Axes(0.0, 5.0, limits)):
+            assert len(framed([curve(values)], [], axes, 60, 20)) == 20
+
+
+@given(st.floats(allow_nan=True, allow_infinity=True), st.sampled_from([0.0, 1e-7, 0.01, 0.5, 1.0, 20.0, 1e9]))
+def test_numbers_fit_their_place(value: float, step: float) -> None:
+    assert len(short_number(value, step)) <= 7
+
+
+def test_the_legend_tells_the_newest_value_and_the_figures_of_the_window() -> None:
+    text = "".join(each for each, _ in legend(curve([1.0, 3.0, math.nan, 2.0]), Axes(0.0, 1.0), 100, True))
+    assert "2.000" in text and "min 1.000  max 3.000  mean 2.000" in text and "1 not finite" in text
+
+
+@pytest.mark.parametrize("text", ["1", "a b", "2 1", "1 1", "nan 2", "1 2 3", "inf 3", "-1.7e308 1.7e308"])
+def test_limits_that_make_no_sense_are_refused(text: str) -> None:
+    assert wrong_limits(text)
+
+
+def test_limits_are_two_numbers_or_none() -> None:
+    assert limits_of("") is None and limits_of("-1 .. 2.5") == (-1.0, 2.5) and limits_of("0, 4") == (0.0, 4.0)

@@ -1,0 +1,78 @@
+"""Steering as arithmetic: limits, zero on the way, the dead-man time."""
+
+from __future__ import annotations
+
+import pytest
+from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree
+from bot_console.tui.panes.steering.state import GREATEST, Steering, greatest_of
+
+
+def armed(greatest: tuple[float, float] = (1.0, 3.0)) -> Steering:
+    state = Steering(greatest=greatest)
+    state.arm(0.0)
+    return state
+
+
+def test_it_never_passes_the_limits_and_stops_at_zero_on_the_way_back() -> None:
+    state = armed()
+    state.steer(1, 0, 100, 0.0)
+    assert state.linear == 1.0
+    state.steer(-1, 0, 30, 0.0)
+    assert state.linear == 0.0
+    state.steer(-1, 0, 100, 0.0)
+    assert state.linear == -1.0
+
+
+def test_twenty_steps_lead_to_the_limit_without_a_rest() -> None:
+    state = armed((0.7, 0.9))
+    for _ in range(20):
+        state.steer(1, -1, 1, 0.0)
+    assert (state.linear, state.angular) == (0.7, -0.9)
+    for _ in range(20):
+        state.steer(-1, 1, 1, 0.0)
+    assert (state.linear, state.angular) == (0.0, 0.0)
+
+
+def test_other_limits_hold_at_once() -> None:
+    state = armed()
+    state.steer(1, 1, 20, 0.0)
+    state.limit((0.2, 0.3))
+    assert (state.linear, state.angular) == (0.2, 0.3)
+
+
+def test_velocities_are_repeated_a_zero_is_said_once() -> None:
+    state = armed()
+    assert state.command(0.0) is None
+    state.steer(1, 0, 1, 0.0)
+    assert state.command(0.1) == state.command(0.2) == (0.05, 0.0)
+    state.zero()
+    assert state.command(0.3) == (0.0, 0.0)
+    assert state.command(0.4) is None
+
+
+def test_the_deadman_time_is_exact() -> None:
+    state = armed()
+    state.steer(1, 0, 1, 10.0)
+    assert state.left(11.0) == 0.5 and state.left(99.0) == 0.0
+    assert state.command(11.999) == (0.05, 0.0) and not state.expired
+    assert state.command(12.0) == (0.0, 0.0) and state.expired and not state.armed
+
+
+def test_disarmed_it_says_zero_even_if_it_said_so_before() -> None:
+    state = armed()
+    state.disarm()
+    assert state.command(0.0) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("parameters", "expected"),
+    [
+        ([], GREATEST),
+        ([("max_speed", Kind.DOUBLE, 2.0)], (2.0, GREATEST[1])),
+        ([("max_speed", Kind.DOUBLE, 2.0), ("turn_rate", Kind.DOUBLE, 0.5)], (2.0, 0.5)),
+        ([("max_speed", Kind.STRING, "fast"), ("turn_rate", Kind.DOUBLE, -1.0)], GREATEST),
+    ],
+)
+def test_limits_come_from_parameters_that_are_positive_numbers(parameters, expected) -> None:
+    infos = tuple(ParameterInfo("/r", name, kind, value) for name, kind, value in parameters)
+    assert greatest_of([ParameterTree("/r", infos)]) == expected

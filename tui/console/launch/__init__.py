@@ -1,0 +1,1 @@
+"""The console's launcher: processes, over the public launch API."""

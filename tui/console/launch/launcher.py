@@ -1,0 +1,343 @@
+"""Processes as the console sees and steers them: the public `launch` API and its event handlers, nothing else."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Future
+from pathlib import Path
+from typing import Any, Protocol
+
+from bot_console.tui.console.launch.again import Recipe, recipe
+from bot_console.tui.console.launch.arguments import read_arguments
+from bot_console.tui.console.launch.output import Add, ProcessOutput
+from bot_console.tui.console.launch.process import ENDED, KILLED, LaunchedProcess, Order
+from bot_console.tui.console.launch.run import LaunchRun, Listener
+from bot_console.tui.console.launch.timeline import LaunchTimeline
+from bot_console.tui.console.launch.vitals import FindVitals, Usage, Vitals
+from bot_console.tui.console.model import LaunchArgument, LaunchInfo, ProcessState, Severity
+from bot_console.tui.console.protocol import Answer
+
+CLOSED = "the console is closing"
+BUSY_S = 6.0
+"""Seconds after which a process that never waits is named."""
+
+
+class Joinable(Protocol):
+    """A thread, or what can be waited for like one."""
+
+    def join(self, timeout: float | None = None) -> object:
+        """Wait for the end, at most so many seconds."""
+        ...
+
+
+class _Held:
+    """A process with the action that runs it, the run it belongs to, and all that looks at it."""
+
+    def __init__(self, process: LaunchedProcess, run: LaunchRun, action: Any, made_from: Recipe) -> None:
+        self.process = process
+        self.run = run
+        self.action = action
+        self.recipe = made_from
+        self.output: ProcessOutput | None = None
+        self.vitals: Vitals | None = None
+        self.usage: Usage | None = None
+
+
+class RosLauncher:
+    """Runs launch files, each in a LaunchService and thread of its own. Methods may be called from any thread."""
+
+    def __init__(
+        self,
+        record: Add,
+        printed: Callable[[int, str, str], None],
+        files: Callable[[], Sequence[str]] = tuple,
+        spawn: Callable[[Callable[[], None], str], Joinable] | None = None,
+        vitals: FindVitals = lambda pid: None,
+        heard: Callable[[str], bool] = lambda name: True,
+    ) -> None:
+        """`spawn` starts the thread of a launch of a file, and keeps what launch itself prints off the screen.
+
+        `heard` says whether `/rosout` has brought a line of the logger of that name.
+        """
+        self._record = record
+        self._printed = printed
+        self._files_of_workspace = files
+        self._spawn = spawn or _thread
+        self._find_vitals = vitals
+        self._heard = heard
+        self._listener = Listener(self._started, self._output, self._exited, self._over, self._ending, self._fault)
+        self._lock = threading.RLock()
+        self._held: dict[str, _Held] = {}
+        self._by_action: dict[Any, _Held] = {}
+        self._runs: dict[LaunchRun, Joinable | None] = {}
+        self._unanswered: dict[LaunchRun, Future[Answer]] = {}
+        self._files: list[str] = []
+        self._timeline = LaunchTimeline()
+        self._problem = ""
+        self._info = LaunchInfo()
+        self._dirty = self._closed = False
+
+    def info(self) -> LaunchInfo:
+        """What is known now; the same object until something changes."""
+        with self._lock:
+            self._look()
+            if self._dirty:
+                self._dirty = False
+                processes = tuple(each.process.info for each in self._held.values())
+                self._info = LaunchInfo(tuple(self._files), processes, self._timeline.events, self._problem)
+            return self._info
+
+    def _look(self) -> None:
+        """Measure what no event tells."""
+        now = time.monotonic()
+        for held in self._held.values():
+            info = held.process.info
+            if held.output is not None and held.process.alive:
+                held.output.settle()
+            if held.usage is not None and held.process.alive:
+                self._look_at(held, held.usage, now)
+            elif held.vitals is not None and info.exit_code == KILLED and info.state is not ProcessState.ABANDONED:
+                where = held.vitals.hangs_in() if info.state in ENDED else ""
+                if where:
+                    held.process.abandoned(where)
+                    self._tell(f"{info.label} is abandoned: {where}", Severity.WARN)
+
+    def _look_at(self, held: _Held, usage: Usage, now: float) -> None:
+        before = usage.busy_s
+        usage.look(now)
+        self._dirty |= held.process.uses(usage.share, usage.memory)
+        if before < BUSY_S <= usage.busy_s:
+            label = held.process.info.label
+            self._tell(f"{label} has kept a processor busy for {BUSY_S:g} s, without a break", Severity.WARN)
+
+    def _tell(self, text: str, severity: Severity = Severity.INFO) -> None:
+        self._timeline.tell(text, severity)
+        self._dirty = True
+
+    def arguments(self, path: str) -> Sequence[LaunchArgument]:
+        """The arguments a launch file declares; raises `ValueError` when it cannot be read."""
+        return read_arguments(path)
+
+    def files(self) -> Sequence[str]:
+        """Launch files of the workspace."""
+        return self._files_of_workspace()
+
+    def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
+        """Run one more launch file; the answer comes when its first process runs or it has failed or ended."""
+        outcome: Future[Answer] = Future()
+        given = dict(arguments)
+        with self._lock:
+            if self._closed:
+                outcome.set_result(Answer(False, CLOSED))
+                return outcome
+            self._files.append(path)
+            self._problem = ""
+            words = "".join(f" {name}:={value}" for name, value in given.items())
+            self._tell(f"launch {path}{words}")
+            name = Path(path).name
+            again = sum(Path(each).name == name for each in self._files)
+            run = LaunchRun(name if again == 1 else f"{name} ({again})", self._listener)
+            run.path = path
+            self._unanswered[run] = outcome
+            self._begin(run, lambda: run.run_file(path, given))
+        return outcome
+
+    def _begin(self, run: LaunchRun, work: Callable[[], str]) -> None:
+        self._runs[run] = None
+        self._runs[run] = self._spawn(lambda: self._serve(run, work), run.path)
+
+    def _serve(self, run: LaunchRun, work: Callable[[], str]) -> None:
+        try:
+            problem = work()
+        except (Exception, SystemExit) as error:  # the border of the launch thread
+            problem = run.fault(error)
+        with self._lock:
+            del self._runs[run]
+            of_file = self._unanswered.pop(run, None)
+            if problem:
+                self._problem = problem
+                self._tell(problem, Severity.ERROR)
+                if not run.logged:
+                    self._printed(Severity.ERROR, "launch", problem)
+            else:
+                self._tell(f"{run.title} has ended")
+            for held in [each for each in self._held.values() if each.run is run]:
+                self._left_over(held)
+        if of_file is not None:
+            of_file.set_result(Answer(not problem, problem or f"{run.title} has ended"))
+
+    def _left_over(self, held: _Held) -> None:
+        """Its run is over: what was to be started in it is started in one of its own."""
+        if held.process.info.state is ProcessState.STARTING and not self._closed:
+            self._order(held, Order.START)
+        else:
+            self._ended(held)
+
+    def start(self, key: str) -> Future[Answer]:
+        """Start an ended process again; the answer comes when it runs."""
+        return self._want("start", key)
+
+    def stop(self, key: str) -> Future[Answer]:
+        """Stop a process as Ctrl-C does; the answer comes when it has ended."""
+        return self._want("stop", key)
+
+    def kill(self, key: str) -> Future[Answer]:
+        """End a process at once, as SIGKILL does; launch starts it again where its launch file says so."""
+        return self._want("kill", key)
+
+    def restart(self, key: str) -> Future[Answer]:
+        """Stop, then start; the answer comes when it runs again."""
+        return self._want("restart", key)
+
+    def _want(self, verb: str, key: str) -> Future[Answer]:
+        with self._lock:
+            held = self._held.get(key)
+            if held is None or self._closed:
+                refused: Future[Answer] = Future()
+                refused.set_result(Answer(False, CLOSED if self._closed else f"there is no process {key}"))
+                return refused
+            before = held.process.info
+            order, outcome = held.process.want(verb)
+            if held.process.info is not before or order is not Order.NOTHING:
+                self._tell(f"{verb} {before.label}")
+            self._order(held, order)
+        return outcome
+
+    def _order(self, held: _Held, order: Order) -> None:
+        from launch.events import matches_action
+        from launch.events.process import ShutdownProcess, SignalProcess
+
+        if order is Order.START:
+            self._start(held)
+        elif held.action is None:
+            return  # not executed yet; it is told to end as soon as it was started
+        elif order is Order.KILL:
+            held.run.emit(SignalProcess(signal_number="SIGKILL", process_matcher=matches_action(held.action)))
+        elif order is Order.SHUT_DOWN:
+            held.run.emit(ShutdownProcess(process_matcher=matches_action(held.action)))
+
+    def _start(self, held: _Held) -> None:
+        self._by_action.pop(held.action, None)
+        held.action = None
+
+        def make() -> Any:
+            action = held.recipe.action()
+            with self._lock:
+                held.action = action
+                self._by_action[action] = held
+            return action
+
+        def failed(why: str) -> None:
+            self._ended(held, why)
+
+        if not held.run.ending:
+            held.run.start(make, failed)
+            return
+        file, run = held.run.path, LaunchRun(held.run.title, self._listener)
+        run.path, held.run = file, run
+        self._begin(run, lambda: run.run_action(make, failed))
+
+    def _started(self, run: LaunchRun, event: Any, context: Any) -> None:
+        nodes = _node_names(event.action)
+        vitals = self._find_vitals(event.pid)
+        with self._lock:
+            held = self._by_action.get(event.action) or self._found(run, event, context)
+            held.vitals, held.usage = vitals, Usage(vitals, time.monotonic()) if vitals else None
+            held.output = ProcessOutput(event.process_name, self._record, self._printed, self._heard)
+            order = held.process.started(event.process_name, event.pid, nodes)
+            times = held.process.info.restarts
+            self._tell(f"{held.process.info.label} started{f' again ({times})' if times else ''}, pid {event.pid}")
+            self._order(held, order)
+            outcome = self._unanswered.pop(run, None)
+        if outcome is not None:
+            outcome.set_result(Answer(True, f"{run.title} runs"))
+
+    def _found(self, run: LaunchRun, event: Any, context: Any) -> _Held:
+        """A process that was not seen before."""
+        key = f"{event.process_name}@{len(self._held)}"
+        place = run.tree.place(event.action, context)
+        process = LaunchedProcess(key, event.process_name, place)
+        held = _Held(process, run, event.action, recipe(event, context))
+        self._held[key] = self._by_action[event.action] = held
+        if self._closed or run.ending:
+            process.told_to_end()
+        return held
+
+    def _output(self, event: Any) -> None:
+        held = self._by_action.get(event.action)
+        if held is not None and held.output is not None:
+            text = event.text.decode("utf-8", "replace") if isinstance(event.text, bytes) else event.text
+            held.output.feed(text, stderr=event.from_stderr)
+
+    def _exited(self, event: Any) -> None:
+        with self._lock:
+            held = self._by_action.get(event.action)
+            if held is None:
+                return
+            if held.output is not None:
+                held.output.close()
+            future = event.action.get_asyncio_future()
+            respawns = future is not None and not future.done()
+            order = held.process.exited(event.returncode, respawns, held.output.fault if held.output else "")
+            held.usage = None
+            bad = held.process.info.state is ProcessState.CRASHED or held.process.info.problem
+            text = f"{held.process.info.label} ended, exit code {event.returncode}"
+            self._tell(text, Severity.ERROR if bad else Severity.INFO)
+            self._order(held, order)
+
+    def _over(self, action: Any) -> None:
+        with self._lock:
+            held = self._by_action.get(action)
+            if held is not None:
+                self._ended(held)
+
+    def _ended(self, held: _Held, why: str = "") -> None:
+        """Nothing runs of it, and launch will not start it (again)."""
+        with self._lock:
+            before = held.process.info
+            order = held.process.over(why)
+            if held.process.info is not before:
+                self._tell(f"{before.label}: {held.process.info.problem or 'has ended'}")
+            self._order(held, order)
+
+    def _ending(self, run: LaunchRun, reason: str) -> None:
+        with self._lock:
+            if reason not in ("", "idle"):
+                self._tell(f"{run.title} ends: {reason}")
+            for held in self._held.values():
+                if held.run is run and held.process.alive:
+                    held.process.told_to_end()
+
+    def _fault(self, error: Exception) -> None:
+        self._printed(Severity.ERROR, "bot-console", f"the launch pane misses something: {error!r}")
+
+    def close(self, patience: float = 10.0) -> None:
+        """Shut every launch down and wait for it, at most so many seconds in all; a second call does nothing."""
+        with self._lock:
+            if self._closed:
+                return
+            self._closed = True
+            runs = list(self._runs.items())
+        deadline = time.monotonic() + patience
+        for run, _ in runs:
+            run.shut_down()
+        for _, thread in runs:
+            if thread is not None:
+                thread.join(max(0.0, deadline - time.monotonic()))
+
+
+def _thread(target: Callable[[], None], file: str) -> threading.Thread:
+    thread = threading.Thread(target=target, name="launch", daemon=True)
+    thread.start()
+    return thread
+
+
+def _node_names(action: Any) -> tuple[str, ...]:
+    """The ROS names of the nodes in a process, where the action tells them."""
+    name = getattr(action, "expanded_node_name", "")
+    namespace = getattr(action, "expanded_node_namespace", "")
+    if not name or "<" in name:
+        return ()
+    return (f"{'' if '<' in namespace else namespace.rstrip('/')}/{name}",)

@@ -1,0 +1,166 @@
+"""What processes print, as log records. A line that a logger wrote is told from a print by its mark, not by its text.
+
+`/rosout` is the way that counts: it brings the lines of every node, whoever has started it. A marked line says whether
+it went out there too, so the same line is never taken twice: here only those are taken that did not go out (a node
+without `/rosout`, a logger without a node, a line after `rclpy.shutdown()`), and what is merely printed.
+
+The mark is a log format, set through the public `RCUTILS_CONSOLE_OUTPUT_FORMAT`; a format of the user's stays in it.
+The embedded rclpy also takes it as `BOT_CONSOLE_LOG_ENVELOPE`, which no launch file overrides, and says in it whether
+`/rosout` had the line. A real rclpy does not know that field: see `Undecided`.
+"""
+
+from __future__ import annotations
+
+import re
+import time
+from collections import deque
+from collections.abc import Callable, Mapping
+
+from bot_console.tui.console.logs.tracebacks import Printed
+
+FORMAT_VARIABLE = "RCUTILS_CONSOLE_OUTPUT_FORMAT"
+ENVELOPE_VARIABLE = "BOT_CONSOLE_LOG_ENVELOPE"
+BEGIN, PART, END = "\x1e", "\x1d", "\x1f"
+FIELDS = ("{severity}", "{time_as_nanoseconds}", "{name}", "{file_name}", "{function_name}", "{line_number}",
+          "{on_rosout}", "{message}", "{line}")  # fmt: skip
+ENVELOPE = BEGIN + PART.join(FIELDS) + END
+LEVELS = {"DEBUG": 10, "INFO": 20, "WARN": 30, "ERROR": 40, "FATAL": 50}
+COLOUR = r"(?:\x1b\[[0-9;]*m)?"
+_BEGIN = re.compile(COLOUR + BEGIN)
+_END = re.compile(f"{END}{COLOUR}\r?\n")
+PATIENCE_S = 2.0
+"""How long (s) a line waits for `/rosout` to bring the first line of its logger."""
+
+Add = Callable[[int, int, str, str, tuple[str, str, int]], None]
+"""Takes stamp (ns), severity, logger name, text, and (file, function, line)."""
+Record = tuple[int, int, str, str, tuple[str, str, int]]
+
+
+def marking(environment: Mapping[str, str]) -> dict[str, str]:
+    """The variables that make loggers mark their lines; the format that the environment has is kept in the mark."""
+    return {
+        ENVELOPE_VARIABLE: ENVELOPE,
+        FORMAT_VARIABLE: ENVELOPE.replace("{line}", environment.get(FORMAT_VARIABLE, "")),
+    }
+
+
+class ProcessOutput:
+    """What one process prints, on either stream."""
+
+    def __init__(
+        self,
+        label: str,
+        record: Add,
+        printed: Callable[[int, str, str], None],
+        heard: Callable[[str], bool] = lambda name: True,
+    ) -> None:
+        """`heard` says whether `/rosout` has brought a line of the logger of that name."""
+        self._record = record
+        self._undecided = Undecided(record, heard)
+        self._streams = {stderr: Printed(label, printed, stderr=stderr) for stderr in (False, True)}
+        self._readers = {stderr: OutputReader(self.logged, each.line) for stderr, each in self._streams.items()}
+
+    def feed(self, text: str, *, stderr: bool) -> None:
+        """Take the next piece."""
+        self._readers[stderr].feed(text)
+
+    def logged(self, record: Record, on_rosout: bool | None) -> None:
+        """Take a line that a logger wrote; None where its writer could not tell whether it went out on `/rosout`."""
+        if on_rosout is None:
+            self._undecided.wait(record)
+        elif not on_rosout:
+            self._record(*record)
+
+    @property
+    def fault(self) -> str:
+        """The exception that was printed last and where in the user's code, on one line; empty when it was none."""
+        return self._streams[True].fault or self._streams[False].fault
+
+    def settle(self) -> None:
+        """Decide on lines that have waited long enough; to be called now and then."""
+        self._undecided.settle()
+
+    def close(self) -> None:
+        """The process has ended."""
+        for stderr, reader in self._readers.items():
+            reader.close()
+            self._streams[stderr].close()
+        self._undecided.settle(ended=True)
+
+
+class Undecided:
+    """Lines of a real rclpy or rclcpp, which cannot say whether `/rosout` had them: it had, if it has that logger's.
+
+    The first line of a logger can come here sooner than by `/rosout`, so each waits `PATIENCE_S` before it counts.
+    """
+
+    def __init__(self, record: Add, heard: Callable[[str], bool], now: Callable[[], float] = time.monotonic) -> None:
+        self._record = record
+        self._heard = heard
+        self._now = now
+        self._waiting: deque[tuple[float, Record]] = deque()
+
+    def wait(self, record: Record) -> None:
+        """Take a line, unless `/rosout` has its logger's lines anyway."""
+        if not self._heard(record[2]):
+            self._waiting.append((self._now() + PATIENCE_S, record))
+        self.settle()
+
+    def settle(self, *, ended: bool = False) -> None:
+        """Pass on what has waited in vain; everything when the process has ended."""
+        now = self._now()
+        while self._waiting and (ended or self._waiting[0][0] <= now):
+            _, record = self._waiting.popleft()
+            if not self._heard(record[2]):
+                self._record(*record)
+
+
+class OutputReader:
+    """Turns the output of one stream, in whatever pieces it comes, into records and printed lines."""
+
+    def __init__(self, logged: Callable[[Record, bool | None], None], printed: Callable[[str], None]) -> None:
+        self._logged = logged
+        self._printed = printed
+        self._rest = ""
+
+    def feed(self, text: str) -> None:
+        """Take the next piece of output; an unfinished line or record waits for its end."""
+        text = self._rest + text
+        at = 0
+        while begin := _BEGIN.search(text, at):
+            if begin.start() > at:
+                self._lines(text[at : begin.start()] + "\n")
+            end = _END.search(text, begin.end())
+            if end is None:
+                self._rest = text[begin.start() :]
+                return
+            self._marked(text[begin.end() : end.start()])
+            at = end.end()
+        self._rest = self._lines(text[at:])
+
+    def close(self) -> None:
+        """The process has ended: what is left is a line without an end."""
+        rest, self._rest = self._rest, ""
+        begin = _BEGIN.match(rest)
+        if begin and END in rest:
+            self._marked(rest[begin.end() : rest.rindex(END)])
+        elif rest.strip():
+            self._printed(rest[begin.end() if begin else 0 :])
+
+    def _lines(self, text: str) -> str:
+        *whole, rest = text.split("\n")
+        for line in whole:
+            if line.strip():
+                self._printed(line.rstrip("\r"))
+        return rest
+
+    def _marked(self, text: str) -> None:
+        parts = text.split(PART, len(FIELDS) - 2)
+        if len(parts) != len(FIELDS) - 1 or not parts[1].isdigit():
+            self._printed(text)
+            return
+        severity, stamp, name, file, function, line, on_rosout, rest = parts
+        message = rest.rpartition(PART)[0]
+        number = int(line) if line.isdigit() else 0
+        record = (int(stamp), LEVELS.get(severity, 20), name, message, (file, function, number))
+        self._logged(record, {"0": False, "1": True}.get(on_rosout))

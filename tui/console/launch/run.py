@@ -1,0 +1,181 @@
+"""One run of launch: a LaunchService, what is put into it and what is heard of it."""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from bot_console.tui.console.launch.fault import fault_text
+from bot_console.tui.console.launch.tree import LaunchTree
+
+CAUGHT = "Caught exception in launch (see debug for traceback): "
+
+
+@dataclass(frozen=True)
+class Listener:
+    """Called in the thread of a run, for all of its processes."""
+
+    started: Callable[[LaunchRun, Any, Any], None]
+    """With `ProcessStarted` and the launch context."""
+    printed: Callable[[Any], None]
+    """With `ProcessIO`."""
+    exited: Callable[[Any], None]
+    """With `ProcessExited`."""
+    over: Callable[[Any], None]
+    """With an action that has ended and that launch will not start again."""
+    ending: Callable[[LaunchRun, str], None]
+    """With the reason why the whole launch ends; empty when it has failed."""
+    fault: Callable[[Exception], None]
+    """With what one of these has raised."""
+
+
+class LaunchRun:
+    """Runs a launch file, or single processes, until nothing is left to do. Methods may be called from any thread."""
+
+    def __init__(self, title: str, listener: Listener) -> None:
+        self.title = self.path = title
+        self.tree = LaunchTree(title)
+        self.ending = False
+        """Whether it takes no more processes."""
+        self._listener = listener
+        self._lock = threading.Lock()
+        self._service: Any = None
+        self._unwanted = False
+        self._reason = ""
+        self.logged = False
+        """Whether launch itself has logged why it failed."""
+
+    def run_file(self, path: str, arguments: Mapping[str, str]) -> str:
+        """Run a launch file to its end; why it could not be run, empty when it could."""
+        from launch.actions import IncludeLaunchDescription
+        from launch.launch_description_sources import AnyLaunchDescriptionSource
+
+        from launch import LaunchContext
+
+        self.path = path
+        source = AnyLaunchDescriptionSource(path)
+        try:
+            source.get_launch_description(LaunchContext())  # once more below, but from memory
+        except (Exception, SystemExit) as error:  # a launch file is a program: whatever it raises is its reader's
+            return self.fault(error)
+        return self._run([IncludeLaunchDescription(source, launch_arguments=arguments.items())])
+
+    def run_action(self, make: Callable[[], Any], failed: Callable[[str], None]) -> str:
+        """Run one process to its end, see `start`; what went wrong with the launch itself, if anything."""
+        return self._run([self._guarded(make, failed)])
+
+    def _run(self, entities: list[Any]) -> str:
+        from launch import LaunchDescription, LaunchService
+
+        service = LaunchService(noninteractive=True)
+        with self._lock:
+            if self._unwanted:
+                return ""
+            self._service = service
+        service.include_launch_description(LaunchDescription([*self._handlers(), *entities]))
+        try:
+            code = service.run(shutdown_when_idle=True)
+        finally:
+            self.ending = True
+        self.logged = code != 0
+        failure = getattr(service, "failure", None)
+        if failure is not None:
+            return self.fault(failure)
+        return f"{self.path}: {self._reason.removeprefix(CAUGHT)}" if code else ""
+
+    def fault(self, error: BaseException) -> str:
+        """What went wrong, with file and line."""
+        return fault_text(error, self.path, self.tree.file_of)
+
+    def _handlers(self) -> Iterable[Any]:
+        from launch.actions import IncludeLaunchDescription, RegisterEventHandler
+        from launch.event_handlers import OnExecutionComplete, OnProcessExit, OnProcessIO, OnProcessStart, OnShutdown
+
+        heard = self._listener
+
+        def harmless(hear: Callable[[Any, Any], None]) -> Callable[..., None]:
+            def handle(event: Any, context: Any = None) -> None:
+                try:
+                    hear(event, context)
+                except Exception as error:  # a fault of the console must not end the launch of a robot
+                    heard.fault(error)
+
+            return handle
+
+        def is_include(action: Any) -> bool:
+            return isinstance(action, IncludeLaunchDescription)
+
+        printed = harmless(lambda event, context: heard.printed(event))
+        includes = OnExecutionComplete(
+            target_action=is_include,
+            on_completion=harmless(lambda event, context: self.tree.included(event.action)),
+        )
+        handlers = (
+            includes,
+            OnProcessStart(on_start=harmless(self._started)),
+            OnProcessIO(on_stdout=printed, on_stderr=printed),
+            OnProcessExit(on_exit=harmless(lambda event, context: heard.exited(event))),
+            OnShutdown(on_shutdown=harmless(self._ends)),
+        )
+        return [RegisterEventHandler(each) for each in handlers]
+
+    def _started(self, event: Any, context: Any) -> None:
+        self._tell_when_over(event.action)
+        self._listener.started(self, event, context)
+
+    def _tell_when_over(self, action: Any) -> None:
+        def over(future: Any) -> None:
+            self._listener.over(action)
+
+        future = action.get_asyncio_future()
+        if future is not None:
+            future.add_done_callback(over)
+
+    def _ends(self, event: Any, context: Any) -> None:
+        self.ending = True
+        self._reason = event.reason
+        failed = event.reason.startswith(CAUGHT)  # which is told with file and line when it is over
+        self._listener.ending(self, "" if failed else event.reason)
+
+    def start(self, make: Callable[[], Any], failed: Callable[[str], None]) -> None:
+        """Run what `make` gives, out of the scope of whatever the launch file has set; `failed` is told why not."""
+        from launch.events import IncludeLaunchDescription
+
+        from launch import LaunchDescription
+
+        self.emit(IncludeLaunchDescription(LaunchDescription([self._guarded(make, failed)])))
+
+    def _guarded(self, make: Callable[[], Any], failed: Callable[[str], None]) -> Any:
+        """A process whose failure to start is no failure of the launch."""
+        from bot_console.tui.console.launch.guarded import GuardedStart
+        from launch.actions import GroupAction
+
+        start = GuardedStart(make, self._tell_when_over, failed)
+        return GroupAction([start], scoped=True, forwarding=False)
+
+    def emit(self, event: Any) -> None:
+        """Put an event into the queue, without waiting for the launch: `LaunchService.emit_event` would.
+
+        The caller may hold what the launch is just waiting for.
+        """
+        with self._lock:
+            service = self._service
+        if service is None:
+            return
+        loop = service.event_loop
+        if loop is None:
+            service.context.emit_event_sync(event)
+            return
+        with contextlib.suppress(RuntimeError):  # it is over
+            loop.call_soon_threadsafe(service.context.emit_event_sync, event)
+
+    def shut_down(self) -> None:
+        """End all of it, or never begin."""
+        with self._lock:
+            self._unwanted = True
+            service = self._service
+        if service is not None:
+            service.shutdown()

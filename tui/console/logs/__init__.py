@@ -1,0 +1,1 @@
+"""Log records of all nodes: kept, searched, told apart."""

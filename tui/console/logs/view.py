@@ -1,0 +1,168 @@
+"""A live view of the log: the records that pass a filter, found beside the threads that draw and that log.
+
+A thread of its own searches in slices, the newest records first, then whatever has come since. Whoever draws looks at
+what was found so far, by pulling.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+from bot_console.tui.console.logs.search import LogSearch
+from bot_console.tui.console.logs.store import LogStore
+from bot_console.tui.console.model import LogFilter
+from bot_console.tui.console.protocol import LogFindings, LogView
+
+FIRST_SLICE = 2048
+"""Records looked at before anything is shown: some screenfuls."""
+BUDGET_S = 5.0
+"""Processor time (s) that one filter may take for what was there when it was asked for."""
+
+Block = npt.NDArray[np.int64]
+
+
+class Numbers:
+    """Rising numbers in parts, to which older and newer ones are joined without copying all of them each time."""
+
+    def __init__(self, parts: Sequence[Block] = ()) -> None:
+        self._parts = tuple(each for each in parts if len(each))
+        self._ends: list[int] = np.cumsum([len(each) for each in self._parts], dtype=np.int64).tolist()
+
+    def __len__(self) -> int:
+        """How many there are."""
+        return self._ends[-1] if self._ends else 0
+
+    def __getitem__(self, index: int) -> int:
+        """The number at an index; raises `IndexError` beyond the ends."""
+        if not 0 <= index < len(self):
+            raise IndexError(index)
+        place = int(np.searchsorted(self._ends, index, side="right"))
+        return int(self._parts[place][index - (self._ends[place - 1] if place else 0)])
+
+    def place(self, number: int) -> int:
+        """The index of the first that is not below a number."""
+        return sum(int(np.searchsorted(each, number)) for each in self._parts)
+
+    def array(self) -> Block:
+        """All of them."""
+        return np.concatenate(self._parts) if self._parts else np.zeros(0, np.int64)
+
+    def joined(self, older: Block | None = None, newer: Block | None = None) -> Numbers:
+        """These with older ones before or newer ones behind."""
+        parts = [each for each in (older, *self._parts, newer) if each is not None]
+        while len(parts) > 1 and len(parts[-2]) <= 2 * len(parts[-1]):
+            parts[-2:] = [np.concatenate(parts[-2:])]
+        return Numbers(parts)
+
+    def since(self, first: int) -> Numbers:
+        """Those from a number on."""
+        if not self._parts or self._parts[0][0] >= first:
+            return self
+        return Numbers([each[np.searchsorted(each, first) :] for each in self._parts])
+
+
+@dataclass(frozen=True, slots=True)
+class Found(LogFindings):
+    """Findings whose numbers can be joined to others."""
+
+    numbers: Numbers
+
+
+class SearchedView:
+    """One filter over a store. `look` may be called from any thread; `work` from one at a time."""
+
+    def __init__(self, store: LogStore, which: LogFilter, wake: Callable[[], None] = lambda: None) -> None:
+        self._store = store
+        self._wake = wake
+        end = store.state.end
+        self._spent = 0.0
+        self._search: LogSearch | None = None
+        self._found: Found = Found(Numbers(), end, end)
+        try:
+            self._search = LogSearch(store, which)
+        except ValueError as error:
+            self._found = replace(self._found, problem=str(error), complete=True)
+
+    def look(self) -> Found:
+        """What was found so far; the same object until there is more."""
+        self._wake()
+        return self._found
+
+    def work(self) -> bool:
+        """Look through one slice; False when there is nothing to do."""
+        if self._search is None:
+            return False
+        first, found = self._store.segments[0].first, self._found
+        if first > found.begin or (first > found.end):
+            found = self._found = replace(found, numbers=found.numbers.since(first), begin=max(first, found.begin),
+                                          end=max(first, found.end))  # fmt: skip
+        started = time.thread_time()
+        new = self._newer(self._search, found) or (None if found.complete else self._older(self._search, found))
+        if new is None:
+            return False
+        self._found = new
+        if not new.complete:
+            self._spent += time.thread_time() - started
+            if self._spent > BUDGET_S:
+                looked = f"only the newest {new.end - new.begin} lines were searched"
+                self._found = replace(new, complete=True, problem=f"this filter is too costly: {looked}")
+        return True
+
+    def _newer(self, search: LogSearch, found: Found) -> Found | None:
+        for segment in self._store.segments:
+            count = segment.count
+            if segment.first <= found.end < segment.first + count:
+                numbers = search.passing(segment, found.end - segment.first, count)
+                return replace(found, numbers=found.numbers.joined(newer=numbers), end=segment.first + count)
+        return None
+
+    def _older(self, search: LogSearch, found: Found) -> Found:
+        for segment in reversed(self._store.segments):
+            if segment.first < found.begin:
+                last = min(found.begin - segment.first, segment.count)
+                begin = max(0, last - FIRST_SLICE) if not len(found.numbers) else 0
+                numbers = search.passing(segment, begin, last)
+                return replace(found, numbers=found.numbers.joined(older=numbers), begin=segment.first + begin)
+        return replace(found, complete=True)
+
+
+class LogViews:
+    """All views of a store, and the thread that works for them."""
+
+    def __init__(self, store: LogStore) -> None:
+        self._store = store
+        self._views: tuple[SearchedView, ...] = ()
+        self._wanted = threading.Event()
+        self._closed = False
+        self._thread: threading.Thread | None = None
+
+    def open(self, which: LogFilter, instead_of: LogView | None = None) -> SearchedView:
+        """A view, which takes the place of another where one is given."""
+        view = SearchedView(self._store, which, self.wake)
+        self._views = (*(each for each in self._views if each is not instead_of), view)
+        if self._thread is None and not self._closed:
+            self._thread = threading.Thread(target=self._work, name="log search", daemon=True)
+            self._thread.start()
+        self.wake()
+        return view
+
+    def wake(self) -> None:
+        """There may be something to do."""
+        self._wanted.set()
+
+    def close(self) -> None:
+        """Search no more."""
+        self._closed = True
+        self._wanted.set()
+
+    def _work(self) -> None:
+        while not self._closed:
+            self._wanted.wait()
+            self._wanted.clear()
+            while not self._closed and any([each.work() for each in self._views]):
+                time.sleep(0)

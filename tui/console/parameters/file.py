@@ -1,0 +1,88 @@
+"""Saving parameters as a true ROS parameter file; an existing file is patched, so that its comments stay."""
+
+from __future__ import annotations
+
+import codecs
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree, Value
+from bot_console.tui.console.parameters.patch import Values, compare, patched
+from bot_console.tui.console.parameters.text import SMALLEST, sections
+from bot_console.tui.save_file import NotSaved, save_file
+
+BUILT_IN = ("use_sim_time", "start_type_description_service")
+_MARKS = ((codecs.BOM_UTF8, "utf-8"), (codecs.BOM_UTF16_LE, "utf-16-le"), (codecs.BOM_UTF16_BE, "utf-16-be"))
+"""Byte order marks that parsers of YAML know, and the encodings that they begin."""
+
+
+@dataclass(frozen=True)
+class Saved:
+    """How many parameters a file got, and those that no parameter file can hold, with the reason."""
+
+    count: int
+    left_out: tuple[str, ...] = ()
+
+    def text(self, path: Path) -> str:
+        """In words."""
+        told = f"{self.count} parameter{'' if self.count == 1 else 's'} saved to {path}"
+        return told + "".join(f"; left out: {each}" for each in self.left_out)
+
+
+def save(path: Path, trees: Mapping[str, ParameterTree], nodes: tuple[str, ...] = ()) -> Saved:
+    """Write the parameters of some nodes (default: all); raises `NotSaved`, and what was there has stayed.
+
+    In an existing file the values that stand there are replaced in place and the others are added.
+    """
+    values: dict[str, dict[str, Value]] = {}
+    left_out: list[str] = []
+    for tree in trees.values():
+        for each in tree.parameters if not nodes or tree.node in nodes else ():
+            if each.value is None or each.name in BUILT_IN or each.read_only:
+                continue
+            if reason := _unwritable(each):
+                left_out.append(f"{each.node} {each.name} {reason}")
+            else:
+                values.setdefault(tree.node, {})[each.name] = each.value
+    if not values:
+        raise NotSaved("there is no parameter to save" + "".join(f"; {each}" for each in left_out))
+    _write(path, values)
+    return Saved(sum(map(len, values.values())), tuple(left_out))
+
+
+def _unwritable(parameter: ParameterInfo) -> str:
+    if parameter.kind is Kind.BYTE_ARRAY:
+        return "is a byte array, which ROS parameter files cannot hold"
+    if parameter.value == ():
+        return "is an empty array, to which ROS parameter files give no type"
+    numbers = parameter.value if isinstance(parameter.value, tuple) else (parameter.value,)
+    tiny = any(isinstance(each, float) and 0 < abs(each) < SMALLEST for each in numbers)
+    return "is too near to zero for the readers of ROS parameter files" if tiny else ""
+
+
+def _write(path: Path, values: Values) -> None:
+    try:
+        content = path.read_bytes() if path.is_file() else b""
+    except OSError as error:
+        raise NotSaved(f"{path}: cannot be read: {error.strerror}") from error
+    try:
+        mark, encoding, text = _decoded(content)
+        before = sections(text)
+        new = mark + patched(text, values).encode(encoding)
+        save_file(path, new, lambda written: compare(before, sections(_decoded(written)[2]), values))
+    except ValueError as error:
+        why = "it is no text" if isinstance(error, UnicodeDecodeError) else str(error)
+        raise NotSaved(f"{path} cannot take parameters: {why}; give another name, such as {_free_name(path)}") from None
+
+
+def _decoded(content: bytes) -> tuple[bytes, str, str]:
+    """The byte order mark, the encoding, and the text behind the mark; raises `UnicodeDecodeError`."""
+    mark, encoding = next((each for each in _MARKS if content.startswith(each[0])), (b"", "utf-8"))
+    return mark, encoding, content[len(mark) :].decode(encoding)
+
+
+def _free_name(path: Path) -> str:
+    """A name beside the file that nobody has."""
+    names = (path.with_name(f"{path.stem}-parameters{number}.yaml") for number in ("", *map(str, range(2, 1000))))
+    return next((str(each) for each in names if not each.exists()), "another folder")

@@ -1,0 +1,151 @@
+"""Parameter files as text: read as ROS reads them, and values written so that it reads them back."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator
+from collections.abc import Mapping as Map
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import yaml
+from bot_console.tui.console.model import Value
+from bot_console.tui.console.parameters.yaml_tree import Mapping, Scalar, Sequence, YamlTree, read_tree
+from bot_console.tui.yaml_flow import is_plain
+
+KEYWORD = "ros__parameters"
+NOTHING = f"it sets nothing; a parameter stands below 'node_name: {KEYWORD}:'"
+SMALLEST = 2.0**-1022
+"""The smallest double above zero that ROS reads from a text."""
+
+Places: TypeAlias = Map[str, "Scalar | Sequence"]
+"""Where the value of each parameter stands, by full name."""
+
+_SafeDumper: Any = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
+_TRUE = frozenset(("Y", "y", "yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON"))
+_FALSE = frozenset(("N", "n", "no", "No", "NO", "false", "False", "FALSE", "off", "Off", "OFF"))
+_INTEGER = re.compile(r"[+-]?(?:0[xX][0-9a-fA-F]{1,20}|0[0-7]{0,30}|[1-9][0-9]{0,30})", re.ASCII)
+_DOUBLE = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?", re.ASCII)
+_NOT_FINITE = re.compile(r"\.(?:nan|NaN|NAN)|[+-]?\.(?:inf|Inf|INF)|[+-]?(?i:inf|infinity|nan)")
+
+
+@dataclass(frozen=True)
+class Section:
+    """The parameters below one node key of a file, such as `/robot` or `/**`."""
+
+    key: str
+    mapping: Mapping
+    places: Places
+
+
+def sections(text: str) -> list[Section]:
+    """All nodes of a parameter file as they stand; none of a text without content.
+
+    Raises `ValueError`, with the line, for a text that ROS does not take as a parameter file.
+    """
+    root = read_tree(text)
+    if root is None:
+        return []
+    if not isinstance(root, Mapping):
+        kind = "a list" if isinstance(root, Sequence) else "only text"
+        raise ValueError(f"it holds {kind}; a parameter stands below 'node_name: {KEYWORD}:'")
+    found = list(_sections("", root))
+    if not found:
+        raise ValueError(NOTHING)
+    return found
+
+
+def _sections(space: str, mapping: Mapping) -> Iterator[Section]:
+    for key, below in mapping.entries:
+        if key.text == KEYWORD:
+            if not space:
+                raise ValueError(f"line {key.line}: no node name stands above '{KEYWORD}:'")
+            if not isinstance(below, Mapping):
+                raise ValueError(f"line {below.line}: below '{KEYWORD}:' of {space} stand no 'name: value' lines")
+            yield Section(space, below, _unique(_places("", below)))
+        elif key.text.startswith("ros_parameters"):
+            raise ValueError(f"line {key.line}: '{key.text}' should be '{KEYWORD}', with two underscores")
+        elif isinstance(below, Mapping):
+            yield from _sections(f"{space.rstrip('/')}/{key.text.strip('/')}", below)
+        else:
+            raise ValueError(f"line {key.line}: '{key.text}' is no parameter: it does not stand below '{KEYWORD}:'")
+
+
+def _unique(places: Iterator[tuple[str, Scalar | Sequence]]) -> Places:
+    found: dict[str, Scalar | Sequence] = {}
+    for name, place in places:
+        if name in found:
+            raise ValueError(f"line {place.line}: '{name}' stands here for the second time")
+        found[name] = place
+    return found
+
+
+def _places(prefix: str, mapping: Mapping) -> Iterator[tuple[str, Scalar | Sequence]]:
+    for key, below in mapping.entries:
+        if isinstance(below, Mapping):
+            yield from _places(f"{prefix}{key.text}.", below)
+        else:
+            yield prefix + key.text, below
+
+
+def value_at(name: str, place: YamlTree) -> Value:
+    """The value in a place; raises `ValueError`, with the line, where ROS reads none."""
+    if isinstance(place, Scalar):
+        if place.missing:
+            raise ValueError(f"line {place.line}: {name} has no value")
+        return place.text if place.quoted else plain_value(place.text)
+    found = place.elements if isinstance(place, Sequence) else ()
+    elements: tuple[Any, ...] = tuple(value_at(name, each) for each in found if isinstance(each, Scalar))
+    if isinstance(place, Mapping) or len(elements) < len(found):
+        raise ValueError(f"line {place.line}: {name} holds a list or a mapping in a list")
+    if len(set(map(type, elements))) > 1:
+        raise ValueError(f"line {place.line}: the elements of {name} are not of one type")
+    return elements
+
+
+def plain_value(text: str) -> bool | int | float | str:
+    """What ROS makes of a scalar without quotes: it knows no date, no `1:30` and no null, but `1e3` is a number."""
+    if text in _TRUE or text in _FALSE:
+        return text in _TRUE
+    if _INTEGER.fullmatch(text):
+        digits = text.lstrip("+-")
+        base = 16 if digits[:2] in ("0x", "0X") else 8 if digits[0] == "0" else 10
+        value = int(text, base)
+        if -(2**63) <= value < 2**63:
+            return value
+    if _DOUBLE.fullmatch(text):
+        number = float(text)
+        # What a double can only hold with fewer digits is out of range for C's strtod, and so text for ROS.
+        return text if math.isinf(number) or 0 < abs(number) < SMALLEST else number
+    return float(text.lstrip(".").replace("-.", "-").replace("+.", "")) if _NOT_FINITE.fullmatch(text) else text
+
+
+class _Dumper(_SafeDumper):
+    """Writes every text in quotes that any of the YAML dialects of ROS could take for something else."""
+
+
+def _represent_text(dumper: Any, text: str) -> Any:
+    return dumper.represent_scalar("tag:yaml.org,2002:str", text, style=None if is_plain(text) else '"')
+
+
+_Dumper.add_representer(str, _represent_text)
+
+
+def block_text(key: str, value: Value | Map[str, Any]) -> str:
+    """A key and what stands below it, each on its line, as `ros2 param dump` writes it; ends with a newline."""
+    return yaml.dump(
+        {key: list(value) if isinstance(value, tuple) else value},
+        Dumper=_Dumper,
+        sort_keys=False,
+        allow_unicode=True,
+        default_flow_style=False,
+        width=10**9,
+    )
+
+
+def inline_text(value: Value | bytes | Map[str, Any]) -> str:
+    """A value as it stands behind a key, on one line."""
+    data = list(value) if isinstance(value, tuple) else value
+    text = yaml.dump(data, Dumper=_Dumper, default_flow_style=True, allow_unicode=True, sort_keys=False, width=10**9)
+    return text.removesuffix("\n").removesuffix("\n...")

@@ -1,0 +1,1 @@
+"""Series collected from topics and parameters."""

@@ -1,0 +1,168 @@
+"""The series that a person plots: fields of topics, and parameters."""
+
+from __future__ import annotations
+
+import importlib
+import time
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from bot_console.tui.console.model import GraphInfo, Kind, ParameterTree, Value
+from bot_console.tui.console.plot.series import NotPlottable, Series, parse_steps, reader
+from bot_console.tui.console.protocol import Answer, Samples
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+
+PLOT_QOS = QoSProfile(depth=50, reliability=ReliabilityPolicy.BEST_EFFORT)
+NUMBERS = (Kind.BOOL, Kind.INTEGER, Kind.DOUBLE)
+
+
+class _Watched:
+    """A series and what feeds it."""
+
+    def __init__(self) -> None:
+        self.series = Series()
+        self.subscription: Any = None
+        self.problem = ""
+
+
+class PlotWatch:
+    """Collects watched series; `watch` may be called from any thread."""
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._start = time.monotonic()
+        self._started_at = time.time_ns()
+        self._watched: dict[str, _Watched] = {}
+
+    def now(self) -> float:
+        """Seconds since the console's start, the time axis of all series."""
+        return time.monotonic() - self._start
+
+    def axis_time(self, stamp: int | None) -> float:
+        """Where a moment (ns since the epoch; None is now) lies on that axis."""
+        return self.now() if stamp is None else (stamp - self._started_at) / 1e9
+
+    def watch(self, path: str, graph: GraphInfo, trees: Mapping[str, ParameterTree]) -> Answer:
+        """Begin to collect a path, or say why it cannot be plotted."""
+        if path in self._watched:
+            return Answer(True, f"{path} is plotted already")
+        try:
+            if ":" in path:
+                self._watch_parameter(path, trees)
+            else:
+                self._watch_topic(path, graph)
+        except NotPlottable as error:
+            return Answer(False, str(error))
+        return Answer(True, path)
+
+    def _watch_parameter(self, path: str, trees: Mapping[str, ParameterTree]) -> None:
+        node, _, name = path.partition(":")
+        tree = trees.get(node)
+        parameter = tree.get(name) if tree else None
+        if parameter is None:
+            raise NotPlottable(f"{node} has no parameter '{name}'" if tree else f"there is no node {node}")
+        if parameter.kind not in NUMBERS:
+            raise NotPlottable(f"{name} is of type {parameter.kind.word}, not a number")
+        self._watched[path] = _Watched()
+        self.parameter_is(node, name, parameter.value)
+
+    def _watch_topic(self, path: str, graph: GraphInfo) -> None:
+        topic, types, rest = _split(path, graph)
+        if not rest:
+            raise NotPlottable(f"name a field of {topic} as well, for instance {topic}/{_example(types[0])}")
+        read = reader(parse_steps(rest))
+        kind = message_class(types[0])
+        if not _has_elements(rest):
+            read(kind())
+        watched = self._watched[path] = _Watched()
+        watched.subscription = self._node.create_subscription(kind, topic, self._collector(watched, read), PLOT_QOS)
+
+    def _collector(self, watched: _Watched, read: Callable[[Any], float]) -> Callable[[Any], None]:
+        def collect(message: Any) -> None:
+            try:
+                watched.series.add(self.now(), read(message))
+                watched.problem = ""
+            except NotPlottable as error:
+                watched.problem = str(error)
+
+        return collect
+
+    def parameter_is(self, node: str, name: str, value: Value) -> None:
+        """A parameter has this value from now on."""
+        watched = self._watched.get(f"{node}:{name}")
+        if watched and isinstance(value, (bool, int, float)):
+            watched.series.add(self.now(), float(value))
+
+    def unwatch(self, path: str) -> None:
+        """Stop collecting and forget."""
+        watched = self._watched.pop(path, None)
+        if watched and watched.subscription is not None:
+            self._node.destroy_subscription(watched.subscription)
+
+    def samples(self, path: str, after: int) -> Samples:
+        """New samples; nothing for a path that is not watched."""
+        watched = self._watched.get(path)
+        if watched is None:
+            return Samples((), (), after)
+        new = watched.series.after(after)
+        return Samples(new.times, new.values, new.cursor, watched.problem)
+
+    def plottable(self, graph: GraphInfo, trees: Mapping[str, ParameterTree]) -> Sequence[str]:
+        """Every path to a number: fields of the graph's topics, and parameters."""
+        paths = [
+            f"{topic.name}/{field}" for topic in graph.topics for field in _number_fields(topic.types[0]) if topic.types
+        ]
+        paths += [
+            f"{tree.node}:{each.name}" for tree in trees.values() for each in tree.parameters if each.kind in NUMBERS
+        ]
+        return sorted(paths)
+
+
+def message_class(type_name: str) -> Any:
+    """The class of a type such as `std_msgs/msg/String`; raises `NotPlottable` when it is not installed."""
+    package, _, rest = type_name.partition("/")
+    try:
+        return getattr(importlib.import_module(f"{package}.msg"), rest.rsplit("/", 1)[-1])
+    except (ImportError, AttributeError):
+        raise NotPlottable(f"the message type {type_name} is not known here") from None
+
+
+def _split(path: str, graph: GraphInfo) -> tuple[str, tuple[str, ...], str]:
+    """Topic, its types, and the rest of a path; the longest topic name that fits wins."""
+    path = "/" + path.lstrip("/")
+    fitting = [
+        each for each in graph.topics if path == each.name or path.startswith((each.name + "/", each.name + "."))
+    ]
+    if not fitting:
+        raise NotPlottable(f"no topic of that name; '{path}' should begin with one of the topics of this system")
+    topic = max(fitting, key=lambda each: len(each.name))
+    return topic.name, topic.types, path[len(topic.name) + 1 :]
+
+
+def _has_elements(rest: str) -> bool:
+    return "[" in rest
+
+
+def _number_fields(type_name: str, depth: int = 4) -> list[str]:
+    """Paths of the numbers in a message type, nested ones too; arrays are left out."""
+    if depth == 0:
+        return []
+    try:
+        fields = message_class(type_name).get_fields_and_field_types()
+    except NotPlottable:
+        return []
+    found: list[str] = []
+    for name, kind in fields.items():
+        if kind in ("boolean", "float", "double", "octet") or (
+            kind.startswith(("int", "uint")) and "[" not in kind and "<" not in kind
+        ):
+            found.append(name)
+        elif "/" in kind and "[" not in kind and "<" not in kind:
+            package, _, short = kind.partition("/")
+            found += [f"{name}.{rest}" for rest in _number_fields(f"{package}/msg/{short}", depth - 1)]
+    return found
+
+
+def _example(type_name: str) -> str:
+    return next(iter(_number_fields(type_name)), "data")

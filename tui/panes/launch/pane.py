@@ -1,0 +1,277 @@
+"""The launch pane: processes as a tree, started and stopped one by one; launch files opened with arguments."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Future
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from bot_console.tui import keymap
+from bot_console.tui.console.model import ConsoleSnapshot, LaunchEvent, LaunchInfo, ProcessInfo, ProcessState, Severity
+from bot_console.tui.console.protocol import Answer
+from bot_console.tui.console.query import Query, parse
+from bot_console.tui.format import clock_text, counted, harmless
+from bot_console.tui.panes.launch.rows import ProcessRows, rows
+from bot_console.tui.panes.pane import Pane
+from bot_console.tui.screens.facts import FactsScreen
+from bot_console.tui.widgets.picture import Line, Picture
+from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Form, Option
+from bot_console.tui.widgets.row_list import RowList
+from bot_console.tui.widgets.words import Words
+from textual.app import ComposeResult
+
+EVENTS = 4
+"""Launch events shown below the tree."""
+
+STYLES = {Severity.WARN: "warn", Severity.ERROR: "error", Severity.FATAL: "error"}
+
+
+class LaunchPane(Pane):
+    """Processes of all launch files."""
+
+    TITLE = "Launch"
+    HELP = (
+        "What the launch files have started: state, process id, restarts and last exit code. On a launch file or a\n"
+        "group, start, stop, restart and kill mean all of its processes. o opens a launch file and asks for its\n"
+        "arguments; several can run at once."
+    )
+    BINDINGS = keymap.bindings("launch")
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self._info: LaunchInfo | None = None
+        self._why_not = ""
+        self._problem = ""
+        self._read = ""
+        self._folded: frozenset[tuple[str, ...]] = frozenset()
+
+    def compose(self) -> ComposeResult:
+        """The tree, a line on the process at the cursor, the newest events."""
+        yield ProcessRows()
+        yield Words(id="launch-status")
+        yield Picture(id="launch-events")
+
+    @property
+    def _list(self) -> ProcessRows:
+        return self.query_one(ProcessRows)
+
+    def focus_target(self) -> None:
+        """The tree takes the keys."""
+        self._list.focus()
+
+    def show(self, snapshot: ConsoleSnapshot) -> None:
+        """Draw the processes anew when they are another object."""
+        why_not = snapshot.capabilities.launch or (
+            "" if self.launcher else "this console was started without a launcher"
+        )
+        state = (snapshot.launch, why_not, snapshot.problem)
+        if state[0] is not self._info or state[1:] != (self._why_not, self._problem):
+            self._info, self._why_not, self._problem = state
+            self._arrange()
+
+    def _arrange(self) -> None:
+        info, shown = self._info or LaunchInfo(), self._list
+        at, old = shown.current, shown.rows
+        shown.rows = rows(info, self._folded)
+        if at is not None and len(old) != len(shown.rows):
+            key = at.process.key if at.process else at.group
+            places = (
+                each for each, row in enumerate(shown.rows) if (row.process.key if row.process else row.group) == key
+            )
+            shown.set_reactive(RowList.cursor, next(places, min(shown.cursor, max(0, len(shown.rows) - 1))))
+        if len(old) == len(shown.rows):
+            for index, (before, after) in enumerate(zip(old, shown.rows, strict=True)):
+                if before != after:
+                    shown.row_changed(index)
+        else:
+            shown.rows_changed()
+            shown.show_cursor()
+        self._tell()
+        self._show_events()
+
+    def _show_events(self) -> None:
+        info = self._info or LaunchInfo()
+        newest = info.timeline[-EVENTS:]
+        lines: list[Line] = [((event_text(each), STYLES.get(each.severity, "dim")),) for each in newest]
+        self.query_one("#launch-events", Picture).set_lines(lines)
+
+    def _tell(self) -> None:
+        info, row = self._info or LaunchInfo(), self._list.current
+        if self._why_not and not info.processes:
+            text = self._why_not
+        elif info.problem and info.problem != self._read:
+            text = info.problem
+        elif row is None:
+            text = self._problem or "Nothing was launched yet; o opens a launch file."
+        elif row.process is None:
+            text = f"{' / '.join(row.group)}  {counted(row.count, 'process').replace('processs', 'processes')}"
+        else:
+            text = row.process.problem or f"{row.process.label}  {' '.join(row.process.nodes)}"
+        status = self.query_one("#launch-status", Words)
+        status.say(text)
+        status.set_class(text == info.problem, "wrong")
+
+    def on_row_list_moved(self, event: RowList.Moved) -> None:
+        """Tell of the process at the cursor, and no more of a launch that failed before."""
+        event.stop()
+        self._read = (self._info or LaunchInfo()).problem
+        self._tell()
+
+    def on_resize(self) -> None:
+        """No events where there is little room."""
+        self.set_class(self.size.height < 12, "short")
+
+    def action_fold(self, closed: bool) -> None:
+        """Close or open the group at the cursor."""
+        row = self._list.current
+        if row is None:
+            return
+        self._folded = self._folded | {row.group} if closed else self._folded - {row.group}
+        self._arrange()
+        heads = (
+            index for index, each in enumerate(self._list.rows) if each.process is None and each.group == row.group
+        )
+        if closed:
+            self._list.cursor = next(heads, 0)
+
+    def action_detail(self) -> None:
+        """Show all about the process; open or close a group."""
+        row = self._list.current
+        if row is None:
+            return
+        if row.process is None:
+            self.action_fold(not row.folded)
+        else:
+            self.host.push_screen(FactsScreen(row.process.label, facts(row.process, self._info or LaunchInfo())))
+
+    def action_timeline(self) -> None:
+        """Show all launch events, the newest first."""
+        events = (self._info or LaunchInfo()).timeline
+        lines = [event_text(each) for each in reversed(events)] or ["nothing yet"]
+        self.host.push_screen(FactsScreen("Launch events", [("Newest first", lines)]))
+
+    def action_do(self, verb: str) -> None:
+        """Start, stop, restart or kill what is at the cursor."""
+        row = self._list.current
+        if row is None or self.launcher is None:
+            return
+        info = self._info or LaunchInfo()
+        chosen = [row.process] if row.process else [each for each in info.processes if _belongs(each, row.group)]
+        chosen = [each for each in chosen if not row_is_pointless(verb, each)] if row.process is None else chosen
+        if verb == "kill" or (row.process is None and verb != "start"):
+            names = "\n".join(each.label for each in chosen) or "nothing runs"
+            question = f"{verb.capitalize()} {counted(len(chosen), 'process').replace('processs', 'processes')}?"
+            then = partial(self._do, verb, chosen)
+            self.ask(Confirmation(question, lambda _: then(), partial(self._ended, verb, chosen), reasons=names))
+        else:
+            self._do(verb, chosen)
+
+    def _do(self, verb: str, processes: list[ProcessInfo]) -> None:
+        for each in processes:
+            answer: Future[Answer] = getattr(self.launcher, verb)(each.key)
+            answer.add_done_callback(lambda done: self.host.call_later(self._answered, done))
+
+    def _ended(self, verb: str, processes: Sequence[ProcessInfo]) -> str:
+        """Why a verb makes no sense any more: none of its processes is there, or has anything left to stop."""
+        now = {each.key: each for each in self.console.snapshot().launch.processes}
+        if any(each.key in now and not row_is_pointless(verb, now[each.key]) for each in processes):
+            return ""
+        who = processes[0].label if len(processes) == 1 else "All of them"
+        return f"{who} ended meanwhile; nothing was done."
+
+    def _answered(self, done: Future[Answer]) -> None:
+        error = done.exception()
+        answer = Answer(False, str(error)) if error else done.result()
+        if not answer.ok:
+            self.notify(answer.text, severity="warning", markup=False)
+
+    def action_open(self) -> None:
+        """Choose a launch file, fill in its arguments, run it."""
+        if self.launcher is None or self._why_not:
+            self.notify(self._why_not or "There is no launcher.", severity="warning", markup=False)
+            return
+        self.ask(
+            Choice(
+                "Open a launch file",
+                self._chosen,
+                find=partial(files_for, self.launcher.files()),
+                hint="words of its name, or a path",
+                empty="No launch files in the workspace; type a path.",
+            )
+        )
+
+    def _chosen(self, path: str) -> None:
+        self.run_worker(self._ask(path), exclusive=True, group="launch", exit_on_error=False)
+
+    async def _ask(self, path: str) -> None:
+        """Read the arguments beside the event loop: a launch file is a program."""
+        launcher = self.launcher
+        if launcher is None:
+            return
+        try:
+            arguments = await asyncio.to_thread(launcher.arguments, path)
+        except ValueError as error:
+            self.host.push_screen(FactsScreen("This launch file cannot be read", [("", str(error).splitlines())]))
+            return
+        if arguments:
+            self.ask(Form(f"Launch {Path(path).name}", partial(self._launch, path), arguments=arguments))
+        else:
+            self._launch(path, {})
+
+    def _launch(self, path: str, values: Mapping[str, str]) -> None:
+        if self.launcher is not None:
+            self._read = ""
+            answer = self.launcher.launch(path, values)
+            answer.add_done_callback(lambda done: self.host.call_later(self._launched, done))
+
+    def _launched(self, done: Future[Answer]) -> None:
+        """What the pane shows by itself is not told twice."""
+        shown = self.console.snapshot().launch.problem
+        if done.exception() is not None or not shown or done.result().text != shown:
+            self._answered(done)
+
+
+def files_for(files: Sequence[str], typed: str) -> Sequence[Option]:
+    """The launch files that the typed words match; where none does, what was typed is a path."""
+    try:
+        query = parse(typed)
+    except ValueError:
+        query = Query()
+    found = [each for each in files if query.matches(each)]
+    if not found and typed.strip():
+        found = [str(Path(typed.strip()).expanduser())]
+    return [Option(Path(each).name, str(Path(each).parent), each) for each in found]
+
+
+def row_is_pointless(verb: str, process: ProcessInfo) -> bool:
+    """Whether a verb on a whole group has nothing to do for one of its processes."""
+    alive = process.state in (ProcessState.RUNNING, ProcessState.STARTING, ProcessState.STOPPING)
+    return alive if verb == "start" else (not alive if verb in ("stop", "kill") else False)
+
+
+def _belongs(process: ProcessInfo, group: tuple[str, ...]) -> bool:
+    return process.group[: len(group)] == group
+
+
+def event_text(event: LaunchEvent) -> str:
+    """A launch event on one line."""
+    return f"{clock_text(event.stamp)} {harmless(event.text)}"
+
+
+def facts(process: ProcessInfo, info: LaunchInfo) -> list[tuple[str, list[str]]]:
+    """Everything known of a process."""
+    state = process.state.value + ("" if process.exit_code is None else f", last exit code {process.exit_code}")
+    known = [f"state     {state}", f"pid       {process.pid or 'none'}", f"restarts  {process.restarts}"]
+    known += [f"CPU       {process.cpu:.1%}"] if process.cpu is not None else []
+    known += [f"memory    {process.memory} MB"] if process.memory is not None else []
+    events = [event_text(each) for each in info.timeline if process.label in each.text]
+    return [
+        ("Process", known),
+        ("Problem", process.problem.splitlines()),
+        ("Launched by", list(process.group)),
+        ("Nodes", list(process.nodes)),
+        ("Events", events[-12:]),
+    ]

@@ -1,0 +1,382 @@
+"""The parameter pane: a tree of all nodes' parameters, edited in place; a refusal stays in its row with its reason."""
+
+from __future__ import annotations
+
+from concurrent.futures import Future
+from dataclasses import replace
+from functools import partial
+
+from bot_console.tui import keymap
+from bot_console.tui.console.model import ChangeSource, ConsoleSnapshot, Kind, ParameterInfo, SetOutcome, Value
+from bot_console.tui.console.protocol import Answer
+from bot_console.tui.console.query import parse
+from bot_console.tui.format import command_of, field_text, harmless, parse_value, range_text, value_text
+from bot_console.tui.panes.pane import Pane
+from bot_console.tui.panes.parameters.rows import Row, View, rows
+from bot_console.tui.widgets.prompt.common import file_line, filter_line
+from bot_console.tui.widgets.prompt.line import Prompt
+from bot_console.tui.widgets.prompt.question import Line
+from bot_console.tui.widgets.row_list import RowList
+from bot_console.tui.widgets.words import Words
+from rich.segment import Segment
+from rich.style import Style
+from rich.text import Text
+from textual.app import ComposeResult
+
+BAR = 12
+NAMES = 24
+SHORT = 18
+
+
+class ParameterRows(RowList):
+    """The rows of the tree."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.rows: list[Row] = []
+        self.refused: dict[tuple[str, str], SetOutcome] = {}
+
+    def row_count(self) -> int:
+        """How many rows there are."""
+        return len(self.rows)
+
+    @property
+    def current(self) -> Row | None:
+        """The row at the cursor."""
+        return self.rows[self.cursor] if self.rows and self.cursor < len(self.rows) else None
+
+    def row(self, index: int, width: int) -> list[Segment]:
+        """A node, a group or a parameter."""
+        row = self.rows[index]
+        if row.parameter is None:
+            return self._head(row)
+        return self._parameter(row, row.parameter, width)
+
+    def _style(self, name: str) -> Style:
+        return self.get_component_rich_style(f"row-list--{name}", partial=True)
+
+    def _head(self, row: Row) -> list[Segment]:
+        if row.name:
+            return [Segment(f"{'  ' * row.depth}{harmless(row.name)}.", self._style("dim"))]
+        arrow = "▸" if row.folded else "▾"
+        head = Segment(f"{arrow} {harmless(row.node)}", self._style("head"))
+        if row.problem:
+            return [head, Segment(f"  {harmless(row.problem)}", self._style("warn"))]
+        return [head, Segment(f"  {row.count}", self._style("dim"))]
+
+    def _parameter(self, row: Row, parameter: ParameterInfo, width: int) -> list[Segment]:
+        names = min(NAMES, max(12, width * 2 // 5))
+        indent = "  " * row.depth
+        mark = "•" if parameter.changed else " "
+        name = f"{indent}{harmless(row.name)}"[: names - 1].ljust(names)
+        refused = self.refused.get((parameter.node, parameter.name))
+        value = harmless(value_text(parameter.value)) + (f" {parameter.unit}" if parameter.unit else "")
+        segments = [Segment(f"{mark}{name}", self._style("strong" if parameter.changed else "plain"))]
+        if refused:
+            tried = harmless(value_text(refused.value))
+            segments.append(Segment(value + "  ", None))
+            segments.append(Segment(f"✗ {tried}: {harmless(refused.reason)}", self._style("error")))
+            return segments
+        room = max(8, width - names - BAR - 3)
+        segments.append(Segment(value[:room].ljust(room), self._style("dim") if parameter.read_only else None))
+        segments.append(Segment(bar(parameter) or ("read only" if parameter.read_only else ""), self._style("dim")))
+        return segments
+
+
+def bar(parameter: ParameterInfo) -> str:
+    """Where a number stands in its range."""
+    limits, value = parameter.range, parameter.value
+    if limits is None or isinstance(value, (bool, str, tuple)) or value is None or limits.high <= limits.low:
+        return ""
+    share = min(1.0, max(0.0, (value - limits.low) / (limits.high - limits.low)))
+    place = round(share * (BAR - 1))
+    return "─" * place + "●" + "─" * (BAR - 1 - place)
+
+
+class ParametersPane(Pane):
+    """Parameters of all nodes."""
+
+    TITLE = "Parameters"
+    HELP = (
+        "Every node's parameters, live. Enter edits; + and - move a number by its step or a hundredth of its range.\n"
+        "A refused value snaps back; the row says who refused it and why. A dot marks what differs from its default."
+    )
+    BINDINGS = keymap.bindings("parameters")
+
+    def __init__(self, *args: object, **kwargs: object) -> None:
+        super().__init__(*args, **kwargs)  # type: ignore[arg-type]
+        self._snapshot = ConsoleSnapshot()
+        self._view = View()
+        self._filter = ""
+        self._expected = ""
+
+    def compose(self) -> ComposeResult:
+        """The tree, what is known of the parameter at the cursor, and a prompt."""
+        yield ParameterRows()
+        yield Words(id="parameter-detail")
+        yield Prompt(id="parameter-prompt")
+
+    @property
+    def _list(self) -> ParameterRows:
+        return self.query_one(ParameterRows)
+
+    def focus_target(self) -> None:
+        """The tree takes the keys."""
+        self._list.focus()
+
+    def show(self, snapshot: ConsoleSnapshot) -> None:
+        """Draw the parameters anew when they are another object."""
+        if snapshot.parameters is not self._snapshot.parameters or snapshot.problem != self._snapshot.problem:
+            self._snapshot = snapshot
+            self._arrange()
+        self._snapshot = snapshot
+
+    def expect(self, node: str) -> None:
+        """Go to a node, as soon as it is there."""
+        self._expected = node
+        self._arrange()
+
+    def _go_to_expected(self) -> None:
+        shown = self._list
+        found = next((index for index, row in enumerate(shown.rows) if row.node == self._expected), None)
+        self.caption(f"waits for {self._expected}" if found is None else "")
+        if found is not None:
+            self._expected = ""
+            shown.cursor = found
+
+    def _arrange(self) -> None:
+        """Make the rows, keep the cursor on its parameter, draw what differs."""
+        shown, old = self._list, self._list.rows
+        at = shown.current
+        new = rows(self._snapshot.parameters, self._view)
+        shown.rows = new
+        if len(old) == len(new):
+            for index, (before, after) in enumerate(zip(old, new, strict=True)):
+                if before != after:
+                    self._forget_refusal(before, after)
+                    shown.row_changed(index)
+        else:
+            if at is not None:
+                where = (each for each, row in enumerate(new) if (row.node, row.name) == (at.node, at.name))
+                shown.set_reactive(ParameterRows.cursor, next(where, min(shown.cursor, max(0, len(new) - 1))))
+            shown.rows_changed()
+            shown.show_cursor()
+        if self._expected:
+            self._go_to_expected()
+        self._describe()
+
+    def _forget_refusal(self, before: Row, after: Row) -> None:
+        if before.parameter and after.parameter and before.parameter.value != after.parameter.value:
+            self._list.refused.pop((after.node, after.parameter.name), None)
+
+    def on_row_list_moved(self, event: RowList.Moved) -> None:
+        """Tell of the parameter at the cursor."""
+        event.stop()
+        self._describe()
+
+    def _describe(self) -> None:
+        self.query_one("#parameter-detail", Words).say(self._details(self._list.current))
+
+    def _details(self, row: Row | None) -> Text:
+        if row is None:
+            if self._filter or self._view.only_changed:
+                return Text("Nothing matches. Press / to change the filter.", "dim")
+            return Text(harmless(self._snapshot.problem) or "Waiting for nodes with parameters ...", "dim")
+        parameter = row.parameter
+        if parameter is None:
+            return Text(harmless(row.problem or f"{row.node}  {row.count} parameters"), "dim")
+        text = Text(no_wrap=False, overflow="fold")
+        text.append(harmless(parameter.description) or "(no description)")
+        facts = [parameter.kind.word, range_text(parameter.range, parameter.kind), harmless(parameter.constraints)]
+        facts.append("read only" if parameter.read_only else "")
+        facts.append(f"default {harmless(value_text(parameter.default))}" if parameter.changed else "")
+        facts.append(harmless(parameter.origin))
+        text.append("\n" + " · ".join(each for each in facts if each), "dim")
+        refused = self._list.refused.get((parameter.node, parameter.name))
+        if refused:
+            who = {"descriptor": "by its descriptor", "callback": "by the node", "node": "", "console": "here"}
+            by = who.get(refused.refused_by, "")
+            text.append(f"\n✗ {harmless(value_text(refused.value))} refused {by}: {harmless(refused.reason)}", "bold")
+        text.append("\n" + harmless(command_of(parameter, parameter.value)), "dim italic")
+        return text
+
+    def _at(self) -> ParameterInfo | None:
+        row = self._list.current
+        return row.parameter if row else None
+
+    def action_edit(self) -> None:
+        """Edit a value, toggle a bool, open or close a node."""
+        row = self._list.current
+        if row is None:
+            return
+        parameter = row.parameter
+        if parameter is None:
+            self.action_fold(not row.folded)
+        elif parameter.kind is Kind.BOOL and isinstance(parameter.value, bool):
+            self._set(parameter, not parameter.value)
+        else:
+            limits = range_text(parameter.range, parameter.kind)
+            label = f"{parameter.name} ({', '.join(each for each in (parameter.kind.word, limits) if each)})"
+            self.ask(
+                Line(
+                    label,
+                    partial(self._set_text, parameter),
+                    partial(self._gone, parameter),
+                    text=field_text(parameter.value),
+                    check=partial(_wrong, parameter),
+                )
+            )
+
+    def _gone(self, parameter: ParameterInfo) -> str:
+        """Why a parameter cannot be set any more."""
+        tree = self.console.snapshot().parameters.get(parameter.node)
+        if tree is None:
+            return f"{parameter.node} has left; {parameter.name} was not set."
+        if tree.get(parameter.name) is None and not tree.problem:
+            return f"{parameter.node} has no parameter {parameter.name} any more; it was not set."
+        return ""
+
+    def _set(self, parameter: ParameterInfo, value: Value, source: ChangeSource = ChangeSource.EDIT) -> None:
+        answer = self.console.set_parameters(parameter.node, {parameter.name: value}, source)
+        answer.add_done_callback(lambda done: self.host.call_later(self._outcome, done))
+
+    def _outcome(self, done: Future[tuple[SetOutcome, ...]]) -> None:
+        error = done.exception()
+        if error is not None:
+            self.notify(str(error), severity="error", markup=False)
+            return
+        for each in done.result():
+            key = (each.node, each.name)
+            if each.accepted:
+                self._list.refused.pop(key, None)
+            else:
+                self._list.refused[key] = each
+        self._list.refresh()
+        self._describe()
+
+    def action_nudge(self, steps: int) -> None:
+        """Move a number by its step, or by a hundredth of its range."""
+        parameter = self._at()
+        if parameter is None or isinstance(parameter.value, (bool, str, tuple)) or parameter.value is None:
+            return
+        limits = parameter.range
+        integer = parameter.kind is Kind.INTEGER
+        step = limits.step if limits and limits.step else ((limits.high - limits.low) / 100 if limits else 0.0)
+        step = step or max(abs(parameter.value) / 10, 0.1)
+        step = max(1, round(step)) if integer else _round_step(step)
+        value = parameter.value + steps * step
+        if limits:
+            value = min(max(value, limits.low), limits.high)
+        self._set(parameter, int(value) if integer else round(value, 10))
+
+    def action_reset(self) -> None:
+        """Put the default back."""
+        parameter = self._at()
+        if parameter is not None and parameter.changed:
+            self._set(parameter, parameter.default)
+
+    def action_undo(self) -> None:
+        """Undo the last change made here."""
+        self.console.undo().add_done_callback(lambda done: self.host.call_later(self._tell, done))
+
+    def action_redo(self) -> None:
+        """Redo."""
+        self.console.redo().add_done_callback(lambda done: self.host.call_later(self._tell, done))
+
+    def _tell(self, done: Future[Answer]) -> None:
+        answer = done.result()
+        self.notify(answer.text, severity="information" if answer.ok else "warning", markup=False)
+
+    def action_filter(self) -> None:
+        """Ask for a filter."""
+        given_up = partial(self._filter_is, "")
+        self.ask(replace(filter_line(self._filter, self._apply_filter), then=self._filter_is, given_up=given_up))
+
+    def _filter_is(self, text: str) -> None:
+        self._apply_filter(text)
+        self._to_first_match()
+
+    def _set_text(self, parameter: ParameterInfo, text: str) -> None:
+        if text != field_text(parameter.value):
+            self._set(parameter, parse_value(text, parameter))
+
+    def _apply_filter(self, text: str) -> None:
+        self._filter = text
+        self._view = replace(self._view, query=parse(text))
+        self.caption(f"/{text}" if text else "")
+        self._arrange()
+
+    def _to_first_match(self) -> None:
+        if self._filter and self._at() is None:
+            matches = (index for index, row in enumerate(self._list.rows) if row.parameter is not None)
+            self._list.cursor = next(matches, 0)
+
+    def action_toggle_changed(self) -> None:
+        """Only what differs from its default, or all."""
+        self._view = replace(self._view, only_changed=not self._view.only_changed)
+        self._arrange()
+
+    def action_toggle_built_in(self) -> None:
+        """Built-in parameters too, or not."""
+        self._view = replace(self._view, built_in=not self._view.built_in)
+        self._arrange()
+
+    def action_fold(self, closed: bool) -> None:
+        """Close or open the node at the cursor."""
+        row = self._list.current
+        if row is None:
+            return
+        folded = set(self._view.folded) - {row.node} | ({row.node} if closed else set[str]())
+        self._view = replace(self._view, folded=frozenset(folded))
+        if closed:
+            heads = (index for index, each in enumerate(self._list.rows) if each.node == row.node)
+            self._list.cursor = next(heads, 0)
+        self._arrange()
+
+    def action_fold_all(self) -> None:
+        """Close all nodes, or open all."""
+        nodes = frozenset(self._snapshot.parameters)
+        self._view = replace(self._view, folded=frozenset() if self._view.folded else nodes)
+        self._arrange()
+
+    def action_plot(self) -> None:
+        """Plot this parameter."""
+        parameter = self._at()
+        if parameter is not None:
+            self.post_message(self.PlotWanted(f"{parameter.node}:{parameter.name}"))
+
+    def action_copy(self) -> None:
+        """Copy the command that sets this parameter, through the terminal (OSC 52)."""
+        parameter = self._at()
+        if parameter is not None:
+            text = command_of(parameter, parameter.value)
+            self.host.copy_to_clipboard(text)
+            self.notify(text, title="Copied", markup=False)
+
+    def action_save(self) -> None:
+        """Ask where to save."""
+        self.ask(file_line("save all parameters to", "parameters.yaml", self._save))
+
+    def _save(self, path: str) -> None:
+        answer = self.console.save_parameters(path)
+        self.notify(answer.text, severity="information" if answer.ok else "error", markup=False)
+
+    def on_resize(self) -> None:
+        """Fewer lines of detail where there is little room."""
+        self.set_class(self.size.height < SHORT, "short")
+
+
+def _wrong(parameter: ParameterInfo, text: str) -> str:
+    try:
+        parse_value(text, parameter)
+    except ValueError as error:
+        return str(error)
+    return ""
+
+
+def _round_step(step: float) -> float:
+    """The nearest of 1, 2, 5 times a power of ten."""
+    from math import floor, log10
+
+    power = 10.0 ** floor(log10(step))
+    return min((1, 2, 5, 10), key=lambda each: abs(each * power - step)) * power

@@ -1,0 +1,128 @@
+"""What a plot holds: curves, marks, and the window of time that is shown."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from bot_console.tui.console.model import Change
+from bot_console.tui.console.protocol import Console
+
+if TYPE_CHECKING:
+    from bot_console.tui.panes.plot.curves import Curve
+    from bot_console.tui.panes.plot.view import Axes, Mark
+
+WINDOWS = (1.0, 2.0, 5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0)
+"""Lengths of the time window, s."""
+
+DEFAULTS = ("/odom/twist.twist.linear.x", "/robot_navigator:max_speed")
+"""What is plotted before anybody has asked for something: ends of paths."""
+
+COLOURS = 6
+
+PACE = 0.5
+"""Seconds for which the window stands still, where that is no more than a share of its width."""
+
+STEPS = 20
+"""The window moves in at least so many steps through its own width."""
+
+
+class Timeline:
+    """Curves over a window of time that ends at the newest sample, or stands while paused."""
+
+    def __init__(self, console: Console) -> None:
+        self._console = console
+        self.curves: list[Curve] = []
+        self.marks: list[Mark] = []
+        self.window = 30.0
+        self.limits: tuple[float, float] | None = None
+        self.paused_at: float | None = None
+        self.new_samples = 0
+
+    def add(self, path: str) -> None:
+        """One more curve, in the first free colour."""
+        from bot_console.tui.panes.plot.curves import Curve
+
+        used = {each.colour for each in self.curves}
+        colour = next((each for each in range(COLOURS) if each not in used), len(self.curves) % COLOURS)
+        self.curves.append(Curve(path, colour))
+
+    def remove(self, at: int) -> None:
+        """Forget a curve."""
+        del self.curves[at]
+
+    def clear(self) -> None:
+        """Forget all samples and marks."""
+        for each in self.curves:
+            each.clear()
+        self.marks.clear()
+
+    def take_in(self) -> bool:
+        """Fetch new samples; whether anything has to be drawn."""
+        before = sum(each.cursor for each in self.curves)
+        changed = any([each.take_in(self._console) for each in self.curves])
+        if self.paused_at is not None:
+            self.new_samples += sum(each.cursor for each in self.curves) - before
+        return changed
+
+    def marks_of(self, changes: Sequence[Change]) -> None:
+        """Mark parameter changes and refusals."""
+        if not changes:
+            self.marks = []
+            return
+        from bot_console.tui.panes.plot.view import Mark
+
+        self.marks = [Mark(self._console.plot_time(each.stamp), not each.accepted) for each in changes]
+
+    def pause(self) -> None:
+        """Hold the window where it is, or let it follow again."""
+        self.paused_at = self.newest() if self.paused_at is None else None
+        self.new_samples = 0
+
+    def shift(self, step: int) -> None:
+        """Move a held window by a tenth of its length."""
+        if self.paused_at is not None:
+            self.paused_at += step * self.window / 10
+
+    def newest(self) -> float:
+        """The time of the newest sample of a topic; with parameters alone, now."""
+        streams = [float(each.times[-1]) for each in self.curves if len(each.times) and not each.steps]
+        return max(streams) if streams else self._console.plot_time()
+
+    def axes(self, across: int) -> Axes:
+        """The window; it moves in steps of some cells, so that between two steps only the newest cells are drawn."""
+        from bot_console.tui.panes.plot.view import Axes
+
+        cell = self.window / max(1, across)
+        step = cell * max(1, min(across // STEPS, math.ceil(PACE / cell)))
+        if self.paused_at is not None:
+            end = math.floor(self.paused_at / cell) * cell
+        else:
+            end = math.ceil(self.newest() / step - 1e-6) * step
+        return Axes(end - self.window, end, self.limits)
+
+
+def limits_of(text: str) -> tuple[float, float] | None:
+    """Two numbers, or None for an empty text; raises `ValueError` with a mend."""
+    parts = text.replace(",", " ").replace("..", " ").split()
+    if not parts:
+        return None
+    try:
+        low, high = (float(each) for each in parts)
+    except ValueError:
+        raise ValueError("write two numbers, such as: 0 2.5") from None
+    if not (math.isfinite(low) and math.isfinite(high) and low < high):
+        raise ValueError("the first number must be the smaller one")
+    if not math.isfinite(high - low):
+        raise ValueError("the two numbers are too far apart")
+    return low, high
+
+
+def wrong_limits(text: str) -> str:
+    """What is wrong with typed limits; empty when nothing is."""
+    try:
+        limits_of(text)
+    except ValueError as error:
+        return str(error)
+    return ""

@@ -1,0 +1,197 @@
+"""The steering pane: the robot driven by keys, as rqt_robot_steering does, with a dead-man time."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+from bot_console.tui import keymap
+from bot_console.tui.console.model import ConsoleSnapshot
+from bot_console.tui.panes.pane import Pane
+from bot_console.tui.panes.steering.state import DEAD_MAN, DEADMAN_TIMES, LEFT, OWN_REASONS, Steering, greatest_of
+from bot_console.tui.panes.steering.view import lines
+from bot_console.tui.widgets.picture import Picture
+from textual.app import ComposeResult
+
+
+class SteeringPane(Pane):
+    """Sliders moved by keys, once armed."""
+
+    TITLE = "Steering"
+    HELP = (
+        "Enter arms; then w s a d or the arrow keys drive, Shift takes ten steps, x and z zero one velocity and Space\n"
+        "stops. While armed only a person's commands count. When no key comes for the dead-man time, when the pane is\n"
+        "left, and when this console is frozen or gone, the robot stands, locked: Enter steers on, ! hands it back to\n"
+        "its own program (h does so while armed). The limits are max_speed and turn_rate. Below stands what became of\n"
+        "the command, and what has limited it."
+    )
+    BINDINGS = keymap.bindings("steering")
+
+    clock: Callable[[], float] = staticmethod(time.monotonic)
+    """Seconds of a steady clock; tests give one that they step."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self.state = Steering()
+        self._snapshot = ConsoleSnapshot()
+        self.can_focus = True
+
+    def compose(self) -> ComposeResult:
+        """One picture."""
+        yield Picture()
+
+    def focus_target(self) -> None:
+        """The pane itself takes the keys."""
+        self.focus()
+
+    def show(self, snapshot: ConsoleSnapshot) -> None:
+        """Draw what became of the command; the all-stop zeroes it."""
+        before, self._snapshot = self._snapshot, snapshot
+        if snapshot.parameters is not before.parameters:
+            self.state.limit(greatest_of(snapshot.parameters.values()))
+        if snapshot.drive.stopped and not before.drive.stopped and self.state.armed:
+            self._steer_no_more()
+        self._draw()
+
+    def _draw(self) -> None:
+        picture = self.query_one(Picture)
+        width, height = picture.size
+        left = self.state.left(self.clock())
+        picture.set_lines(lines(self.state, self._snapshot.drive, left, width, height))
+        self.set_class(self.state.armed, "armed")
+
+    def on_picture_resized(self, event: Picture.Resized) -> None:
+        """Draw for the new size."""
+        event.stop()
+        self._draw()
+
+    def tick(self) -> None:
+        """Send the command again, or stop when no key has come for too long."""
+        if self.state.armed and not (self.has_focus and self.host.screen is self.screen):
+            self._disarm("Disarmed: the keyboard went elsewhere.")
+        if self.state.armed:
+            self._send()
+        if self.state.armed:
+            self.console.steer(True)
+            if self.display:
+                self._draw()
+
+    def _send(self) -> None:
+        armed = self.state.armed
+        command = self.state.command(self.clock())
+        if command is not None:
+            self.console.drive(*command)
+        if armed and self.state.expired:
+            self._stand(DEAD_MAN)
+            self._draw()
+
+    def _stand(self, why: str) -> None:
+        """Lock before the steering is let go, so that the robot's own program does not drive in between."""
+        self.console.all_stop(True, why)
+        self.console.steer(False)
+
+    def _steer_no_more(self) -> None:
+        """Steer no more; zero velocity."""
+        self.state.disarm()
+        self._send()
+        self.console.steer(False)
+
+    def _disarm(self, why: str = "") -> None:
+        if self.state.armed:
+            self.state.disarm()
+            self._send()
+            self._stand(LEFT)
+            if why:
+                self.notify(why)
+        self._draw()
+
+    def on_blur(self) -> None:
+        """The keyboard goes elsewhere, so nobody steers."""
+        self._disarm()
+
+    def on_unmount(self) -> None:
+        """Zero on exit; a robot that was steered is left locked."""
+        self.let_go()
+
+    def let_go(self) -> None:
+        """Disarm, with a zero velocity; a robot that was steered is left locked."""
+        if self.state.armed:
+            self.state.disarm()
+            self._send()
+            self._stand(LEFT)
+
+    def _ready(self) -> bool:
+        if self._snapshot.drive.stopped:
+            self.notify("The all-stop holds the robot; ! lets it go.", severity="warning")
+        elif not self.state.armed:
+            self.notify("Steering is not armed; Enter arms it.", severity="warning")
+        else:
+            return True
+        return False
+
+    def action_arm(self) -> None:
+        """Arm, or disarm."""
+        if self.state.armed:
+            self._disarm()
+        elif not self._snapshot.drive.topic:
+            self.notify(
+                "No node subscribes to cmd_vel or cmd_vel_teleop: there is nothing to steer.", severity="warning"
+            )
+        elif self._snapshot.drive.stopped and not self._own_stop:
+            self.notify("The all-stop holds the robot; ! lets it go.", severity="warning")
+        else:
+            self._arm()
+
+    @property
+    def _own_stop(self) -> bool:
+        """Whether it was this pane that stopped the robot, so that Enter may take the steering again."""
+        drive = self._snapshot.drive
+        return drive.stop_holder == "this console" and drive.stop_reason in OWN_REASONS
+
+    def _arm(self) -> None:
+        """Hold the steering before the lock is released: the robot stands until a key moves it."""
+        self.console.steer(True)
+        if self._snapshot.drive.stopped:
+            self.console.all_stop(False)
+        self._snapshot = self.console.snapshot()
+        self.state.arm(self.clock())
+        self._draw()
+
+    def action_hand_back(self) -> None:
+        """Let the robot's own program drive again."""
+        if self.state.armed:
+            self._steer_no_more()
+            self._draw()
+        elif self._own_stop:
+            self.console.all_stop(False)
+
+    def action_disarm(self) -> None:
+        """Zero velocity; keys rest."""
+        self._disarm()
+
+    def action_steer(self, linear: int, angular: int, steps: int) -> None:
+        """Change the command and send it at once."""
+        if self._ready():
+            self.state.steer(linear, angular, steps, self.clock())
+            self._send()
+            self._draw()
+
+    def action_zero_axis(self, axis: int) -> None:
+        """Zero one velocity."""
+        if self._ready():
+            self.state.zero_axis(axis, self.clock())
+            self._send()
+            self._draw()
+
+    def action_zero(self) -> None:
+        """Stop the robot, armed or not."""
+        self.state.zero()
+        self._send()
+        self._draw()
+
+    def action_deadman(self) -> None:
+        """The next dead-man time."""
+        times = DEADMAN_TIMES
+        self.state.deadman = times[(times.index(self.state.deadman) + 1) % len(times)]
+        self._draw()

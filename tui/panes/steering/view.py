@@ -1,0 +1,117 @@
+"""The steering pane as lines of text. Pure."""
+
+from __future__ import annotations
+
+from bot_console.tui.console.model import DriveInfo
+from bot_console.tui.format import harmless
+from bot_console.tui.panes.steering.state import OWN_REASONS, Steering
+from bot_console.tui.widgets.picture import Line
+
+BAR = 10
+PAD = (37, 13)
+"""Cells of the plane of both velocities, odd so that it has a middle."""
+WORDS = 9
+
+
+def lines(state: Steering, drive: DriveInfo, left: float, width: int, height: int) -> list[Line]:
+    """Switch, dead-man time, sliders, and what became of the command; the least important lines go first."""
+    top = [_switch(state, drive, width)]
+    sliders = [
+        _slider("linear", state.linear, state.greatest[0], "m/s", width),
+        _slider("angular", -state.angular, state.greatest[1], "rad/s", width, turned=True),
+    ]
+    chain = _chain(drive)
+    deadman = _deadman(state, left)
+    compact: list[Line] = [*top, *sliders, deadman, *chain]
+    roomy: list[Line] = [*top, (), *sliders, (), deadman, (), *chain]
+    full: list[Line] = [*roomy, (), *_keys(width)]
+    pad = [*full, (), *_pad(state)] if width >= PAD[0] + 8 else full
+    return next((each for each in (pad, full, roomy) if len(each) <= height), compact)[:height]
+
+
+def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
+    topic = harmless(drive.topic) or "no robot listens for commands"
+    if drive.stopped and not drive.stop_confirmed:
+        return ((" STOP SENT, NOT CONFIRMED ", "error"), (_unconfirmed(drive), ""))
+    if drive.stopped and drive.stop_holder == "this console" and drive.stop_reason in OWN_REASONS:
+        return ((" STANDS ", "warn"), (" enter steers on, ! hands it back to its program", ""))
+    if drive.stopped:
+        who = "" if drive.stop_holder in ("", "this console") else f" by {harmless(drive.stop_holder)}"
+        return ((" ALL STOP ", "error"), (f" the robot is held{who}; ! lets it go", ""))
+    if state.armed:
+        return ((" ● ARMED ", "warn"), (f" keys drive, h hands back  {topic}", "dim"))
+    return ((" ○ disarmed ", "dim"), (" enter arms  " if width >= 34 else " ", "strong"), (topic, "dim"))
+
+
+def _unconfirmed(drive: DriveInfo) -> str:
+    return " ! sends it again" if drive.lockable else " zeros only: this robot has no emergency stop"
+
+
+def _slider(word: str, value: float, greatest: float, unit: str, width: int, *, turned: bool = False) -> Line:
+    """A slider with its ends; an angular one shows left turns on the left, as they are felt."""
+    shown = -value if turned else value
+    ends = ("left", "right") if turned else (f"{-greatest:+.1f}", f"{greatest:+.1f}")
+    room = max(11, min(61, width - WORDS - 2 * 6 - 16)) | 1
+    place = round((value / greatest + 1) / 2 * (room - 1)) if greatest > 0 else room // 2
+    track = list("─" * room)
+    track[room // 2] = "┼"
+    track[max(0, min(place, room - 1))] = "●"
+    before, after = "".join(track[:place]), "".join(track[place + 1 :])
+    style = "accent" if shown else "dim"
+    return (
+        (f" {word:<{WORDS}}", ""), (f"{ends[0]:>5} ├{before}", "dim"), ("●", style), (f"{after}┤ {ends[1]:<5}", "dim"),
+        (f"{shown:+7.2f} {unit}", "strong" if shown else ""),
+    )  # fmt: skip
+
+
+def _deadman(state: Steering, left: float) -> Line:
+    if state.expired:
+        return ((f" no key for {state.deadman:g} s: the robot stands", "warn"),)
+    full = round(left * BAR)
+    moving = bool(state.linear or state.angular)
+    bar = "▰" * full + "▱" * (BAR - full) if state.armed and moving else "▱" * BAR
+    return ((f" {'dead-man':<{WORDS}}", ""), (f"{bar} ", "warn" if moving and left < 0.35 else "dim"),
+            (f"stops {state.deadman:g} s after the last key", "dim"))  # fmt: skip
+
+
+def _chain(drive: DriveInfo) -> list[Line]:
+    """Asked, limited, final, actual: what became of the command on its way."""
+    rows: list[Line] = []
+    stages = (("asked", drive.asked), ("limited", drive.limited), ("final", drive.final), ("actual", drive.actual))
+    for word, velocity in stages:
+        text = f"{velocity[0]:+7.2f} m/s {velocity[1]:+7.2f} rad/s" if velocity else "      unknown"
+        why = f"  by {harmless(drive.limited_by)}" if word == "limited" and drive.limited_by else ""
+        if velocity is not None or word in ("final", "actual"):
+            rows.append(((f" {word:<{WORDS}}", "dim"), (text, "" if velocity else "dim"), (why, "warn")))
+    return rows
+
+
+def _pad(state: Steering) -> list[Line]:
+    """Both velocities as a point in a plane: forward is up, a left turn is left."""
+    width, height = PAD
+    across, down = width // 2, height // 2
+    x = across - round(state.angular / state.greatest[1] * across) if state.greatest[1] else across
+    y = down - round(state.linear / state.greatest[0] * down) if state.greatest[0] else down
+    lines: list[Line] = [((" " * (WORDS + 1) + "╭" + "forward".center(width, "─") + "╮", "dim"),)]
+    for row in range(height):
+        cells = list("─" * width if row == down else " " * width)
+        cells[across] = "┼" if row == down else "│"
+        edge = " left    │" if row == down else " " * WORDS + "│"
+        if row != y:
+            lines.append(((" " + edge[:WORDS] + "│" + "".join(cells) + "│", "dim"),))
+            continue
+        moving = bool(state.linear or state.angular)
+        lines.append(((" " + edge[:WORDS] + "│" + "".join(cells[:x]), "dim"), ("●", "accent" if moving else "strong"),
+                      ("".join(cells[x + 1 :]) + "│", "dim")))  # fmt: skip
+    return [*lines, ((" " * (WORDS + 1) + "╰" + "backward".center(width, "─") + "╯", "dim"),)]
+
+
+def _keys(width: int) -> list[Line]:
+    rows = (
+        ("w s ↑ ↓", "faster, slower"),
+        ("a d ← →", "turn left, right"),
+        ("Shift", "ten steps at once"),
+        ("x  z", "zero speed, zero turn"),
+        ("space", "stop"),
+    )
+    return [((f" {keys:<{WORDS}}", "accent"), (text, "dim")) for keys, text in rows] if width >= 30 else []

@@ -1,0 +1,127 @@
+"""The world pane: map, robot, trail, LIDAR hits."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from bot_console.tui import keymap
+from bot_console.tui.console.model import ConsoleSnapshot, WorldInfo
+from bot_console.tui.panes.pane import Pane
+from bot_console.tui.widgets.picture import Picture
+from bot_console.tui.widgets.words import Words
+from textual.app import ComposeResult
+
+if TYPE_CHECKING:
+    from bot_console.tui.panes.world.view import WorldDrawing
+
+ZOOMS = (1.0, 2.0, 4.0, 8.0)
+
+
+HITS_EVERY = 3
+"""Every so many drawings the LIDAR hits are drawn anew."""
+
+
+class WorldMap(Picture):
+    """The drawing itself."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._world = WorldInfo()
+        self._drawing: WorldDrawing | None = None
+        self._age = -1
+        self.zoom = 1.0
+        self.scale = ""
+
+    def show(self, world: WorldInfo) -> None:
+        """Draw a world."""
+        # Ranges are noisy, so hits flicker all over the map: they are what costs bytes.
+        self._age = (self._age + 1) % HITS_EVERY
+        keep = self._age and self._world.hits
+        self._world = replace(world, hits=self._world.hits) if keep else world
+        self.draw()
+
+    def draw(self) -> None:
+        """Make the lines for the size that there is."""
+        width, height = self.size
+        if width < 4 or height < 2:
+            return
+        if self._world == WorldInfo():
+            self.set_lines(())
+            return
+        # NumPy is imported after the first frame: it is a third of the start-up time.
+        from bot_console.tui.panes.world.view import WorldDrawing, following, scale_text
+
+        self._drawing = self._drawing or WorldDrawing()
+        window = following(self._world, width, height, self.zoom)
+        self.set_lines(self._drawing.rows(self._world, window, width, height))
+        self.scale = scale_text(window, width)
+
+
+class WorldPane(Pane):
+    """The robot in its world."""
+
+    TITLE = "World"
+    HELP = "The map, the robot as an arrow, where it has been, and where its LIDAR beams end. + zooms in, f shows all."
+    BINDINGS = keymap.bindings("world")
+    DEFAULT_CSS = """
+    WorldPane #world-facts { height: 1; padding: 0 1; color: $text-muted; background: $surface; }
+    """
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self._world: WorldInfo | None = None
+        self._snapshot = ConsoleSnapshot()
+        self.can_focus = True
+
+    def compose(self) -> ComposeResult:
+        """The map and a line of facts."""
+        yield WorldMap()
+        yield Words(id="world-facts")
+
+    def focus_target(self) -> None:
+        """The pane itself takes the keys."""
+        self.focus()
+
+    def show(self, snapshot: ConsoleSnapshot) -> None:
+        """Draw the world anew when it is another object."""
+        before, self._snapshot = self._snapshot, snapshot
+        if snapshot.problem != before.problem or snapshot.capabilities is not before.capabilities:
+            self._facts()
+        if snapshot.world is not self._world:
+            self._world = snapshot.world
+            self.query_one(WorldMap).show(snapshot.world)
+            self._facts()
+
+    def on_picture_resized(self, event: Picture.Resized) -> None:
+        """Draw for the new size."""
+        event.stop()
+        self.query_one(WorldMap).draw()
+        self._facts()
+
+    def _facts(self) -> None:
+        snapshot, world = self._snapshot, self._snapshot.world
+        if world.pose is None and world.map is None:
+            text = snapshot.capabilities.world or "No map and no pose yet: no node publishes OccupancyGrid or Odometry."
+            text = snapshot.problem or text
+        else:
+            pose = world.pose
+            near = "free" if world.nearest is None else f"{world.nearest:.1f} m"
+            where = f"x {pose.x:6.1f}  y {pose.y:6.1f}" if pose else "pose unknown"
+            text = f"{where}  {world.speed:+.1f} m/s  nearest {near}  {self.query_one(WorldMap).scale}"
+        self.query_one("#world-facts", Words).say(text)
+
+    def action_zoom_map(self, step: int) -> None:
+        """Nearer, or farther."""
+        drawn = self.query_one(WorldMap)
+        at = ZOOMS.index(drawn.zoom)
+        drawn.zoom = ZOOMS[min(max(0, at + step), len(ZOOMS) - 1)]
+        drawn.draw()
+        self._facts()
+
+    def action_fit(self) -> None:
+        """The whole map, or near the robot."""
+        drawn = self.query_one(WorldMap)
+        drawn.zoom = 1.0 if drawn.zoom > 1 else 4.0
+        drawn.draw()
+        self._facts()
