@@ -1,1 +1,3 @@
 """The console: rqt for the terminal."""
+
+__version__ = "0.1.0"

@@ -132,9 +132,9 @@ class LocalPublisher:
 
 
 def _serialize(message: Message) -> bytes:
-    from bot_console.runtime.rosidl.cdr import serialize
+    from bot_console.runtime.rosidl.cdr import serialize_copied
 
-    return serialize(message)
+    return serialize_copied(message)
 
 
 def _deserialize(data: bytes, message_class: Any) -> Any:

@@ -16,11 +16,15 @@ ORDERS = {0: ">", 1: "<"}
 
 def serialize(message: Any) -> bytes:
     """The bytes of a message, header first; raises `FieldTypeError` where a field holds what cannot be sent."""
+    # The copy is what a publish would send: fields checked, numbers of foreign types made plain.
+    return serialize_copied(message._copy_())
+
+
+def serialize_copied(message: Any) -> bytes:
+    """The bytes of a message that is a copy, so well formed."""
     # The place of a number counts from behind the header of 4 bytes; with 4 more before it no offset is needed.
     out = bytearray(len(HEADER)) + HEADER
-    # The copy is what a publish would send: fields checked, numbers of foreign types made plain.
-    copy = message._copy_()
-    writer(copy.__class__)(copy, out)
+    writer(message.__class__)(message, out)
     del out[: len(HEADER)]  # moves nothing
     return bytes(out)
 

@@ -6,9 +6,9 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import NoReturn
 
+from bot_console.tui import __version__
 from bot_console.tui.cli import ros2
 from bot_console.tui.cli.domain import end_program
-from bot_console.tui.opening import is_rqt
 
 Words = list[str]
 
@@ -16,6 +16,11 @@ Words = list[str]
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command line and give its exit code: 0 done, 1 failed, 2 wrong usage."""
     words = list(sys.argv[1:] if argv is None else argv)
+    if words == ["--version"]:
+        print(f"bot-console {__version__}")
+        return 0
+    from bot_console.tui.opening import is_rqt
+
     if not is_rqt(words):
         command = _COMMANDS.get(words[0]) if words else None
         if command:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from bot_console.tui import __version__
 from bot_console.tui.opening import Opening, is_rqt, rqt_opening
 from bot_console.tui.pane_table import PANES
 
@@ -122,13 +122,5 @@ def _parser() -> argparse.ArgumentParser:
     add("--seed", type=int, metavar="N", help="seed of the world")
     add("--world", metavar="NAME", help="world of the simulated robot")
     add("--simulator", action=argparse.BooleanOptionalAction, help=SIMULATOR_HELP)
-    add("--version", action="version", version=f"bot-console {installed_version()}")
+    add("--version", action="version", version=f"bot-console {__version__}")
     return parser
-
-
-def installed_version() -> str:
-    """The version of the installed package."""
-    try:
-        return version("bot-console")
-    except PackageNotFoundError:
-        return "(not installed)"
