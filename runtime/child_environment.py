@@ -42,6 +42,9 @@ give_way(__name__)
 class ChildEnvironment:
     """Folders of this process for its children: executables, and a stand-in for each embedded package."""
 
+    def __init__(self) -> None:
+        self._stood_in: set[str] = set()
+
     def added_to(self, env: Mapping[str, str]) -> dict[str, str]:
         """An environment with the folders first on both paths; one without PATH was not inherited, and stays."""
         if "PATH" not in env:
@@ -49,7 +52,7 @@ class ChildEnvironment:
         return {
             **env,
             "PATH": _joined([str(self._executables), *_venv()], env["PATH"]),
-            "PYTHONPATH": _joined([str(self._stand_ins), *source_folders()], env.get("PYTHONPATH", "")),
+            "PYTHONPATH": _joined([str(self._stand_ins()), *source_folders()], env.get("PYTHONPATH", "")),
         }
 
     @cached_property
@@ -66,13 +69,15 @@ class ChildEnvironment:
         ros2.chmod(0o755)
         return folder
 
-    @cached_property
     def _stand_ins(self) -> Path:
+        """The folder of stand-ins; a package that has come to the workspace since the last process gets one now."""
         folder = self._folder / "python"
-        folder.mkdir()
+        folder.mkdir(exist_ok=True)
         parent = str(Path(__file__).absolute().parents[2])
         for name in embedded_names():
-            (folder / f"{name}.py").write_text(STAND_IN.format(name=name, parent=parent))
+            if name not in self._stood_in:
+                (folder / f"{name}.py").write_text(STAND_IN.format(name=name, parent=parent))
+                self._stood_in.add(name)
         return folder
 
 

@@ -20,7 +20,7 @@ INLINE = re.compile(
     r"(?<!`)`((?:NO_COLOR=1 )?bot-console [^`\s]+ [^`]+|ros2 [^`\s]+ [^`\s]+ [^`]+|python tools/[^`]+)`"
 )
 """A command in a sentence; fewer words only name one."""
-ELSEWHERE = {"python3", "pip", "pytest", "tmux", "cd", "export", "set"}
+ELSEWHERE = {"python3", "pip", "eval", "pytest", "tmux", "cd", "export", "set"}
 PACKAGE, SYSTEM = "bot_console_robot", "robot_system.launch.py"
 ENVIRONMENT = re.compile(r"[A-Z_]+=.*")
 
@@ -81,6 +81,10 @@ def _console(words: list[str]) -> str:
         return _console(words[1:])
     if name == "colcon":
         return ""
+    if name == "setup":
+        return "" if set("|".join(words[1:]).split("|")) <= {"bash", "zsh", "fish"} else "is no shell"
+    if name in ("stop", "release", "up", "down", "status", "attach"):
+        return "" if name in cli._COMMANDS else f"there is no command {name}"
     if name in ros2.VERBS or name in cli._COMMANDS:
         return _ros2(words)
     given = arguments.parse(words)
@@ -96,7 +100,7 @@ def _ros2(words: list[str]) -> str:
     given = parser.parse_args(words)
     if words[0] == "launch" and given.package_name == PACKAGE:
         pairs = dict(each.split(":=", 1) for each in given.launch_arguments)
-        return _undeclared(given.launch_file_name, pairs)
+        return _undeclared(given.launch_file_name, pairs) if given.launch_file_name or not given.show_args else ""
     return "" if command.main or len(words) > 1 else "names no verb"
 
 
