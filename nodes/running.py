@@ -31,6 +31,10 @@ def run(make_node: Callable[[], Node], args: list[str] | None) -> None:
     except (CannotStart, InvalidParameterTypeException, InvalidParameterValueException) as error:
         get_logger(make_node.__name__).fatal(str(error))
         sys.exit(1)
+    except Exception:
+        if rclpy.ok():
+            raise
+        # A signal has shut the context down while a callback was about to publish: that is the end, and no fault.
     finally:
         if node is not None:
             node.destroy_node()

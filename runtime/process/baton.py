@@ -6,7 +6,7 @@ deadline that is become ready in the order in which they were made.
 
 from __future__ import annotations
 
-from _thread import allocate_lock
+from _thread import allocate_lock, get_ident, get_native_id
 from collections import deque
 from contextlib import suppress
 from heapq import heapify, heappop, heappush
@@ -37,9 +37,11 @@ class Seat:
         "baton",
         "detached",
         "due",
+        "ident",
         "in_heap",
         "is_outside",
         "lock",
+        "native_id",
         "rank",
         "state",
         "waiting",
@@ -60,10 +62,17 @@ class Seat:
         self.woken = False
         self.detached = False
         self.is_outside = False
+        self.ident = self.native_id = 0
 
     def take(self) -> None:
-        """Wait for the first turn."""
+        """Wait for the first turn, in the thread that has this place from now on."""
+        self.native_id = get_native_id()
+        self.ident = get_ident()
         self.lock.acquire()
+
+    def hold_clock(self) -> None:
+        """Let time stand still until the first wait, or the end, of this thread."""
+        self.baton.starting.add(self)
 
     def leave(self) -> None:
         """Take no more turns; the next one has it."""
@@ -99,6 +108,8 @@ class Baton:
         self.turns = 0
         self.reads = 0
         self.seats: dict[int, Seat] = {}
+        self.starting: set[Seat] = set()
+        """Those for whose first wait time stands still."""
         self._guard = allocate_lock()
         self._ready: deque[Seat] = deque()
         self._timers: list[tuple[int, int, Seat]] = []
@@ -124,17 +135,20 @@ class Baton:
         """The thread ends."""
         with self._guard:
             self.seats.pop(seat.rank, None)
-            if self.holder is seat:
-                self._grant_next()
-            else:
+            self.starting.discard(seat)
+            if self.holder is not seat:
                 with suppress(ValueError):
                     self._ready.remove(seat)
+            if self.holder is seat or self.holder is None:
+                self._grant_next()
 
     def wait(self, seat: Seat, wakeup: SteppedWakeup | None, deadline: int | None) -> bool:
         """Hand the baton on; True when the wakeup is set, False when due or roused."""
         with self._guard:
             self.turns += 1
             self._instant_waits += 1
+            if self.starting:
+                self.starting.discard(seat)
             if self._instant_waits > INSTANT_WAITS:
                 self.now += POLL_NS
             if wakeup is not None and wakeup.flag:
@@ -197,6 +211,13 @@ class Baton:
             self._grant_next()
             return said
 
+    def stop_waiting_for_starts(self) -> None:
+        """Let time go on although not all threads that hold it have come to their first wait."""
+        with self._guard:
+            self.starting.clear()
+            if self.holder is None:
+                self._grant_next()
+
     def _enlist(self, seat: Seat, wakeup: SteppedWakeup | None, deadline: int | None) -> None:
         seat.waiting = True
         seat.woken = False
@@ -244,6 +265,8 @@ class Baton:
                 if rank == LAST and ready and deadline == self.now:
                     break
                 if deadline > self.now:
+                    if self.starting:
+                        break
                     self.now = deadline
                     self.reads = self._instant_waits = 0
                 self._make_ready(seat)

@@ -48,6 +48,8 @@ def start_inside(
         process.children[thread] = state
     else:
         process.main_state = state
+        if state.seat is not None:
+            state.seat.hold_clock()
     if not process.is_alive:
         state.kill()
     try:

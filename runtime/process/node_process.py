@@ -239,6 +239,9 @@ class NodeProcess:
 
     def _break_off(self, states: Sequence[ThreadState]) -> None:
         left = [state for state in states if state.thread.is_alive()]
+        if any(state.takes_turns for state in left):
+            self.break_off_later(left)
+            return
         for state in left:
             state.throw(ProcessKilled)
         if left:

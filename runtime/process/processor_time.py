@@ -10,14 +10,20 @@ if TYPE_CHECKING:
     from .thread_state import ThreadState
 
 
+def state_and_seconds(task: str) -> tuple[str, float] | None:
+    """State (`R`, `S`, `D` ..., see proc(5)) and processor time (s) of what `/proc/<task>` is; None where not known."""
+    try:
+        with open(f"/proc/{task}/stat", "rb") as stat_file:
+            fields = stat_file.read().rpartition(b")")[2].split()
+    except OSError:  # it has ended, or the system has no such folder
+        return None
+    return fields[0].decode(), (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
 def thread_seconds(native_id: int) -> float | None:
     """Processor time (s) of a running thread of the real process; None where it is not known."""
-    try:
-        with open(f"/proc/self/task/{native_id}/stat", "rb") as stat_file:
-            fields = stat_file.read().rpartition(b")")[2].split()
-    except OSError:  # the thread has ended, or the system has no such folder
-        return None
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+    told = state_and_seconds(f"self/task/{native_id}")
+    return None if told is None else told[1]
 
 
 def total_seconds(states: Iterable[ThreadState]) -> float | None:

@@ -127,7 +127,10 @@ class Signals:
 
     def _break_in(self, state: ThreadState, action: partial[Any]) -> None:
         """Interrupt a thread that computes: what a handler raises elsewhere is raised there."""
-        if state.take_back(action):
+        if state.takes_turns:
+            if state.called and state.thread.is_alive():
+                real.later(BUSY_GRACE_S, partial(self._break_in, state, action))
+        elif state.take_back(action):
             _thread.start_new_thread(self._handle_for, (state, action))
 
     def _handle_for(self, state: ThreadState, action: partial[Any]) -> None:

@@ -25,6 +25,9 @@ DEFAULT_START_NS = 1_700_000_000_000_000_000
 FREE_READS = 10_000
 """How many readings of the clock at one instant are free; each further one costs `READ_NS`, for loops that wait so."""
 READ_NS = 1_000
+_SO = "so that others run beside it and the run is not deterministic"
+BLOCKS = f"waits for what the stepped run does not see, {_SO}. Wait with time.sleep, rclpy or threading instead"
+COMPUTES = f"has computed for long without waiting, {_SO}. Let it spin, sleep or wait in its loop"
 
 
 class SteppedTime:
@@ -110,18 +113,12 @@ class SteppedTime:
         self._unpin()
         uninstall_stepped_calls()
 
-    def _report_stall(self, seat: Seat) -> Callable[[], None]:
+    def _report_stall(self, seat: Seat, busy: bool) -> Callable[[], None]:
         self.deterministic = False
-        state = seat.state
-        if state is None:
-            return lambda: None
-        line = frames.thread_line(state.ident)
-        self.stalls.append(f"{state.process.name}: {line}")
-        return lambda: notify(
-            state.process,
-            f"{line} has blocked the stepped run for {self._stall_s:g} s of wall time, so that others run beside it "
-            "and the run is not deterministic. Wait with time.sleep, rclpy or threading instead",
-        )
+        line = frames.thread_line(seat.ident)
+        process = MAIN if seat.state is None else seat.state.process
+        self.stalls.append(f"{process.name}: {line}")
+        return lambda: notify(process, f"{line} {COMPUTES if busy else BLOCKS}")
 
 
 @contextmanager

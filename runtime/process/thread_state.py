@@ -73,6 +73,11 @@ class ThreadState:
         return self._waker is not None
 
     @property
+    def takes_turns(self) -> bool:
+        """Whether it is in step with a run: then its time comes by its turn, however long that takes."""
+        return self.seat is not None and not self.seat.detached
+
+    @property
     def called(self) -> bool:
         """Whether something waits to be raised or run in this thread."""
         return self.killed or bool(self._pending)

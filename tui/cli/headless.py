@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import signal
 import sys
 import time
 from collections.abc import Generator
@@ -20,11 +21,14 @@ from bot_console.tui.cli.workspaces import choose
 
 if TYPE_CHECKING:
     from bot_console.tui.cli.headless_launches import Launches
+    from bot_console.tui.cli.observer import Observer
 
 DURATION = 60.0
 """Seconds of a run for which no duration is given."""
 GRACE = 5.0
 """Seconds that the last question, and the end of the launched processes, may take."""
+SLOW_START = 60.0
+"""Seconds that a simulator may take in all before it answers, on a machine that is busy otherwise."""
 
 
 def run(options: Options) -> int:
@@ -36,17 +40,17 @@ def run(options: Options) -> int:
     choose(options.workspace)
     duration = DURATION if options.duration is None else options.duration
     began = time.perf_counter()
-    with _time(options) as clock, _notices():
+    with _orderly_end(), _time(options) as clock, _notices():
         from bot_console.tui.cli.headless_launches import Launches
         from bot_console.tui.cli.observer import Observer
 
         observer = Observer(duration)
         watching = NodeProcess("observer", clock)
         watching.start(observer.run, argv=["observer"])
-        launches = Launches(options, clock)
+        launches = Launches(options, clock, observer.ask)
         launches.begin()
         with contextlib.suppress(KeyboardInterrupt):
-            _wait_for(observer, launches, clock.steady_ns() + round((duration + GRACE) * 1e9))
+            _wait_for(observer, launches, duration)
         report = observer.report()
         launches.stop(GRACE)
         watching.stop(GRACE)
@@ -89,7 +93,30 @@ def _notices() -> Generator[None]:
         forget()
 
 
-def _wait_for(observer: Any, launches: Launches, deadline_ns: int) -> None:
-    """Until the report is there, all launches have ended, or it is too late."""
+def _wait_for(observer: Observer, launches: Launches, duration: float) -> None:
+    """Until the report is there, all launches have ended, or it is too late; an interrupt asks for it at once."""
     launches.on_end(observer.done.set)
-    observer.done.wait(max(0.0, (deadline_ns - MAIN.clock.steady_ns()) * 1e-9))
+    try:
+        if not observer.done.wait(duration + GRACE) and launches.has_robot:
+            observer.done.wait(SLOW_START)
+    except KeyboardInterrupt:
+        observer.ask()
+
+
+@contextlib.contextmanager
+def _orderly_end() -> Generator[None]:
+    """SIGTERM and the end of the terminal are orderly ends, too, unless they are ignored (`nohup`)."""
+
+    def interrupt(_signum: int, _frame: object) -> None:
+        raise KeyboardInterrupt
+
+    names = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    before = {each: signal.getsignal(each) for each in names}
+    for each, handler in before.items():
+        if handler is not signal.SIG_IGN:
+            signal.signal(each, interrupt)
+    try:
+        yield
+    finally:
+        for each, handler in before.items():
+            signal.signal(each, handler)

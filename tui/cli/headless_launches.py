@@ -15,7 +15,9 @@ from bot_console.tui.cli.workspaces import SYSTEM_LAUNCH, launch_environment
 class Launches:
     """Each is a node process; logs go to stderr."""
 
-    def __init__(self, options: Options, clock: Any) -> None:
+    def __init__(self, options: Options, clock: Any, before_end: Callable[[], None]) -> None:
+        """`before_end` is called when a launch is about to end its nodes, which are still there then."""
+        self._before_end = before_end
         self._options = options
         self._clock = clock
         self._file = options.launch or SYSTEM_LAUNCH
@@ -23,6 +25,7 @@ class Launches:
         self._robot: NodeProcess | None = None
         self._looking: NodeProcess | None = None
         self._running = 0
+        self._ending = False
 
     @property
     def exit_code(self) -> int | None:
@@ -49,6 +52,7 @@ class Launches:
 
     def stop(self, patience: float) -> None:
         """End all of them, each in at most so many s."""
+        self._ending = True
         for each in (self._looking, self._launch, self._robot):
             if each is not None:
                 each.stop(patience)
@@ -70,7 +74,7 @@ class Launches:
     def _run(self, file: str, arguments: Mapping[str, str]) -> int:
         """Run a launch file; in its own node process."""
         from launch.actions import IncludeLaunchDescription, RegisterEventHandler
-        from launch.event_handlers import OnProcessExit, OnProcessStart
+        from launch.event_handlers import OnProcessExit, OnProcessStart, OnShutdown
         from launch.launch_description_sources import AnyLaunchDescriptionSource
 
         from launch import LaunchDescription, LaunchService
@@ -81,7 +85,15 @@ class Launches:
 
             return count
 
-        handlers = (OnProcessStart(on_start=counted(1)), OnProcessExit(on_exit=counted(-1)))
+        def ending(_event: Any, _context: Any) -> None:
+            if self._running and not self._ending:
+                self._before_end()
+
+        handlers = (
+            OnProcessStart(on_start=counted(1)),
+            OnProcessExit(on_exit=counted(-1)),
+            OnShutdown(on_shutdown=ending),
+        )
         include = IncludeLaunchDescription(AnyLaunchDescriptionSource(file), launch_arguments=arguments.items())
         service = LaunchService(noninteractive=True)
         service.include_launch_description(LaunchDescription([*map(RegisterEventHandler, handlers), include]))

@@ -12,6 +12,8 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from std_srvs.srv import Trigger
 
+PATIENCE = 5.0
+"""Seconds for which an answer is waited for where the run ends before its time."""
 PROBE_PERIOD = 0.1
 """Seconds between two looks at how late a timer is called."""
 
@@ -26,13 +28,14 @@ class Observer:
         self._collisions = 0
         self._node: Node | None = None
         self.done = threading.Event()
+        self._asked = False
         self.complete = False
         """Whether the simulator has answered."""
 
     def run(self) -> None:
         """The main of the observer's node process."""
         rclpy.init()
-        self._node = node = rclpy.create_node(
+        node = rclpy.create_node(
             "_observer", enable_rosout=False, start_parameter_services=False, use_global_arguments=False
         )
         self._steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -40,6 +43,8 @@ class Observer:
         self._end = node.create_timer(self._duration, self._ask, clock=self._steady)
         self._due = self._steady.now().nanoseconds
         node.create_timer(PROBE_PERIOD, self._probe, clock=self._steady)
+        self._now = node.create_guard_condition(self._ask)
+        self._node = node
         try:
             rclpy.spin(node)
         except (KeyboardInterrupt, ExternalShutdownException):
@@ -47,6 +52,12 @@ class Observer:
         finally:
             node.destroy_node()
             rclpy.try_shutdown()
+
+    def ask(self) -> None:
+        """Ask now rather than at the end of the run, and wait at most `PATIENCE` s for the answer; in any thread."""
+        if self._node is not None:
+            self._now.trigger()
+            self.done.wait(PATIENCE)
 
     def _probe(self) -> None:
         period = round(PROBE_PERIOD * 1e9)
@@ -56,9 +67,12 @@ class Observer:
         self._due += max(0, now - self._due) // period * period
 
     def _ask(self) -> None:
+        if self._asked:
+            return
         if not self._client.service_is_ready():
             self._end.timer_period_ns = round(PROBE_PERIOD * 1e9)  # a simulator that is still starting, or none
             return
+        self._asked = True
         self._end.cancel()
         self._client.call_async(Trigger.Request()).add_done_callback(self._answered)
 

@@ -1,13 +1,16 @@
 """Headless runs: repeatable to the bit, and plain about what they cannot do."""
 
+import json
+import signal
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from bot_console.runtime.workspace.own import ROOT
 
 sys.path.insert(0, str(Path(__file__).parent))
-from headless import headless
+from headless import PATIENCE, headless
 
 
 @pytest.fixture(scope="module")
@@ -50,6 +53,40 @@ def test_real_time_is_real(tmp_path):
     done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     assert '"deterministic": false' in done.stdout
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="POSIX signals")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize("fast", [["--fast"], []], ids=["fast", "real time"])
+def test_a_run_that_is_ended_early_still_reports(tmp_path, fast, number):
+    words = [sys.executable, "-m", "bot_console.tui", "--headless", *fast, "--duration", "1e6"]
+    run = subprocess.Popen(words, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    said = ""
+    while "Office" not in said:
+        said = run.stderr.readline()
+        assert said, "the simulator has not come up"
+    run.send_signal(number)
+    out, err = run.communicate(timeout=PATIENCE)
+    assert run.returncode == 0, err
+    assert json.loads(out)["duration"] < 1e6
+    assert "Traceback" not in err
+
+
+ENDING = """from launch import LaunchDescription
+from launch.actions import IncludeLaunchDescription, Shutdown, TimerAction
+
+def generate_launch_description():
+    robot = IncludeLaunchDescription({file!r})
+    return LaunchDescription([robot, TimerAction(period={seconds!r}, actions=[Shutdown()])])
+"""
+
+
+def test_a_launch_that_ends_itself_is_reported_until_then(tmp_path):
+    text = ENDING.format(file=str(ROOT / "launch" / "simulator.launch.py"), seconds=3.0)
+    (tmp_path / "ending.launch.py").write_text(text)
+    report = headless(tmp_path, "--duration", "1000", "--launch", "ending.launch.py")
+    assert report["duration"] == pytest.approx(3.0, abs=0.05)
+    assert report["deterministic"]
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,71 @@
+"""Stepped runs beside busy processes: each must give its report, and all of them the same one.
+
+    python tests/soak/headless_under_load.py --runs 200 --busy 16
+
+Prints one JSON object: how many runs there were, and how many ended how. `--nice` is for the runs and the busy
+processes alike, so that a machine that others work on stays theirs.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+from collections import Counter
+from collections.abc import Generator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from typing import Any
+
+BUSY = "while True: pass"
+PATIENCE = 600.0
+"""Seconds after which a run is given up; nothing is measured by it."""
+
+
+@contextmanager
+def busy_processes(count: int) -> Generator[None]:
+    """So many processes that only compute, for the length of the block."""
+    started = [subprocess.Popen([sys.executable, "-c", BUSY]) for _ in range(count)]
+    try:
+        yield
+    finally:
+        for each in started:
+            each.kill()
+            each.wait()
+
+
+def run(seconds: float) -> str:
+    """How one run ended: the digest of its report, marked where it is not deterministic, or its last words."""
+    words = ["--headless", "--fast", "--seed", "1", "--duration", str(seconds)]
+    line = [sys.executable, "-m", "bot_console.tui", *words]
+    done = subprocess.run(line, capture_output=True, text=True, check=False, timeout=PATIENCE)
+    if done.returncode:
+        return f"exit code {done.returncode}: {done.stderr[-200:]}"
+    report: dict[str, Any] = json.loads(done.stdout)
+    del report["wall_time"]
+    return json.dumps(report, sort_keys=True)
+
+
+def outcomes(runs: int, busy: int, seconds: float = 10.0) -> Counter[str]:
+    """How often the runs ended how; as many run at a time as there are processors."""
+    with busy_processes(busy), ThreadPoolExecutor(os.cpu_count()) as pool:
+        return Counter(pool.map(run, [seconds] * runs))
+
+
+def main() -> None:
+    """Run as the words of the command say."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--runs", type=int, default=200)
+    parser.add_argument("--busy", type=int, default=16)
+    parser.add_argument("--seconds", type=float, default=10.0)
+    parser.add_argument("--nice", type=int, default=0)
+    options = parser.parse_args()
+    os.nice(options.nice)
+    ended = outcomes(options.runs, options.busy, options.seconds)
+    print(json.dumps({"runs": options.runs, "outcomes": len(ended), "ended": ended}, indent=2))
+
+
+if __name__ == "__main__":
+    main()
