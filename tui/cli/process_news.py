@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from bot_console.runtime.process import NodeProcess, on_notice
 from bot_console.tui.console.model import Severity
-from launch.child import News, on_news
+
+if TYPE_CHECKING:
+    from launch.child import News
 
 Printed = Callable[[int, str, str], None]
 
 
 def tell_news(printed: Printed) -> Callable[[], None]:
     """Have notices and crashes of all processes printed, threads of this one or not; returns what ends that."""
+    from launch.child import on_news  # ROS names answer only in a program that is composed
 
     def noticed(process: NodeProcess, text: str) -> None:
         printed(Severity.WARN, process.name, text)

@@ -11,12 +11,13 @@ from pathlib import Path
 from types import FrameType
 
 from bot_console.runtime.importer import install
-from bot_console.runtime.process import NodeProcess, on_notice
+from bot_console.runtime.process import NodeProcess
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.cli import robot_beside
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.hangup import hangup_as_signal
 from bot_console.tui.cli.launching import Launching
+from bot_console.tui.cli.process_news import tell_news
 from bot_console.tui.cli.vitals import find_vitals
 from bot_console.tui.cli.workspaces import SYSTEM_LAUNCH, choose, launch_environment, launch_files
 from bot_console.tui.console.connection import RosConsole
@@ -77,7 +78,7 @@ class Session:
         """Start the system as soon as the console listens, so that not even its first log line is lost."""
         if not self.console.wait_ready(READY):
             return
-        self._forget_notices = on_notice(self._on_notice)
+        self._forget_notices = tell_news(self.console.printed)
         options = self._options
         if options.launch:
             self.launcher.launch(options.launch, options.launch_arguments)
@@ -85,9 +86,6 @@ class Session:
             return
         arguments = {"profile": options.profile, **robot_beside.arguments(options), **options.launch_arguments}
         self.launcher.launch(SYSTEM_LAUNCH, arguments)
-
-    def _on_notice(self, process: NodeProcess, text: str) -> None:
-        self.console.printed(Severity.WARN, process.name, text)
 
     def _spawn(self, target: Callable[[], None], file: str) -> Launching:
         """A launch is a node process too, so that what it prints goes to the log."""

@@ -5,7 +5,7 @@ own for a Python program (`forked_child`).
 """
 
 from launch.child.child import Child, Output
-from launch.child.forked_child import CAN_FORK, close_fork_server, fork_server
+from launch.child.forked_child import CAN_FORK, begin_children_with, close_fork_server, fork_server
 from launch.child.news import News, on_news
 from launch.child.python_program import PythonProgram
 from launch.child.start import start_child
@@ -16,6 +16,7 @@ __all__ = [
     "News",
     "Output",
     "PythonProgram",
+    "begin_children_with",
     "close_fork_server",
     "fork_server",
     "on_news",

@@ -8,8 +8,9 @@ import os
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
+from typing import Any
 
-from bot_console.runtime.process.fork_server import ForkServer, Job, Report
+from bot_console.runtime.process.fork_server import ForkServer, Job, Report, function_named
 from launch.child.child import Output
 from launch.child.news import NewsReader
 from launch.child.python_program import PythonProgram
@@ -26,6 +27,7 @@ DATA = 3
 CAN_FORK = hasattr(os, "fork")
 
 _guard = threading.Lock()
+_beginnings: list[str] = []
 _servers: list[ForkServer] = []
 
 
@@ -45,6 +47,19 @@ def close_fork_server() -> None:
         each.close()
 
 
+def begin_children_with(function: str) -> None:
+    """Let each process of its own call `package.module:function` before anything else, as to choose its middleware."""
+    if function not in _beginnings:
+        _beginnings.append(function)
+
+
+def begun(beginnings: Sequence[str], function: str, arguments: Sequence[Any]) -> Callable[[], object]:
+    """In the process: what it is to run, once the beginnings were called."""
+    for each in beginnings:
+        function_named(each)()
+    return PythonProgram(function, tuple(arguments)).load()
+
+
 class ForkedChild(StreamedChild):
     """A real process; it is in a session of its own, out of reach of the terminal's Ctrl-C."""
 
@@ -55,7 +70,7 @@ class ForkedChild(StreamedChild):
         self.open_streams.add(DATA)
         self.pid = 0
         self.report = Report()
-        self.news = NewsReader(name)
+        self.news = NewsReader(name, self._unheard)
         self.started: asyncio.Future[None] = loop.create_future()
         self.transports: list[asyncio.BaseTransport] = []
         self.input: asyncio.WriteTransport | None = None
@@ -64,6 +79,10 @@ class ForkedChild(StreamedChild):
         """It tells no more."""
         self.news.close()
         self.pipe_connection_lost(DATA, None)
+
+    def _unheard(self, text: str) -> None:
+        """Nobody listens to news: a person may read it."""
+        self.pipe_data_received(2, text.encode())
 
     def told(self, data: bytes) -> None:
         """The fork server tells of it."""
@@ -134,7 +153,8 @@ async def start_forked_child(
 
     loop = asyncio.get_running_loop()
     child = ForkedChild(name, output, loop)
-    job = Job(name, program.function, program.arguments, list(argv), dict(env), os.path.abspath(cwd or os.getcwd()))
+    words = (list(_beginnings), program.function, program.arguments)
+    job = Job(name, f"{__name__}:begun", words, list(argv), dict(env), os.path.abspath(cwd or os.getcwd()))
     with ExitStack() as kept, ExitStack() as given:
         out, error = open_terminals() if emulate_tty else open_pipes()
         child_input, own_input = os.pipe()

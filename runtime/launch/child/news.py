@@ -16,7 +16,7 @@ class News:
     process: str
     """Its label, as `talker-1`."""
     kind: str
-    """`notice` (a text), `uncaught` (an exception: text, frames), `crash` (in C code: text), `reads_nothing`, ..."""
+    """`notice` (a text), `uncaught` (an exception: text, frames), `crash` (in C code: text), ..."""
     facts: Mapping[str, Any]
 
 
@@ -33,8 +33,10 @@ def on_news(hook: Hook) -> Callable[[], None]:
 class NewsReader:
     """Reads the data pipe of one process."""
 
-    def __init__(self, process: str) -> None:
+    def __init__(self, process: str, unheard: Callable[[str], None] = lambda text: None) -> None:
+        """`unheard` is given, as text for people, what no hook is there for; an exception's traceback was printed."""
         self._process = process
+        self._unheard = unheard
         self._rest = b""
         self._crash: list[str] = []
         self.pid = 0
@@ -65,3 +67,7 @@ class NewsReader:
         news = News(self.pid, self._process, kind, facts)
         for hook in tuple(_hooks):
             hook(news)
+        if not _hooks and kind == "notice":
+            self._unheard(f"[WARN] [{self._process}]: {facts.get('text', '')}\n")
+        elif not _hooks and kind == "crash":
+            self._unheard(f"{facts['text']}\n")

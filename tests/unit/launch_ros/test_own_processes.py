@@ -17,7 +17,7 @@ if not hasattr(os, "fork"):
 
 from bot_console.runtime.process import stepped
 from launch.actions import EmitEvent, ExecuteProcess, RegisterEventHandler, Shutdown
-from launch.child import News, close_fork_server, fork_server, on_news
+from launch.child import News, begin_children_with, close_fork_server, fork_server, forked_child, on_news
 from launch.event_handlers import OnProcessExit, OnProcessIO, OnProcessStart
 from launch.events import matches_action
 from launch.events.process import SignalProcess
@@ -86,6 +86,19 @@ def test_who_gets_a_process(run: Launch, script: Any) -> None:
             assert lines_of(run(node(), PROCESS).text)[-1:] == ["thread"]
     finally:
         isolate_by_default("thread")
+
+
+def test_each_begins_with_what_the_composition_wants(run: Launch, script: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = script("import tracemalloc; print(tracemalloc.is_tracing())")
+    monkeypatch.setattr(forked_child, "_beginnings", [])
+    begin_children_with("tracemalloc:start")
+    assert lines_of(run([Node(executable=path, output="screen")], PROCESS).text) == ["True"]
+
+
+def test_a_crash_that_nobody_hears_of_is_printed(run: Launch, script: Any) -> None:
+    path = script("import ctypes\nctypes.string_at(0)\n")
+    text = run([Node(executable=path)], PROCESS).text
+    assert f'File "{path}", line 3 in <module>' in text
 
 
 def test_another_word_is_refused_with_the_words_that_are_known(run: Launch, script: Any) -> None:
