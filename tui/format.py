@@ -7,7 +7,7 @@ import re
 import unicodedata
 from shlex import quote
 
-from bot_console.tui.console.model import Kind, ParameterInfo, Range, Severity, Value
+from bot_console.tui.console.model import ConsoleSnapshot, Kind, ParameterInfo, Range, Severity, Value
 from bot_console.tui.yaml_flow import in_quotes, is_plain, items, quoted, unquoted
 
 WIDE_MARK = "\ufe0f"
@@ -26,6 +26,12 @@ LETTERS = {
 def counted(number: int, word: str) -> str:
     """A number and a word, in the plural where it belongs."""
     return f"{number} {word}{'' if number == 1 else 's'}"
+
+
+def profile_text(snapshot: ConsoleSnapshot) -> str:
+    """The active profile, and how far the robot is from it now; empty where there is none."""
+    changed = f", {snapshot.profile_changes} changed" if snapshot.profile_changes else ""
+    return harmless(snapshot.active_profile) + changed if snapshot.active_profile else ""
 
 
 def value_text(value: Value, *, exact: bool = False) -> str:

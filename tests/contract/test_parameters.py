@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from bot_console.tui.console.model import ChangeSource, Kind, ParameterInfo, Range, SetOutcome
-from rigs import DESCRIPTION, PATIENCE, ROBOT, TOO_FAST, Rig, until
+from rigs import ARM, DESCRIPTION, PATIENCE, ROBOT, TOO_FAST, Rig, until
 
 
 def parameter(rig: Rig, name: str) -> ParameterInfo:
@@ -140,7 +140,7 @@ def test_the_journal_is_read_from_a_number_on(rig: Rig) -> None:
 
 def test_a_profile_says_what_it_would_change(rig: Rig) -> None:
     profiles = {each.name: each for each in rig.console.snapshot().profiles}
-    assert list(profiles) == ["broken", "slow", "wild"]
+    assert list(profiles) == ["broken", "careful", "slow", "wild"]
     assert "two underscores" in profiles["broken"].problem
     assert profiles["slow"].title == "Slow: for crowded rooms."
     found = {each.name: each for each in rig.console.profile_differences("slow")}
@@ -162,6 +162,68 @@ def test_a_profile_is_applied_and_can_be_undone(rig: Rig) -> None:
     assert rig.console.undo().result(PATIENCE).ok
     shown(rig, "speed", 1.0)
     shown(rig, "count", 3)
+
+
+def test_one_undo_takes_a_profile_back_on_all_nodes_and_its_name_with_it(rig: Rig) -> None:
+    def named(name: str, changes: int) -> None:
+        until(
+            lambda: (rig.console.snapshot().active_profile, rig.console.snapshot().profile_changes) == (name, changes),
+            f"{name}, {changes} changed",
+        )
+
+    def values() -> tuple[object, object]:
+        trees = rig.console.snapshot().parameters
+        return tuple(getattr(trees[node].get(name), "value", None) for node, name in ((ROBOT, "speed"), (ARM, "reach")))
+
+    rig.console.apply_profile("slow").result(PATIENCE)
+    named("slow", 0)
+    setting(rig, {"count": 7})
+    named("slow", 1)
+    rig.console.apply_profile("careful").result(PATIENCE)
+    named("careful", 0)
+    assert values() == (0.5, 0.3)
+    answer = rig.console.undo().result(PATIENCE)
+    assert answer.ok
+    until(lambda: values() == (0.2, 1.0), "the values of both nodes")
+    named("slow", 1)
+    assert rig.console.redo().result(PATIENCE).ok
+    until(lambda: values() == (0.5, 0.3), "the values of both nodes")
+    named("careful", 0)
+
+
+def test_an_undo_that_one_node_refuses_says_so_and_keeps_the_name_that_is_nearer_to_the_truth(rig: Rig) -> None:
+    rig.console.apply_profile("careful").result(PATIENCE)
+    shown(rig, "speed", 0.5)
+    rig.forbid_speed()
+    answer = rig.console.undo().result(PATIENCE)
+    assert not answer.ok and TOO_FAST in answer.text
+    until(lambda: rig.console.snapshot().profile_changes == 1, "the arm's value")
+    snapshot = rig.console.snapshot()
+    assert snapshot.active_profile == "careful"
+    assert (snapshot.journal.can_undo, snapshot.journal.can_redo) == (True, True)
+    assert parameter(rig, "speed").value == 0.5
+
+
+def test_what_was_set_here_is_unsaved_until_it_is_in_a_file_or_undone(rig: Rig, tmp_path: Path) -> None:
+    def unsaved() -> tuple[tuple[str, str], ...]:
+        return rig.console.snapshot().journal.unsaved
+
+    assert unsaved() == ()
+    setting(rig, {"speed": 1.5, "count": 9})
+    assert unsaved() == ((ROBOT, "count"), (ROBOT, "speed"))
+    assert rig.console.undo().result(PATIENCE).ok
+    assert unsaved() == ()
+    rig.console.apply_profile("careful").result(PATIENCE)
+    rig.set_elsewhere("mode", "brave")
+    shown(rig, "mode", "brave")
+    assert unsaved() == ()
+    setting(rig, {"count": 9})
+    assert rig.console.save_parameters(str(tmp_path / "arm.yaml"), [ARM]).ok
+    assert unsaved() == ((ROBOT, "count"),)
+    assert rig.console.save_parameters(str(tmp_path / "all.yaml")).ok
+    assert unsaved() == ()
+    assert rig.console.undo().result(PATIENCE).ok
+    assert unsaved() == ()
 
 
 def test_a_profile_that_is_refused_changes_nothing_and_is_not_the_active_one(rig: Rig) -> None:

@@ -17,7 +17,6 @@ from bot_console.tui.console.model import (
     Change,
     ChangeSource,
     ConsoleSnapshot,
-    JournalState,
     LogFilter,
     LogRecord,
     ProfileDifference,
@@ -26,6 +25,7 @@ from bot_console.tui.console.model import (
     Value,
 )
 from bot_console.tui.console.parameters.file import save
+from bot_console.tui.console.parameters.journal import Journal, Move, Step
 from bot_console.tui.console.parameters.profiles import differences
 from bot_console.tui.console.protocol import Answer, LogView, Samples
 from bot_console.tui.console.values import refusal
@@ -67,10 +67,7 @@ class FakeConsole:
         """What profiles would change, where that is scripted; else it follows from their values."""
         self.now = 60.0
         self.closed = False
-        self._steps: dict[ChangeSource, list[tuple[str, dict[str, Value], dict[str, Value]]]] = {
-            ChangeSource.UNDO: [],
-            ChangeSource.REDO: [],
-        }
+        self._steps = Journal()
         self._watched: set[str] = set()
 
     def change(self, **parts: Any) -> None:
@@ -114,14 +111,19 @@ class FakeConsole:
             return done(
                 tuple(SetOutcome(node, name, value, False, CLOSED, "console") for name, value in values.items())
             )
+        outcomes, moves = self._moved(node, values, source, atomically=atomically)
+        if moves:
+            self._steps.did(Step(moves), source)
+            self._tell_journal()
+        return done(outcomes)
+
+    def _moved(
+        self, node: str, values: Mapping[str, Value], source: ChangeSource, *, atomically: bool
+    ) -> tuple[tuple[SetOutcome, ...], tuple[Move, ...]]:
         before = {name: self._value(node, name) for name in values}
         outcomes = self.take(node, values, source, atomically=atomically)
         taken = {each.name: each.value for each in outcomes if each.accepted}
-        if taken:
-            self._steps[ChangeSource.UNDO].append((node, {name: before[name] for name in taken}, taken))
-            self._steps[ChangeSource.REDO].clear()
-            self._tell_journal()
-        return done(outcomes)
+        return outcomes, (Move(node, {name: before[name] for name in taken}, taken),) if taken else ()
 
     def take(
         self, node: str, values: Mapping[str, Value], source: ChangeSource, *, atomically: bool = False
@@ -164,25 +166,42 @@ class FakeConsole:
         return known.value if known else None
 
     def _tell_journal(self) -> None:
-        undo, redo = self._steps[ChangeSource.UNDO], self._steps[ChangeSource.REDO]
-        self.change(journal=JournalState(0, len(self.journal), 0, bool(undo), bool(redo)))
+        state = self._steps.state
+        active = next((each for each in self.current.profiles if each.name == self.current.active_profile), None)
+        self.change(
+            journal=replace(state, first=0, end=len(self.journal), dropped=0),
+            profile_changes=len(differences(active, self.current.parameters)) if active else 0,
+        )
 
     def undo(self) -> Future[Answer]:
         self.asked.append(("undo",))
-        return self._move(ChangeSource.UNDO, ChangeSource.REDO)
+        return self._move(ChangeSource.UNDO)
 
     def redo(self) -> Future[Answer]:
         self.asked.append(("redo",))
-        return self._move(ChangeSource.REDO, ChangeSource.UNDO)
+        return self._move(ChangeSource.REDO)
 
-    def _move(self, source: ChangeSource, back: ChangeSource) -> Future[Answer]:
-        if self.closed or not self._steps[source]:
+    def _move(self, source: ChangeSource) -> Future[Answer]:
+        undone = source is ChangeSource.UNDO
+        step = None if self.closed else (self._steps.take_undo() if undone else self._steps.take_redo())
+        if step is None:
             return done(Answer(False, CLOSED if self.closed else f"nothing to {source.value}"))
-        node, before, after = self._steps[source].pop()
-        self.take(node, before if source is ChangeSource.UNDO else after, source)
-        self._steps[back].append((node, before, after))
+        refused: list[SetOutcome] = []
+        left: list[Move] = []
+        for move in step.moves:
+            outcomes = self.take(move.node, move.before if undone else move.after, source, atomically=True)
+            bad = [each for each in outcomes if not each.accepted]
+            refused += bad
+            left += [move] if bad else []
+        if left:
+            self._steps.put_back(replace(step, moves=tuple(left)), source)
+        elif step.profiles:
+            self.change(active_profile=step.profiles[0 if undone else 1])
+        if gone := tuple(each for each in step.moves if each not in left):
+            self._steps.did(Step(gone, None if left else step.profiles), source)
         self._tell_journal()
-        return done(Answer(True, f"{source.value}: {node} {', '.join(before)}"))
+        names = ", ".join(name for move in step.moves for name in move.after)
+        return done(Answer(not left, "; ".join(each.reason for each in refused) or f"{source.value}: {names}"))
 
     def _plot(self, path: str, value: Value) -> None:
         if path in self._watched and isinstance(value, (bool, int, float)):
@@ -273,21 +292,28 @@ class FakeConsole:
             return failed
         found = self.profile_differences(name)
         outcomes = tuple(SetOutcome(e.node, e.name, e.then, not e.refusal, e.refusal) for e in found)
+        moves: tuple[Move, ...] = ()
         if name not in self.differences:
             by_node: dict[str, dict[str, Value]] = {}
             for each in found:
                 by_node.setdefault(each.node, {})[each.name] = each.then
-            futures = (
-                self.set_parameters(node, values, ChangeSource.PROFILE, atomically=True)
-                for node, values in by_node.items()
-            )
-            outcomes = tuple(outcome for future in futures for outcome in future.result())
+            found_moves = [
+                self._moved(node, values, ChangeSource.PROFILE, atomically=True) for node, values in by_node.items()
+            ]
+            outcomes = tuple(outcome for taken, _ in found_moves for outcome in taken)
+            moves = tuple(move for _, made in found_moves for move in made)
+        before = self.current.active_profile
         if all(each.accepted for each in outcomes):
             self.change(active_profile=name)
+        if moves:
+            self._steps.did(Step(moves, (before, self.current.active_profile)), ChangeSource.PROFILE)
+        self._tell_journal()
         return done(outcomes)
 
     def save_parameters(self, path: str, nodes: Sequence[str] = ()) -> Answer:
         self.asked.append(("save", path))
+        self._steps.saved(nodes)
+        self._tell_journal()
         if not Path(path).is_absolute():
             return Answer(True, f"saved to {path}")
         try:

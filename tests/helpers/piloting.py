@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from bot_console.tui.app import BotConsoleApp
-from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.steering.pane import SteeringPane
 from fake_launcher import FakeLauncher
 from fakes import FakeConsole
 from textual.pilot import Pilot
+from textual.widget import Widget
 
-P = TypeVar("P", bound=Pane)
+P = TypeVar("P", bound=Widget)
 
 
 @dataclass
@@ -44,7 +44,7 @@ class Session:
         await self.pilot.pause()
 
     def pane(self, kind: type[P]) -> P:
-        """The pane of that class."""
+        """The pane, or the widget, of that class."""
         return self.app.screen_stack[0].query_one(kind)
 
     def lines(self) -> list[str]:

@@ -1,6 +1,7 @@
 """The same small ROS system twice: scripted behind a `FakeConsole`, and real nodes behind a `RosConsole`.
 
-It has one robot, `/robot`: parameters of each sort, a velocity topic, a topic `/level` of numbers, a logger service.
+It has one robot, `/robot`, with an arm, `/arm`: parameters of each sort, a velocity topic, a topic `/level` of numbers,
+a logger service.
 """
 
 from __future__ import annotations
@@ -41,14 +42,15 @@ from rclpy.parameter import Parameter
 from std_msgs.msg import Float64, String
 from std_srvs.srv import Trigger
 
-ROBOT = "/robot"
+ROBOT, ARM = "/robot", "/arm"
 PATIENCE = 10.0
 """Seconds after which a test gives up; nothing is measured by it."""
 TOO_FAST = "too fast for indoors"
 DESCRIPTION = "Highest speed (m/s)"
-PROFILES = {
-    "slow": ("# Slow: for crowded rooms.", {"speed": 0.2, "count": 1}),
-    "wild": ("# Wild: faster than this robot is.", {"speed": 99.0, "count": 2}),
+PROFILES: dict[str, tuple[str, dict[str, dict[str, Value]] | None]] = {
+    "careful": ("# Careful: the arm too.", {"robot": {"speed": 0.5}, "arm": {"reach": 0.3}}),
+    "slow": ("# Slow: for crowded rooms.", {"robot": {"speed": 0.2, "count": 1}}),
+    "wild": ("# Wild: faster than this robot is.", {"robot": {"speed": 99.0, "count": 2}}),
     "broken": ("# Broken.", None),
 }
 
@@ -66,11 +68,13 @@ def until(condition: Callable[[], T], what: str = "it") -> T:
 
 
 def write_profiles(folder: Path) -> None:
-    """Two that can be used and one that cannot."""
-    for name, (title, values) in PROFILES.items():
-        lines = [f"    {key}: {value}" for key, value in (values or {}).items()]
-        word = "ros_parameters" if values is None else "ros__parameters"
-        (folder / f"{name}.yaml").write_text("\n".join([title, "robot:", f"  {word}:", *lines, ""]))
+    """Some that can be used and one that cannot."""
+    for name, (title, nodes) in PROFILES.items():
+        word = "ros_parameters" if nodes is None else "ros__parameters"
+        lines = [title]
+        for node, values in (nodes or {"robot": {}}).items():
+            lines += [f"{node}:", f"  {word}:", *(f"    {key}: {value}" for key, value in values.items())]
+        (folder / f"{name}.yaml").write_text("\n".join([*lines, ""]))
 
 
 class Rig(Protocol):
@@ -130,14 +134,19 @@ class FakeRig:
         profiles = (
             Profile("broken", "", problem="'ros_parameters' should be 'ros__parameters', with two underscores"),
             *(
-                Profile(name, "", title[2:], {(ROBOT, key): value for key, value in (values or {}).items()})
-                for name, (title, values) in sorted(PROFILES.items())
-                if values
+                Profile(
+                    name,
+                    "",
+                    title[2:],
+                    {(f"/{node}", key): value for node, values in nodes.items() for key, value in values.items()},
+                )
+                for name, (title, nodes) in sorted(PROFILES.items())
+                if nodes
             ),
         )
-        self.console = FakeConsole(
-            ConsoleSnapshot(graph=graph, parameters={ROBOT: ParameterTree(ROBOT, parameters)}, profiles=profiles)
-        )
+        reach = ParameterInfo(ARM, "reach", Kind.DOUBLE, 1.0, default=1.0)
+        trees = {ROBOT: ParameterTree(ROBOT, parameters), ARM: ParameterTree(ARM, (reach,))}
+        self.console = FakeConsole(ConsoleSnapshot(graph=graph, parameters=trees, profiles=profiles))
         self.console.series["/level/data"] = ([], [])
 
     def say(self, severity: Severity, text: str) -> None:
@@ -186,6 +195,9 @@ class RosRig:
         self._node.create_service(Trigger, "greet", self._greet)
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self._node)
+        self._arm = rclpy.create_node("arm", context=self._context)
+        self._arm.declare_parameter("reach", 1.0)
+        self._executor.add_node(self._arm)
         self._thread = threading.Thread(target=self._spin, daemon=True)
         self._thread.start()
         write_profiles(folder)
@@ -194,7 +206,7 @@ class RosRig:
             self.console = RosConsole(profile_folders=[folder], run_line=lambda line: "/robot\n")
             self.console.start()
             assert self.console.wait_ready(PATIENCE)
-        until(lambda: ROBOT in self.console.snapshot().parameters, "the robot's parameters")
+        until(lambda: {ROBOT, ARM} <= self.console.snapshot().parameters.keys(), "the robot's parameters")
         until(lambda: self.console.snapshot().drive.topic, "the robot's velocity topic")
 
     def _declare(self) -> None:
@@ -250,6 +262,7 @@ class RosRig:
         self.console.close()
         self._executor.shutdown(timeout_sec=1.0)
         self._node.destroy_node()
+        self._arm.destroy_node()
         self._context.try_shutdown()
         self._thread.join(PATIENCE)
         set_logger_level("robot", LoggingSeverity.UNSET)  # which is one for all nodes of this process

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from bot_console.tui.console.model import SetOutcome
 from bot_console.tui.panes.profiles.pane import ProfilesPane
+from bot_console.tui.panes.profiles.rows import ProfileRows
 from bot_console.tui.screens.confirm import ConfirmScreen
 from piloting import Session, run
 from samples import differences, empty, live
@@ -134,3 +135,32 @@ def test_many_differences_scroll() -> None:
         assert "parameter_59" in session.text() or "parameter_9" in session.text()
 
     run(system, play)
+
+
+def test_the_cursor_stands_on_the_active_profile_and_goes_along_with_it() -> None:
+    system = live()
+    system[0].change(active_profile="broken")
+
+    async def play(session: Session) -> None:
+        await session.press("7")
+        assert session.pane(ProfileRows).current == session.console.current.profiles[2]
+        session.console.change(active_profile="indoor", profile_changes=2)
+        await session.settle()
+        assert session.pane(ProfileRows).cursor == 0
+        assert "● indoor" in session.text() and "2 changed" in session.text()
+        await session.press("down")
+        session.console.change(active_profile="broken")
+        await session.settle()
+        assert session.pane(ProfileRows).cursor == 1, "a person looks at another one"
+
+    run(system, play, (120, 40))
+
+
+def test_the_status_line_says_how_far_the_robot_is_from_its_profile() -> None:
+    async def play(session: Session) -> None:
+        assert "indoor" in session.lines()[-2] and "changed" not in session.lines()[-2]
+        session.console.change(profile_changes=2)
+        await session.settle()
+        assert "indoor, 2 changed" in session.lines()[-2]
+
+    run(live(), play, (160, 40))

@@ -11,7 +11,6 @@ import traceback
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
@@ -103,6 +102,7 @@ class RosConsole:
             self._logs = LogStore()
             self._views = LogViews(self._logs)
             self._node = ConsoleNode(self._logs.add)
+            self._node.setter.profile = self._active_profile
             self._profiles = find(self._profile_folders)
             self._ready.set()
             if self._closed:
@@ -153,7 +153,8 @@ class RosConsole:
                 drive=node.drive.info((world.speed, world.turn) if world.pose else None),
                 launch=launch,
                 profiles=self._profiles,
-                active_profile=self._active_profile,
+                active_profile=node.setter.profile,
+                profile_changes=node.profile_changes(self._profile(node.setter.profile)),
                 capabilities=self._capabilities,
                 problem=self._problem,
             )
@@ -271,13 +272,7 @@ class RosConsole:
             failed: Future[tuple[SetOutcome, ...]] = Future()
             failed.set_exception(ValueError(why_not))
             return failed
-        outcome = self._node.apply(profile, reset_world)
-        outcome.add_done_callback(partial(self._applied, name))
-        return outcome
-
-    def _applied(self, name: str, done: Future[tuple[SetOutcome, ...]]) -> None:
-        if done.exception() is None and all(each.accepted for each in done.result()):
-            self._active_profile = name
+        return self._node.apply(profile, reset_world)
 
     def _profile(self, name: str) -> Profile | None:
         return next((each for each in self._profiles if each.name == name), None)
@@ -327,9 +322,9 @@ def _parts(snapshot: ConsoleSnapshot) -> dict[str, object]:
 
 
 def _same(old: ConsoleSnapshot, new: ConsoleSnapshot) -> bool:
-    """Whether every part is the same object, or an equal text."""
+    """Whether every part is the same object, or an equal text or number."""
     parts = _parts(new)
-    return all(value is getattr(old, name) or (isinstance(value, str) and value == getattr(old, name))
+    return all(value is getattr(old, name) or (isinstance(value, (str, int)) and value == getattr(old, name))
                for name, value in parts.items() if name not in ("seq", "stamp"))  # fmt: skip
 
 

@@ -225,6 +225,8 @@ class JournalState:
     dropped: int = 0
     can_undo: bool = False
     can_redo: bool = False
+    unsaved: tuple[tuple[str, str], ...] = ()
+    """Node and name of each value that was set from this console and is in no file, so that it would be lost."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -402,6 +404,9 @@ class ConsoleSnapshot:
     launch: LaunchInfo = field(default_factory=LaunchInfo)
     profiles: tuple[Profile, ...] = ()
     active_profile: str = ""
+    """The profile that was applied last and not undone; empty where there was none."""
+    profile_changes: int = 0
+    """How many values of the active profile the running nodes do not have."""
     capabilities: Capabilities = field(default_factory=Capabilities)
     problem: str = ""
     """Why the console itself cannot go on, for instance that its thread has died; empty when all is well."""

@@ -71,6 +71,7 @@ class ConsoleNode:
         self.world = WorldWatch(self.node)
         self.drive = DriveLink(self.node)
         self.parameters = ParameterMirror(self.node, self.calls, self._parameter_changed)
+        self._compared: tuple[Profile | None, object, int] = (None, None, 0)
         self.setter = ParameterSetter(self.calls, self.parameters, self.journal)
         self.graph = GraphWatch(self.node, self._graph_changed)
         self.node.create_subscription(Log, "/rosout", self._on_log, ROSOUT)
@@ -156,30 +157,37 @@ class ConsoleNode:
         """What a profile would change now."""
         return differences(profile, self.parameters.trees)
 
+    def profile_changes(self, profile: Profile | None) -> int:
+        """How many values of a profile the running nodes do not have; worked out anew when a parameter changed."""
+        trees = self.parameters.trees
+        if self._compared[0] is not profile or self._compared[1] is not trees:
+            self._compared = (profile, trees, len(differences(profile, trees)) if profile else 0)
+        return self._compared[2]
+
     def apply(self, profile: Profile, reset_world: bool) -> Future[tuple[SetOutcome, ...]]:
         """Set what a profile changes, all or nothing per node, then reset the simulator when asked to."""
         found = self.differences(profile)
         wanted = [(each.node, each.name, each.then) for each in found]
-        return self.calls.run(self._apply(found, reset_world), partial(refused, wanted))
+        return self.calls.run(self._apply(profile.name, found, reset_world), partial(refused, wanted))
 
-    async def _apply(self, found: Sequence[ProfileDifference], reset_world: bool) -> tuple[SetOutcome, ...]:
+    async def _apply(self, name: str, found: Sequence[ProfileDifference], reset_world: bool) -> tuple[SetOutcome, ...]:
         by_node: dict[str, dict[str, Value]] = {}
         for each in found:
             by_node.setdefault(each.node, {})[each.name] = each.then
-        outcomes: list[SetOutcome] = []
-        for node, values in by_node.items():
-            outcomes += await self.setter.set(node, values, ChangeSource.PROFILE, atomically=True)
+        outcomes = await self.setter.apply(name, by_node)
         if reset_world:
             await self._call("/reset", "std_srvs/srv/Trigger", {})
-        return tuple(outcomes)
+        return outcomes
 
     def save(self, path: str, nodes: Sequence[str]) -> Answer:
         """Write parameters to a file."""
         try:
             place = typed_path(path)
-            return Answer(True, save(place, self.parameters.trees, tuple(nodes)).text(place))
+            saved = save(place, self.parameters.trees, tuple(nodes))
         except NotSaved as error:
             return Answer(False, f"not saved: {error}")
+        self.journal.saved(nodes)
+        return Answer(True, saved.text(place))
 
 
 def refused(wanted: Iterable[tuple[str, str, Value]], why: str) -> tuple[SetOutcome, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bot_console.tui.console.model import ConsoleSnapshot, DriveInfo, ProcessState, Severity
-from bot_console.tui.format import harmless
+from bot_console.tui.format import harmless, profile_text
 from bot_console.tui.widgets.words import Words
 
 
@@ -34,7 +34,7 @@ def status_text(snapshot: ConsoleSnapshot, held_back: int = 0) -> str:
         parts.append(f"{errors} error{'s' if errors > 1 else ''}")
     parts.append(drive_text(snapshot.drive))
     if snapshot.active_profile:
-        parts.append(harmless(snapshot.active_profile))
+        parts.append(profile_text(snapshot))
     if snapshot.launch.problem:
         parts.append(harmless(snapshot.launch.problem))
     if held_back:

@@ -4,21 +4,31 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from bot_console.tui.console.model import Change, ChangeSource, JournalState, Value
+from bot_console.tui.console.parameters.unsaved import Unsaved
 
 OURS = (ChangeSource.EDIT, ChangeSource.PROFILE, ChangeSource.FILE)
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
-    """What one undo takes back: the values before and after, of parameters that were set together on one node."""
+class Move:
+    """Values before and after, of parameters that were set together on one node."""
 
     node: str
-    before: dict[str, Value]
-    after: dict[str, Value]
+    before: Mapping[str, Value]
+    after: Mapping[str, Value]
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """What one undo takes back: an edit of one node, or a profile on all of them."""
+
+    moves: tuple[Move, ...]
+    profiles: tuple[str, str] | None = None
+    """The active profile before and after, where it became another one."""
 
 
 class Journal:
@@ -29,6 +39,7 @@ class Journal:
         self._end = 0
         self._undo: deque[Step] = deque(maxlen=1_000)
         self._redo: list[Step] = []
+        self._unsaved = Unsaved()
         self._lock = threading.Lock()
         self._state = JournalState()
 
@@ -50,6 +61,8 @@ class Journal:
     def did(self, step: Step, source: ChangeSource) -> None:
         """Remember an accepted set made from this console so that it can be taken back."""
         with self._lock:
+            for move in step.moves:
+                self._unsaved.moved(move.node, move.before, move.after, source)
             if source in OURS:
                 self._undo.append(step)
                 self._redo.clear()
@@ -79,6 +92,12 @@ class Journal:
             (self._undo if source is ChangeSource.UNDO else self._redo).append(step)
             self._renew()
 
+    def saved(self, nodes: Collection[str]) -> None:
+        """The values of some nodes are in a file now; of all nodes where none is named."""
+        with self._lock:
+            self._unsaved.saved(nodes)
+            self._renew()
+
     def after(self, seq: int) -> Sequence[Change]:
         """Entries numbered `seq` and up, oldest first."""
         with self._lock:
@@ -87,4 +106,4 @@ class Journal:
 
     def _renew(self) -> None:
         first = self._end - len(self._changes)
-        self._state = JournalState(first, self._end, first, bool(self._undo), bool(self._redo))
+        self._state = JournalState(first, self._end, first, bool(self._undo), bool(self._redo), self._unsaved.names)

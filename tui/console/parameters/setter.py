@@ -5,10 +5,11 @@ from __future__ import annotations
 import time
 from collections import deque
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from bot_console.tui.console.calls import Calls, NoAnswer
 from bot_console.tui.console.model import ChangeSource, SetOutcome, Value
-from bot_console.tui.console.parameters.journal import Journal, Step
+from bot_console.tui.console.parameters.journal import Journal, Move, Step
 from bot_console.tui.console.parameters.mirror import ParameterMirror
 from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.values import refusal, to_message
@@ -26,6 +27,8 @@ class ParameterSetter:
         self._calls = calls
         self._mirror = mirror
         self._journal = journal
+        self.profile = ""
+        """The profile that was applied last and not undone."""
         self._expected: deque[tuple[str, str, Value, ChangeSource]] = deque(maxlen=EXPECTED)
 
     def announced(self, node: str, name: str, old: Value, new: Value) -> None:
@@ -43,12 +46,38 @@ class ParameterSetter:
         self, node: str, values: Mapping[str, Value], source: ChangeSource, *, atomically: bool = False
     ) -> tuple[SetOutcome, ...]:
         """Ask a node to take values; never raises, every failure is an outcome. What is taken can be undone."""
+        outcomes, move = await self._moved(node, values, source, atomically=atomically)
+        if move.after:
+            self._journal.did(Step((move,)), source)
+        return outcomes
+
+    async def apply(self, name: str, wanted: Mapping[str, Mapping[str, Value]]) -> tuple[SetOutcome, ...]:
+        """Set a profile's values, by node, all or nothing for each; one undo takes all of them back.
+
+        The profile is the active one when nothing was refused.
+        """
+        outcomes: list[SetOutcome] = []
+        moves: list[Move] = []
+        for node, values in wanted.items():
+            found, move = await self._moved(node, values, ChangeSource.PROFILE, atomically=True)
+            outcomes += found
+            moves += [move] if move.after else []
+        before = self.profile
+        if all(each.accepted for each in outcomes):
+            self.profile = name
+        if moves:
+            renamed = (before, self.profile) if self.profile != before else None
+            self._journal.did(Step(tuple(moves), renamed), ChangeSource.PROFILE)
+        return tuple(outcomes)
+
+    async def _moved(
+        self, node: str, values: Mapping[str, Value], source: ChangeSource, *, atomically: bool
+    ) -> tuple[tuple[SetOutcome, ...], Move]:
+        """What became of each value, and what of it can be taken back."""
         before = {name: self._value(node, name) for name in values}
         outcomes = await self._set(node, values, source, atomically=atomically)
         taken = {each.name: each.value for each in outcomes if each.accepted}
-        if taken:
-            self._journal.did(Step(node, {name: before[name] for name in taken}, taken), source)
-        return outcomes
+        return outcomes, Move(node, {name: before[name] for name in taken}, taken)
 
     async def _set(
         self, node: str, values: Mapping[str, Value], source: ChangeSource, *, atomically: bool
@@ -123,12 +152,37 @@ class ParameterSetter:
         return Answer(False, "nothing to redo") if step is None else await self._move(step, ChangeSource.REDO)
 
     async def _move(self, step: Step, source: ChangeSource) -> Answer:
-        values = step.before if source is ChangeSource.UNDO else step.after
-        outcomes = await self._set(step.node, values, source, atomically=len(values) > 1)
-        refused = [each for each in outcomes if not each.accepted]
+        """Take a step back, or make it again; what a node refuses stays to be tried again."""
+        done: list[Move] = []
+        left: list[Move] = []
+        refused: list[SetOutcome] = []
+        for move in step.moves:
+            values = _values(move, source)
+            outcomes = await self._set(move.node, values, source, atomically=len(values) > 1)
+            bad = [each for each in outcomes if not each.accepted]
+            (left if bad else done).append(move)
+            refused += bad[:1]
+        renamed = step.profiles
+        if renamed and not left:
+            self.profile = renamed[0 if source is ChangeSource.UNDO else 1]
+        if left:
+            self._journal.put_back(replace(step, moves=tuple(left)), source)
+        if done:
+            self._journal.did(Step(tuple(done), None if left else renamed), source)
         if refused:
-            self._journal.put_back(step, source)
-            return Answer(False, f"{step.node} {refused[0].name}: {refused[0].reason}")
-        self._journal.did(step, source)
-        text = ", ".join(f"{name} = {value}" for name, value in values.items())
-        return Answer(True, f"{source.value}: {step.node} {text}")
+            return Answer(False, "; ".join(f"{each.node} {each.name}: {each.reason}" for each in refused))
+        return Answer(True, f"{source.value}: {_text(step, source)}")
+
+
+def _values(move: Move, source: ChangeSource) -> Mapping[str, Value]:
+    return move.before if source is ChangeSource.UNDO else move.after
+
+
+def _text(step: Step, source: ChangeSource) -> str:
+    """A step in words: its values, or, where it is one of several nodes, how many there are."""
+    if len(step.moves) == 1:
+        (move,) = step.moves
+        return f"{move.node} " + ", ".join(f"{name} = {value}" for name, value in _values(move, source).items())
+    count = sum(len(each.after) for each in step.moves)
+    name = f"profile {step.profiles[1]}, " if step.profiles else ""
+    return f"{name}{count} values of {len(step.moves)} nodes"

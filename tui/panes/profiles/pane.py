@@ -60,10 +60,8 @@ class ProfilesPane(Pane):
         """Take new profiles in, and work the differences out anew when a parameter has changed."""
         before, self._snapshot = self._snapshot, snapshot
         shown = self._list
-        if snapshot.profiles is not before.profiles or snapshot.active_profile != shown.active:
-            shown.profiles, shown.active = snapshot.profiles, snapshot.active_profile
+        if shown.show(snapshot):
             shown.styles.height = max(1, min(len(snapshot.profiles), MOST))
-            shown.rows_changed()
         elif snapshot.parameters is before.parameters and snapshot.problem == before.problem:
             return
         self._compare()

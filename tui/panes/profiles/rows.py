@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from bot_console.tui.console.model import Profile, ProfileDifference, SetOutcome, Value
+from bot_console.tui.console.model import ConsoleSnapshot, Profile, ProfileDifference, SetOutcome, Value
 from bot_console.tui.format import harmless, value_text
 from bot_console.tui.widgets.row_list import RowList
 from rich.segment import Segment
@@ -18,17 +18,37 @@ SAFETY = ("enable_safety",)
 
 
 class ProfileRows(RowList):
-    """The profiles by name; a dot marks the one applied last."""
+    """The profiles by name; a dot marks the active one, with the number of its values that the robot does not have."""
 
     def __init__(self) -> None:
         super().__init__()
         self.profiles: Sequence[Profile] = ()
         self.active = ""
+        self.changes = 0
 
     @property
     def current(self) -> Profile | None:
         """The profile at the cursor."""
         return self.profiles[self.cursor] if self.cursor < len(self.profiles) else None
+
+    def show(self, snapshot: ConsoleSnapshot) -> bool:
+        """Take new profiles in; whether any came, went or became the active one.
+
+        The cursor goes along with the active profile, so that Enter never means another one by chance.
+        """
+        new = snapshot.profiles is not self.profiles or snapshot.active_profile != self.active
+        if new:
+            at = self.current
+            along = at is None or at.name == self.active
+            self.profiles, self.active = snapshot.profiles, snapshot.active_profile
+            self.rows_changed()
+            wanted = self.active if along else at.name if at else ""
+            names = [each.name for each in self.profiles]
+            self.cursor = names.index(wanted) if wanted in names else min(self.cursor, max(0, len(names) - 1))
+        if new or snapshot.profile_changes != self.changes:
+            self.changes = snapshot.profile_changes
+            self.refresh()
+        return new
 
     def row_count(self) -> int:
         """How many profiles there are."""
@@ -40,7 +60,12 @@ class ProfileRows(RowList):
         mark = "●" if profile.name == self.active else " "
         name = f"{mark} {harmless(profile.name)}"
         style = self.get_component_rich_style("row-list--warn" if profile.problem else "row-list--dim", partial=True)
-        return [Segment(name[:22].ljust(min(16, width))), Segment(harmless(profile.problem or profile.title), style)]
+        changed = f"{self.changes} changed  " if self.changes and profile.name == self.active else ""
+        return [
+            Segment(name[:22].ljust(min(16, width))),
+            Segment(changed, self.get_component_rich_style("row-list--strong", partial=True)),
+            Segment(harmless(profile.problem or profile.title), style),
+        ]
 
 
 @dataclass(frozen=True)

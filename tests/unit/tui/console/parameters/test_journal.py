@@ -1,7 +1,7 @@
 """The journal numbers changes, and undo and redo mirror each other."""
 
 from bot_console.tui.console.model import ChangeSource
-from bot_console.tui.console.parameters.journal import Journal, Step
+from bot_console.tui.console.parameters.journal import Journal, Move, Step
 
 
 def test_entries_are_numbered_and_bounded() -> None:
@@ -15,7 +15,7 @@ def test_entries_are_numbered_and_bounded() -> None:
 
 def test_undo_then_redo() -> None:
     journal = Journal()
-    step = Step("/n", {"p": 1}, {"p": 2})
+    step = Step((Move("/n", {"p": 1}, {"p": 2}),))
     journal.did(step, ChangeSource.EDIT)
     assert journal.state.can_undo
     assert journal.take_undo() is step
@@ -29,17 +29,17 @@ def test_undo_then_redo() -> None:
 
 def test_a_new_edit_forgets_what_could_be_redone() -> None:
     journal = Journal()
-    journal.did(Step("/n", {"p": 1}, {"p": 2}), ChangeSource.EDIT)
+    journal.did(Step((Move("/n", {"p": 1}, {"p": 2}),)), ChangeSource.EDIT)
     undone = journal.take_undo()
     assert undone is not None
     journal.did(undone, ChangeSource.UNDO)
-    journal.did(Step("/n", {"q": 1}, {"q": 2}), ChangeSource.EDIT)
+    journal.did(Step((Move("/n", {"q": 1}, {"q": 2}),)), ChangeSource.EDIT)
     assert not journal.state.can_redo
 
 
 def test_a_refused_undo_is_put_back() -> None:
     journal = Journal()
-    journal.did(Step("/n", {"p": 1}, {"p": 2}), ChangeSource.EDIT)
+    journal.did(Step((Move("/n", {"p": 1}, {"p": 2}),)), ChangeSource.EDIT)
     step = journal.take_undo()
     assert step is not None
     journal.put_back(step, ChangeSource.UNDO)

@@ -1,0 +1,44 @@
+"""What would be lost: values that were set from this console and stand in no file."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+
+from bot_console.tui.console.model import ChangeSource, Value
+from bot_console.tui.console.parameters.patch import same
+
+IN_A_FILE = (ChangeSource.PROFILE, ChangeSource.FILE)
+UNDONE = ChangeSource.UNDO
+
+
+class Unsaved:
+    """Knows for each parameter that was set here which values can be had again without anybody typing them.
+
+    These are the one it started with, those of profiles and files, and those that were saved.
+    """
+
+    def __init__(self) -> None:
+        self._safe: dict[tuple[str, str], list[Value]] = {}
+        self._now: dict[tuple[str, str], Value] = {}
+
+    def moved(self, node: str, before: Mapping[str, Value], after: Mapping[str, Value], source: ChangeSource) -> None:
+        """Values of a node went from `before` to `after`, or back where it was undone."""
+        for name, value in (before if source is UNDONE else after).items():
+            key = (node, name)
+            safe = self._safe.setdefault(key, [before[name]])
+            self._now[key] = value
+            if source in IN_A_FILE:
+                safe.append(value)
+
+    def saved(self, nodes: Collection[str]) -> None:
+        """The values of some nodes, or of all where none is named, are in a file now."""
+        for key, value in self._now.items():
+            if not nodes or key[0] in nodes:
+                self._safe[key].append(value)
+
+    @property
+    def names(self) -> tuple[tuple[str, str], ...]:
+        """Node and name of each value that is in no file, sorted."""
+        return tuple(
+            sorted(key for key, value in self._now.items() if not any(same(value, each) for each in self._safe[key]))
+        )
