@@ -11,10 +11,8 @@ from bot_console.tui.console.model import (
     Change,
     ChangeSource,
     ConsoleSnapshot,
-    DriveInfo,
     Endpoint,
     GraphInfo,
-    GridMap,
     JournalState,
     Kind,
     LaunchArgument,
@@ -23,7 +21,6 @@ from bot_console.tui.console.model import (
     NodeInfo,
     ParameterInfo,
     ParameterTree,
-    Pose,
     ProcessInfo,
     ProcessState,
     Profile,
@@ -31,8 +28,8 @@ from bot_console.tui.console.model import (
     Range,
     Severity,
     Value,
-    WorldInfo,
 )
+from bot_console.tui.console.robot_model import DriveInfo, GridMap, Pose, WorldInfo
 from fake_launcher import FakeLauncher
 from fakes import START, FakeConsole
 

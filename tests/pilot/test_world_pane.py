@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from bot_console.tui.console.model import Pose
+from bot_console.tui.console.robot_model import Pose
 from piloting import Session, run
 from samples import empty, faulty, live, world
 

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from bot_console.tui.console.model import DriveInfo, GraphInfo
+from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.console.robot_model import DriveInfo
 from bot_console.tui.console.stop_link import STATUS, StopLink
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist

@@ -12,6 +12,8 @@ from enum import Enum, IntEnum
 from types import MappingProxyType
 from typing import TypeAlias
 
+from bot_console.tui.console.robot_model import DriveInfo, WorldInfo
+
 Value: TypeAlias = "bool | int | float | str | tuple[bool | int | float | str | bytes, ...] | None"
 """A parameter's value; arrays are tuples, None is NOT_SET."""
 
@@ -227,71 +229,6 @@ class JournalState:
     can_redo: bool = False
     unsaved: tuple[tuple[str, str], ...] = ()
     """Node and name of each value that was set from this console and is in no file, so that it would be lost."""
-
-
-@dataclass(frozen=True, slots=True)
-class Pose:
-    """A pose in the plane: m, m, rad counter-clockwise from +x."""
-
-    x: float = 0.0
-    y: float = 0.0
-    heading: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class GridMap:
-    """An occupancy grid, `nav_msgs/OccupancyGrid`: row-major from the lower left, 0..100, 255 unknown."""
-
-    width: int
-    height: int
-    resolution: float
-    origin: Pose
-    cells: bytes
-
-
-@dataclass(frozen=True, slots=True)
-class WorldInfo:
-    """What is known of the place: the map, the robot in it, its trail, and where the LIDAR beams end (x, y in m).
-
-    `pose_source` names the topic the pose came from, so that a pane can say ground truth from odometry.
-    """
-
-    map: GridMap | None = None
-    pose: Pose | None = None
-    pose_source: str = ""
-    trail: tuple[tuple[float, float], ...] = ()
-    hits: tuple[tuple[float, float], ...] = ()
-    goal: tuple[float, float] | None = None
-    speed: float = 0.0
-    turn: float = 0.0
-    nearest: float | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class DriveInfo:
-    """The command chain, each (m/s, rad/s) or None when unknown: asked, limited, final, actual.
-
-    `limited_by` names the parameter or rule that changed the command, in words; empty when nothing did.
-    """
-
-    topic: str = ""
-    armed: bool = False
-    asked: tuple[float, float] | None = None
-    limited: tuple[float, float] | None = None
-    final: tuple[float, float] | None = None
-    actual: tuple[float, float] | None = None
-    limited_by: str = ""
-    stopped: bool = False
-    """Whether a stop was asked for, or a lock holds the robot."""
-    stop_confirmed: bool = False
-    """Whether every lock of the robot has acknowledged that it holds."""
-    stop_holder: str = ""
-    """Who holds it, as the robot says; `this console` for ourselves."""
-    stop_reason: str = ""
-    lockable: bool = False
-    """Whether the robot has an emergency stop that acknowledges."""
-    steered_by: str = ""
-    """Who holds the steering, as the robot says."""
 
 
 class ProcessState(str, Enum):

@@ -11,7 +11,8 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from bot_console.tui.console.model import GraphInfo, GridMap, Pose, WorldInfo
+from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.console.robot_model import GridMap, Pose, WorldInfo
 from nav_msgs.msg import OccupancyGrid, Odometry
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy

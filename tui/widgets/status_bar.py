@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from bot_console.tui.console.model import ConsoleSnapshot, DriveInfo, ProcessState, Severity
+from bot_console.tui.console.model import ConsoleSnapshot, ProcessState, Severity
+from bot_console.tui.console.robot_model import DriveInfo
 from bot_console.tui.format import harmless, profile_text
 from bot_console.tui.widgets.words import Words
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.console.model import DriveInfo
+from bot_console.tui.console.robot_model import DriveInfo
 from bot_console.tui.format import harmless
 from bot_console.tui.panes.steering.state import OWN_REASONS, Steering
 from bot_console.tui.widgets.picture import Line

@@ -6,7 +6,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from bot_console.tui import keymap
-from bot_console.tui.console.model import ConsoleSnapshot, WorldInfo
+from bot_console.tui.console.model import ConsoleSnapshot
+from bot_console.tui.console.robot_model import WorldInfo
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.words import Words
