@@ -9,7 +9,7 @@ from enum import Enum
 from typing import Any
 
 from bot_console.runtime.process import current
-from bot_console.runtime.rmw.endpoints import Shared, SubscriptionEndpoint, own
+from bot_console.runtime.rmw.endpoints import Held, SubscriptionEndpoint, own
 from rclpy.impl.destroyable import SubscriptionHandle
 from rclpy.impl.entity import SUBSCRIPTION, Entity
 from rclpy.impl.reexports import reexporting
@@ -114,7 +114,9 @@ class Subscription(Entity):
         while self._queue:
             message, stamp, number, expires = self._queue.popleft()
             if expires is None or current().clock.system_ns() <= expires:
-                return own(message), self._info(stamp, number)
+                taken = own(message)
+                if taken is not None:
+                    return taken, self._info(stamp, number)
         return None
 
     def run(self) -> Any:
@@ -127,8 +129,10 @@ class Subscription(Entity):
             self.notify()  # a reentrant group lets the next one begin before this one has ended
         if expires is not None and current().clock.system_ns() > expires:
             return None
-        if message.__class__ is Shared:  # as `own`, which would be a call for each message
+        if isinstance(message, Held):  # as `own`, which would be a call for each message
             message = message.take()
+            if message is None:
+                return None
         result = self._callback(message) if self._message_only else self._callback(message, self._info(stamp, number))
         return result if self._is_async else None
 

@@ -25,7 +25,17 @@ Message = Any
 """A message, request or response. The generated classes have no base class; `_copy_()` copies and checks one."""
 
 
-class Shared:
+class Held:
+    """A message in a queue that is not its taker's own yet."""
+
+    __slots__ = ()
+
+    def take(self) -> Message | None:
+        """A message that nobody else holds; None where it turns out to be none, which has been told then."""
+        raise NotImplementedError
+
+
+class Shared(Held):
     """A message in the queues of several: each that takes it gets a copy of its own, the last one the message itself.
 
     Copied when it is taken, a message costs its publisher and the queues the same for any number of subscriptions,
@@ -48,9 +58,9 @@ class Shared:
         return copy
 
 
-def own(message: Message) -> Message:
-    """A message of a queue as its taker's own."""
-    return message.take() if message.__class__ is Shared else message
+def own(message: Message) -> Message | None:
+    """A message of a queue as its taker's own; None where it cannot be read, which has been told then."""
+    return message.take() if isinstance(message, Held) else message
 
 
 _gids = itertools.count(1)
@@ -105,7 +115,7 @@ class Endpoint:
 class SubscriptionEndpoint:
     """Receives messages: `queue` holds what has come, as (message, source ns, sequence number, expiry ns).
 
-    The message may be `Shared`; `own` makes it the taker's.
+    The message may be `Held`, and `own` makes it the taker's.
     """
 
     endpoint: Endpoint

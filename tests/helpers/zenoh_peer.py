@@ -10,7 +10,8 @@ from bot_console.runtime.rmw.zenoh.domain_bus import shared_bus
 from example_interfaces.action import Fibonacci
 from rclpy.action import ActionServer
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+from sensor_msgs.msg import LaserScan
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
@@ -33,12 +34,25 @@ class Peer(Node):
         )
         self.create_timer(0.05, lambda: self.poor.publish(String(data="poor")))
         self.create_service(Trigger, "/pull", self.pull)
+        self.scans = 0
+        everything = QoSProfile(history=HistoryPolicy.KEEP_ALL, depth=0)
+        self.create_subscription(LaserScan, "/scan", self.count_scan, everything)
+        self.create_service(Trigger, "/scans", self.tell_scans)
         self.server = ActionServer(self, Fibonacci, "/fibonacci", self.count)
 
     def pull(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         """Answer."""
         response.success, response.message = True, "pulled"
         self.get_logger().info("somebody pulled")
+        return response
+
+    def count_scan(self, scan: LaserScan) -> None:
+        """Count."""
+        self.scans += 1
+
+    def tell_scans(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        """Say how many there were."""
+        response.message = str(self.scans)
         return response
 
     def count(self, handle):

@@ -65,25 +65,33 @@ class ActionClient(ActionEntity):
         return NumberOfEntities(2, 0, 0, 3, 0)
 
     def run(self) -> Any:
-        """Take a response of each kind, a feedback and a status, and tell whom they concern."""
+        """Take a response of each kind, a feedback and a status, and tell whom they concern.
+
+        With a result all the feedback that came before it is taken, as nobody is told of it afterwards.
+        """
         ends = self._endpoints
         responses = (take(ends.goal.queue), take(ends.cancel.queue), take(ends.result.queue))
-        return self._receive(*responses, take(ends.feedback.queue), take(ends.status.queue))
+        feedback = [take(ends.feedback.queue) for _ in range(len(ends.feedback.queue) if responses[2] else 1)]
+        return self._receive(*responses, feedback, take(ends.status.queue))
 
-    async def _receive(self, goal: Any, cancel: Any, result: Any, feedback: Any, status: Any) -> None:
+    async def _receive(self, goal: Any, cancel: Any, result: Any, feedback: list[Any], status: Any) -> None:
         if goal is not None:
             self._receive_goal(*goal)
         if cancel is not None:
             self._settle(self._cancels, "cancel", *cancel)
+        for each in feedback:
+            await self._receive_feedback(each)
         if result is not None:
             self._settle(self._results, "result", *result)
-        if feedback is not None:
-            message = own(feedback[0])
-            callback = self._feedback_callbacks.get(bytes(message.goal_id.uuid))
-            if callback is not None:
-                await call(callback, message)
-        if status is not None:
-            self._receive_status(own(status[0]))
+        statuses = None if status is None else own(status[0])
+        if statuses is not None:
+            self._receive_status(statuses)
+
+    async def _receive_feedback(self, entry: Any) -> None:
+        message = None if entry is None else own(entry[0])
+        callback = None if message is None else self._feedback_callbacks.get(bytes(message.goal_id.uuid))
+        if callback is not None:
+            await call(callback, message)
 
     def _receive_goal(self, number: int, response: Any) -> None:
         goal_id = self._goals.subject(number)

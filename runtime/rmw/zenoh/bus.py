@@ -26,6 +26,7 @@ from bot_console.runtime.rmw.zenoh.keys import data_key
 from bot_console.runtime.rmw.zenoh.outlet import Outlet
 from bot_console.runtime.rmw.zenoh.qos_text import encode_qos
 from bot_console.runtime.rmw.zenoh.seen import Listener, Watches
+from bot_console.runtime.rmw.zenoh.sender import Sender
 from bot_console.runtime.rmw.zenoh.services import Asking, RemoteClient, Served
 from bot_console.runtime.rmw.zenoh.session import Declared, Session
 from bot_console.runtime.rmw.zenoh.tokens import Kind, Token, TokenNode, entity_token, node_token
@@ -34,6 +35,9 @@ from bot_console.runtime.rosidl import type_hash
 
 SERVICE_QOS = "::,10:,:,:,,"
 """Reliable, volatile, the last ten: rmw's default for services."""
+
+FLUSHED = 0.3
+"""How long one that leaves waits until what must not be dropped is sent, in s."""
 
 Way = Outlet | Inlet | Served | Asking
 
@@ -67,12 +71,14 @@ class ZenohBus:
         self._nodes: dict[NodeId, BridgedNode] = {}
         self._disowned: dict[Any, Bridge] = {}
         self._watches = Watches(session)
+        self._sender = Sender()
         self._whole: WholeGraph | None = None
         self._whole_lock = threading.Lock()
         session.on_rejoin = self._send_again
 
     def leave(self) -> None:
         """Take the session's socket away, for a process that ends at once."""
+        self._sender.end(FLUSHED)
         self._session.leave()
 
     def add_node(self, name: str, namespace: str, enclave: str) -> NodeId:
@@ -100,7 +106,7 @@ class ZenohBus:
         key, shown = self._names(endpoint.node, "MP", endpoint)
         publisher = self._local.create_publisher(endpoint, on_event)
         if shown:
-            outlet = Outlet(self._session, publisher, key)
+            outlet = Outlet(self._session, self._sender, publisher, key)
             watched: tuple[Kind, str, Listener] = ("MS", endpoint.topic, self._telling(outlet.saw))
             self._keep(endpoint.node, publisher, Bridge(outlet, self._session.declare_token(shown), watched))
         return publisher
@@ -256,6 +262,7 @@ class ZenohBus:
 
     def close(self) -> None:
         """Leave the mesh; what is within this process goes on."""
+        self._sender.end(FLUSHED)
         self._session.close()
 
     def _send_again(self) -> None:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
-from bot_console.runtime.rmw.endpoints import SubscriptionEndpoint, depth
+from bot_console.runtime.rmw.endpoints import Held, Message, SubscriptionEndpoint, depth
 from bot_console.runtime.rmw.qos_matching import INFINITE, incompatible_policy
 from bot_console.runtime.rmw.zenoh.attachment import gid_of, unpack
 from bot_console.runtime.rmw.zenoh.keys import FormatError
@@ -31,11 +31,33 @@ class RemotePublisher:
     lease: int | None = None
 
 
+class Arrived(Held):
+    """Bytes that have come: read by the thread that takes the message, so that a link is emptied as fast as it can.
+
+    What a full queue drops is never read.
+    """
+
+    __slots__ = ("_inlet", "_payload")
+
+    def __init__(self, inlet: Inlet, payload: bytes) -> None:
+        self._inlet = inlet
+        self._payload = payload
+
+    def take(self) -> Message | None:
+        """The message."""
+        try:
+            return deserialize(self._payload, self._inlet.message_class)
+        except CdrError as error:
+            self._inlet.dropped(error)
+            return None
+
+
 class Inlet:
     """Receives for one subscription what others publish."""
 
     def __init__(self, session: Session, subscription: SubscriptionEndpoint, key: str) -> None:
         self._subscription = subscription
+        self.message_class = subscription.endpoint.message_class
         self._key = key
         self._publishers: dict[bytes, RemotePublisher] = {}
         self._process = current()
@@ -64,13 +86,17 @@ class Inlet:
             if publisher.number and number > publisher.number + 1:
                 self._lost(number - publisher.number - 1)
             publisher.number = number
-            message = payload if subscription.raw else deserialize(payload, subscription.endpoint.message_class)
-        except (FormatError, CdrError) as error:
-            notify(self._process, f"a message on '{subscription.endpoint.topic}' was dropped: {error}")
+        except FormatError as error:
+            self.dropped(error)
             return
+        message = payload if subscription.raw else Arrived(self, payload)
         expires = None if publisher.lifespan is None else stamp + publisher.lifespan
         subscription.queue.append((message, stamp, number, expires))
         subscription.notify()
+
+    def dropped(self, error: Exception) -> None:
+        """Tell that a message cannot be read."""
+        notify(self._process, f"a message on '{self._subscription.endpoint.topic}' was dropped: {error}")
 
     def _lost(self, count: int) -> None:
         endpoint = self._subscription.endpoint

@@ -11,6 +11,7 @@ from bot_console.runtime.rmw.endpoints import SubscriptionEndpoint, depth
 from bot_console.runtime.rmw.local import LocalPublisher
 from bot_console.runtime.rmw.qos_matching import incompatible_policy
 from bot_console.runtime.rmw.zenoh.attachment import pack
+from bot_console.runtime.rmw.zenoh.sender import Sender
 from bot_console.runtime.rmw.zenoh.session import Publisher, Session
 from bot_console.runtime.rmw.zenoh.tokens import Token
 
@@ -21,11 +22,12 @@ ALL_KEPT = 1000
 class Outlet(deque[Any]):
     """Stands among the local subscriptions of a publisher as the one for all other processes.
 
-    What the publisher puts into its queue goes out at once. A latching publisher's messages always do: those who come
+    What the publisher puts into its queue goes out at once; what must not be dropped (reliable, keep all) does from
+    another thread, so that the publisher does not wait. A latching publisher's messages always do: those who come
     later get them from the session, not from the program.
     """
 
-    def __init__(self, session: Session, publisher: LocalPublisher, key: str) -> None:
+    def __init__(self, session: Session, sender: Sender, publisher: LocalPublisher, key: str) -> None:
         super().__init__()
         self._session = session
         self._publisher = publisher
@@ -33,6 +35,9 @@ class Outlet(deque[Any]):
         self._gid = publisher.endpoint.gid
         self._out: Publisher | None = None
         self._process = current()
+        self._sender = sender
+        qos = publisher.endpoint.qos
+        self._patient = qos.history.name == "KEEP_ALL" and qos.reliability.name != "BEST_EFFORT"
         self._target = SubscriptionEndpoint(publisher.endpoint, True, self, _nothing)
         self.latching = publisher.history is not None
         if self.latching:
@@ -43,13 +48,17 @@ class Outlet(deque[Any]):
         """Send one message that the publisher has serialized."""
         data, stamp, number, _ = entry
         out = self._out or self._open()
-        out.put(data, pack(number, stamp, self._gid))
+        attachment = pack(number, stamp, self._gid)
+        if self._patient:
+            self._sender.send(out, self._publisher.endpoint.topic, data, attachment)
+        else:
+            out.put(data, attachment)
 
     def _open(self) -> Publisher:
         qos = self._publisher.endpoint.qos
         cache = (depth(qos) or ALL_KEPT) if self.latching else 0
         reliable = qos.reliability.name != "BEST_EFFORT"
-        self._out = self._session.declare_publisher(self._key, reliable=reliable, cache=cache)
+        self._out = self._session.declare_publisher(self._key, reliable=reliable, cache=cache, patient=self._patient)
         return self._out
 
     def saw(self, token: Token, came: bool) -> None:
@@ -80,7 +89,7 @@ class Outlet(deque[Any]):
         """Send nothing any more."""
         self._publisher.send_elsewhere(None)
         if self._out is not None:
-            self._out.undeclare()
+            self._sender.undeclare(self._out)
 
 
 def mismatch(topic: str, type_name: str, token: Token) -> str:

@@ -27,6 +27,9 @@ if TYPE_CHECKING:
 ATTENDANCE = "@bot_console/"
 """Begin of the token that each session shows; the begin of its id follows."""
 
+CLOSING = 0.4
+"""How long closing is waited for, in s: it takes 2.5 s beside a frozen process to which the link is full."""
+
 Received = Callable[[bytes, "bytes | None"], None]
 """Called with the payload and the attachment of a sample."""
 
@@ -64,10 +67,6 @@ class Publisher(Declared):
         except _errors():
             return False
         return True
-
-    def is_matched(self) -> bool:
-        """Whether anybody subscribes."""
-        return bool(self.inner.matching_status)
 
 
 class Querier(Declared):
@@ -158,9 +157,12 @@ class Session:
             self._watch.end()
         with self._lock:
             self._ended = True
-            if not self._zenoh.is_closed():
-                self._zenoh.close()
-                self.socket.remove()
+            if self._zenoh.is_closed():
+                return
+            closing = threading.Thread(target=self._zenoh.close, name="zenoh-close", daemon=True)
+            closing.start()
+            closing.join(CLOSING)
+            self.socket.remove()
 
     def leave(self) -> None:
         """Take the socket out of the folder, for a process that ends at once and does not wait for `close`."""
@@ -172,13 +174,19 @@ class Session:
         """Whether it was closed."""
         return self._ended
 
-    def declare_publisher(self, key: str, *, reliable: bool = True, cache: int = 0) -> Publisher:
-        """Make a publisher for other sessions; with a `cache` late subscribers get as many of its last samples."""
+    def declare_publisher(self, key: str, *, reliable: bool = True, cache: int = 0, patient: bool = False) -> Publisher:
+        """Make a publisher for other sessions; with a `cache` late subscribers get as many of its last samples.
+
+        A `patient` one drops nothing and waits for a full link instead, up to `WAIT_BEFORE_CUT`: for a thread of its
+        own. It has another priority, as those who drop would wait behind it.
+        """
         import zenoh
 
+        control = zenoh.CongestionControl
         quality: dict[str, Any] = {
             "reliability": zenoh.Reliability.RELIABLE if reliable else zenoh.Reliability.BEST_EFFORT,
-            "congestion_control": zenoh.CongestionControl.DROP,
+            "congestion_control": control.BLOCK if patient else control.DROP,
+            "priority": zenoh.Priority.DATA_LOW if patient else zenoh.Priority.DATA,
             "allowed_destination": zenoh.Locality.REMOTE,
         }
         ext = zenoh.ext

@@ -21,6 +21,17 @@ Plain dropping lost up to 60 % of a burst to healthy readers; blocking stalls th
 not read.
 """
 
+WAIT_BEFORE_CUT = 2_000_000
+"""How long a message that must not be dropped waits for a full link before that is closed, in us.
+
+Only the thread that sends those waits. The link to a process that was frozen is made again once it runs.
+"""
+
+ROOM_OF_A_LINK = 16
+"""How many batches (64 kB each, made when needed) wait in a link for messages of one priority: a burst to a reader that
+just has no processor is kept.
+"""
+
 
 def session_settings(zid: str, listen: str, connect: Iterable[str]) -> dict[str, Any]:
     """The settings of a session with this id that listens on one socket and connects to others (paths)."""
@@ -40,6 +51,16 @@ def session_settings(zid: str, listen: str, connect: Iterable[str]) -> dict[str,
         "transport": {
             "shared_memory": {"enabled": False},
             "unicast": {"open_timeout": OPEN_TIMEOUT, "accept_timeout": OPEN_TIMEOUT},
-            "link": {"tx": {"queue": {"congestion_control": {"drop": {"wait_before_drop": WAIT_BEFORE_DROP}}}}},
+            "link": {
+                "tx": {
+                    "queue": {
+                        "size": {"data": ROOM_OF_A_LINK, "data_low": ROOM_OF_A_LINK},
+                        "congestion_control": {
+                            "drop": {"wait_before_drop": WAIT_BEFORE_DROP},
+                            "block": {"wait_before_close": WAIT_BEFORE_CUT},
+                        },
+                    }
+                }
+            },
         },
     }

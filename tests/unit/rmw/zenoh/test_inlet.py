@@ -2,7 +2,7 @@
 
 import pytest
 from bot_console.runtime.process import on_notice
-from bot_console.runtime.rmw.endpoints import Endpoint, NodeId, SubscriptionEndpoint, queue_for
+from bot_console.runtime.rmw.endpoints import Endpoint, NodeId, SubscriptionEndpoint, own, queue_for
 from bot_console.runtime.rmw.zenoh.attachment import pack
 from bot_console.runtime.rmw.zenoh.inlet import Inlet
 from rclpy.qos import QoSProfile
@@ -39,7 +39,7 @@ def test_a_gap_in_the_numbers_is_an_event(received, notices):
     inlet, queue, events = received
     for number in (7, 8, 11):
         give(inlet, number)
-    assert [(message.data, stamp, number) for message, stamp, number, _ in queue] == [
+    assert [(own(message).data, stamp, number) for message, stamp, number, _ in queue] == [
         ("7", 5, 7),
         ("8", 5, 8),
         ("11", 5, 11),
@@ -47,7 +47,14 @@ def test_a_gap_in_the_numbers_is_an_event(received, notices):
     assert events == [("lost", 2)]
 
 
-@pytest.mark.parametrize(("payload", "attachment"), [(b"\0\1\0\0\xff", pack(1, 1, GID)), (b"", None), (b"", b"x")])
+def test_bytes_that_are_no_message_are_dropped_when_they_are_taken(received, notices):
+    inlet, queue, _ = received
+    inlet.received(b"\0\1\0\0\xff", pack(1, 1, GID))
+    assert own(queue.popleft()[0]) is None
+    assert "'/t' was dropped" in notices[0]
+
+
+@pytest.mark.parametrize(("payload", "attachment"), [(b"", None), (b"", b"x")])
 def test_garbage_is_dropped(received, payload, attachment):
     inlet, queue, _ = received
     inlet.received(payload, attachment)

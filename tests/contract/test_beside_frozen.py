@@ -1,0 +1,53 @@
+"""A process that is frozen, or does not take what it has subscribed to, holds up nobody else."""
+
+import signal
+import time
+
+import pytest
+from helpers.two_processes import two_processes
+from rclpy.node import Node
+from rclpy.qos import HistoryPolicy, QoSProfile
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+
+SCANS = 1000
+SCAN = LaserScan(ranges=[1.0] * 360, intensities=[2.0] * 360)
+EVERYTHING = QoSProfile(history=HistoryPolicy.KEEP_ALL, depth=0)
+
+
+@pytest.fixture(scope="module")
+def here(tmp_path_factory):
+    with two_processes(tmp_path_factory.mktemp("mesh") / "s", peers=2) as (system, (_, frozen)):
+        system.publisher = system.node.create_publisher(LaserScan, "/scan", EVERYTHING)
+        system.until(lambda: system.publisher.get_subscription_count() == 2)
+        frozen.send_signal(signal.SIGSTOP)
+        yield system
+
+
+def took(action) -> float:
+    began = time.monotonic()
+    action()
+    return time.monotonic() - began
+
+
+def test_a_publisher_of_what_must_not_be_lost_never_waits_and_who_reads_gets_all(here):
+    longest = max(took(lambda: here.publisher.publish(SCAN)) for _ in range(SCANS))
+    assert longest < 1.0  # waiting for the frozen one would take 2 s; 0.1 s on a quiet machine
+    asked = here.node.create_client(Trigger, "/scans")
+    here.until(asked.service_is_ready)
+    here.until(lambda: here.result(asked.call_async(Trigger.Request())).message == str(SCANS))
+
+
+def test_the_graph_and_new_entities_are_there_at_once(here):
+    assert took(here.node.get_node_names) < 1.0
+    assert "peer" in here.node.get_node_names()
+    assert took(lambda: here.node.create_publisher(String, "/new", 10)) < 1.0
+    assert took(lambda: here.node.create_subscription(String, "/new", lambda message: None, 10)) < 1.0
+    assert took(lambda: Node("another", context=here.context).destroy_node()) < 2.0
+
+
+def test_a_service_of_another_process_answers(here):
+    client = here.node.create_client(Trigger, "/pull")
+    here.until(client.service_is_ready)
+    assert here.result(client.call_async(Trigger.Request())).success

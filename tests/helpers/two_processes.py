@@ -1,0 +1,70 @@
+"""A node here and nodes in other processes, in a domain of their own."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from bot_console.runtime.rmw.local import local_bus
+from bot_console.runtime.rmw.middleware import choose_middleware
+from bot_console.runtime.rmw.zenoh.domain_bus import close_shared_buses, shared_bus
+from helpers.mesh import eventually
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+
+DOMAIN = 61
+PEER = Path(__file__).with_name("zenoh_peer.py")
+
+
+class Here:
+    """This process's node, served while something is waited for."""
+
+    def __init__(self):
+        self.context = Context()
+        self.context.init([], domain_id=DOMAIN)
+        self.node = Node("here", context=self.context)
+        self.executor = SingleThreadedExecutor(context=self.context)
+        self.executor.add_node(self.node)
+
+    def until(self, true: Callable[[], Any]) -> None:
+        """Serve the node until something is true."""
+
+        def spun():
+            self.executor.spin_once(timeout_sec=0.01)
+            return true()
+
+        assert eventually(spun)
+
+    def result(self, future: Any) -> Any:
+        """Serve the node until a future is done."""
+        self.until(future.done)
+        return future.result()
+
+
+@contextlib.contextmanager
+def two_processes(folder: Path, peers: int = 1) -> Iterator[tuple[Here, list[subprocess.Popen[bytes]]]]:
+    """The node here, and the processes of `zenoh_peer.py`, which it sees; their sockets are in a folder."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("BOT_CONSOLE_SOCKET_DIR", str(folder))
+        patch.setenv("ROS_DOMAIN_ID", str(DOMAIN))
+        choose_middleware(shared_bus)
+        started = [subprocess.Popen([sys.executable, str(PEER)], env=dict(os.environ)) for _ in range(peers)]
+        here = Here()
+        try:
+            here.until(lambda: here.node.count_publishers("/echo") == peers)
+            yield here, started
+        finally:
+            for each in started:
+                each.kill()
+                each.wait()
+            here.node.destroy_node()
+            here.context.shutdown()
+            choose_middleware(local_bus)
+            close_shared_buses()
