@@ -49,9 +49,13 @@ def run(seconds: float) -> str:
 
 
 def outcomes(runs: int, busy: int, seconds: float = 10.0) -> Counter[str]:
-    """How often the runs ended how; as many run at a time as there are processors."""
+    """How often the runs ended how, told on stderr as they end; as many run at a time as there are processors."""
+    ended: Counter[str] = Counter()
     with busy_processes(busy), ThreadPoolExecutor(os.cpu_count()) as pool:
-        return Counter(pool.map(run, [seconds] * runs))
+        for outcome in pool.map(run, [seconds] * runs):
+            ended[outcome] += 1
+            print(f"{ended.total()} of {runs} runs, {len(ended)} outcomes", file=sys.stderr, flush=True)
+    return ended
 
 
 def main() -> None:

@@ -8,7 +8,7 @@ import subprocess
 import sys
 from typing import Any
 
-PATIENCE = 300.0
+PATIENCE = 900.0
 """Seconds after which a test gives up; nothing is measured by it."""
 
 

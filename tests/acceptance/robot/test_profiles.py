@@ -8,10 +8,11 @@ from statistics import mean
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
-from headless import headless
+from headless import PATIENCE, headless
 
 PROFILES = ("indoor", "outdoor", "warehouse", "competition")
 SEEDS = ("1", "2", "3")
+pytestmark = pytest.mark.timeout(len(PROFILES) * len(SEEDS) * PATIENCE)
 GUIDE = Path(__file__).resolve().parents[3] / "docs" / "environments.md"
 
 
