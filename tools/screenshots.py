@@ -18,7 +18,7 @@ install()
 
 from bot_console.tui.cli.arguments import Options  # noqa: E402
 from bot_console.tui.cli.session import Session  # noqa: E402
-from bot_console.tui.panes.parameters.pane import ParameterRows  # noqa: E402
+from bot_console.tui.panes.parameters.table import ParameterRows  # noqa: E402
 from textual.pilot import Pilot  # noqa: E402
 
 FOLDER = Path(__file__).resolve().parents[1] / "docs" / "images"

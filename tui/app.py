@@ -16,7 +16,7 @@ from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Console, Launcher
 from bot_console.tui.crash import keep, reason
 from bot_console.tui.faults import Faults
-from bot_console.tui.format import harmless
+from bot_console.tui.format import brief, harmless
 from bot_console.tui.keyboard import Keyboard
 from bot_console.tui.opening import Opening, is_rqt, rqt_opening
 from bot_console.tui.pane_table import PANES
@@ -293,6 +293,12 @@ class BotConsoleApp(GuardedApp):
             )
         )
 
+    def action_acknowledge(self) -> None:
+        """Count only the errors that come from now on."""
+        bar = self.screen_stack[0].query_one(StatusBar)
+        bar.acknowledge(self._snapshot)
+        bar.show(self._snapshot, self.gate.held_back)
+
     def action_redraw(self) -> None:
         """Draw everything anew."""
         self.redraw()
@@ -328,8 +334,7 @@ class BotConsoleApp(GuardedApp):
         markup: bool = False,
     ) -> None:
         """Tell something in a corner; what nodes and people write is shown as it is written, whoever tells it."""
-        text = "\n".join(harmless(line) for line in message.splitlines())
-        super().notify(text, title=harmless(title), severity=severity, timeout=timeout, markup=False)
+        super().notify(brief(message), title=harmless(title), severity=severity, timeout=timeout, markup=False)
 
     def contain(self, error: Exception, culprits: list[DOMNode]) -> bool:
         """A fault ends the pane, or what lies over the panes, in whose code it happened."""
@@ -381,8 +386,8 @@ def tabs_text(marks: Sequence[tuple[str, str, str, bool]], width: int) -> Text:
     """Digits and titles of the panes; short titles, then none but the shown one's, where there is little room."""
     for form in ("long", "short", "digits"):
         parts: list[Text] = []
-        for digit, title, brief, shown in marks:
-            word = title if form == "long" else (brief if form == "short" or shown else "")
+        for digit, title, short, shown in marks:
+            word = title if form == "long" else (short if form == "short" or shown else "")
             label = f"{digit} {word}".strip()
             padded = f"[{label}]" if shown else (label if form == "short" else f" {label} ")
             parts.append(Text(padded, Style(color=DARK.primary, bold=True, reverse=True) if shown else ""))

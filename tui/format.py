@@ -9,6 +9,7 @@ from shlex import quote
 
 from bot_console.tui.console.model import ConsoleSnapshot, Kind, ParameterInfo, Range, Severity, Value
 from bot_console.tui.yaml_flow import in_quotes, is_plain, items, quoted, unquoted
+from rich.cells import cell_len, set_cell_size
 
 WIDE_MARK = "\ufe0f"
 """Asks for a symbol in colour; terminals disagree whether that makes it one cell wide or two."""
@@ -172,6 +173,18 @@ ARRAYS = {
 """The kind of the elements of each kind of array, as they are written."""
 
 
+def element_text(value: bool | int | float | str | bytes) -> str:
+    """An element of an array to be edited alone: `parse_element` makes the very same element of it."""
+    return _element_text(value, exact=True) if isinstance(value, bytes) else field_text(value)
+
+
+def parse_element(text: str, array: Kind) -> bool | int | float | str | bytes:
+    """What a person typed as an element of an array of that kind; raises `ValueError` with a mend."""
+    if array is Kind.STRING_ARRAY:
+        return unquoted(text.strip()) if in_quotes(text.strip()) else text
+    return _element(text.strip(), in_quotes(text.strip()), array)
+
+
 def _element(text: str, quotes: bool, array: Kind) -> bool | int | float | str | bytes:
     if array is Kind.STRING_ARRAY:
         return text
@@ -213,6 +226,24 @@ def command_of(parameter: ParameterInfo, value: Value) -> str:
     # What begins with a dash is an option for ros2, unless a blank stands in it, which YAML ignores.
     text = f" {text}" if text.startswith("-") and not re.fullmatch(r"-\d+|-\d*\.\d+", text) else text
     return f"ros2 param set {quote(parameter.node)} {quote(parameter.name)} {quote(text)}"
+
+
+def cut(text: str, width: int, *, pad: bool = False) -> str:
+    """A text of at most so many cells; what is cut ends in an ellipsis. With `pad` blanks fill it up."""
+    if cell_len(text) > width:
+        text = set_cell_size(text, width - 1).rstrip() + "…" if width > 0 else ""
+    return text + " " * (width - cell_len(text)) if pad else text
+
+
+MOST_LINES, MOST_LETTERS = 6, 400
+"""What a notification says at most; the log and the panes have the rest."""
+
+
+def brief(text: str) -> str:
+    """A text for a notification: its first lines, harmless, and how many more there are."""
+    lines = [harmless(line) for line in cut(text, MOST_LETTERS).splitlines()]
+    more = len(text.splitlines()) - MOST_LINES
+    return "\n".join(lines if more <= 0 else [*lines[: MOST_LINES - 1], f"... and {counted(more + 1, 'line')} more"])
 
 
 def clock_text(stamp: int) -> str:

@@ -10,7 +10,8 @@ import pytest
 from bot_console.tui import crash
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.panes.broken import BrokenPane
-from bot_console.tui.panes.parameters.pane import ParameterRows, ParametersPane
+from bot_console.tui.panes.parameters.pane import ParametersPane
+from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.panes.steering.pane import SteeringPane
 from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.widgets.row_list import RowList
@@ -31,7 +32,7 @@ def boom(self: object, *_: object, **__: object) -> None:
 
 
 FAULTS = {
-    "an action": (ParametersPane, "action_edit", ["e"]),
+    "an action": (ParametersPane, "action_edit", ["enter"]),
     "a message of a widget": (ParametersPane, "on_row_list_moved", ["down"]),
     "a drawing": (ParameterRows, "row", ["down"]),
     "a widget's own action": (RowList, "action_cursor", ["down"]),

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from bot_console.tui.opening import Opening
-from bot_console.tui.panes.parameters.pane import ParameterRows, ParametersPane
+from bot_console.tui.panes.parameters.pane import ParametersPane
+from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.panes.plot.pane import PlotPane
 from piloting import Session, run
 from samples import NEAREST, SPEED, live

@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 from types import MappingProxyType
 
-from bot_console.tui.panes.parameters.pane import ParameterRows, ParametersPane
+import pytest
+from bot_console.tui.panes.parameters.pane import ParametersPane
+from bot_console.tui.panes.parameters.table import ParameterRows
 from piloting import Session, run
 from samples import empty, faulty, live
 
@@ -70,6 +72,79 @@ def test_a_refusal_snaps_back_and_says_who_refused_and_why() -> None:
         assert "1.0 m/s" in text
 
     run(live(), play, (100, 30))
+
+
+REASON = "too fast for indoors: the limit of a room with people in it is 1.5 m/s, as the rules on page 12 say"
+
+
+async def refuse(session: Session) -> None:
+    session.console.refusals["/robot_navigator", "max_speed"] = REASON
+    await session.press("1")
+    await go_to(session, "max_speed")
+    await session.press("e")
+    await session.type("3")
+    await session.press("enter")
+
+
+def test_a_long_reason_is_whole_in_the_detail_and_keeps_its_colour_at_the_cursor() -> None:
+    async def play(session: Session) -> None:
+        await refuse(session)
+        shown = rows(session)
+        row = shown.render_line(shown.cursor - shown.scroll_offset.y)
+        assert row.text.rstrip().endswith("…") and "✗ 3.0: too fast" in row.text
+        error = shown.get_component_rich_style("row-list--error", partial=True).color
+        assert [each.style.color for each in row if "✗" in each.text] == [error]
+        words = session.pane(ParametersPane).query_one("#parameter-detail")
+        shown_lines = session.lines()[words.content_region.y : words.content_region.bottom]
+        assert REASON in " ".join(" ".join(line.strip("│ ") for line in shown_lines).split())
+        assert "ros2 param set" in shown_lines[-1]
+
+    run(live(), play)
+
+
+@pytest.mark.parametrize("key", ["escape", "x"])
+def test_the_mark_of_a_refusal_is_dismissed(key: str) -> None:
+    async def play(session: Session) -> None:
+        await refuse(session)
+        assert "✗ 3.0" in session.text()
+        await session.press("down", key, "up")
+        assert "✗ 3.0" in session.text(), "only that of the row at the cursor"
+        await session.press(key)
+        assert "✗ 3.0" not in session.text()
+
+    run(live(), play)
+
+
+LONG = "emergency_stop_distance_of_the_rear_bumper"
+
+
+def test_a_name_is_whole_where_there_is_room_and_ends_in_an_ellipsis_where_there_is_none() -> None:
+    async def play(session: Session) -> None:
+        trees = dict(session.console.current.parameters)
+        tree = trees["/robot_navigator"]
+        renamed = tuple(replace(each, name=LONG) if each.name == "max_speed" else each for each in tree.parameters)
+        trees["/robot_navigator"] = replace(tree, parameters=renamed)
+        session.console.change(parameters=MappingProxyType(trees))
+        await session.press("1")
+        for columns in (120, 80, 60):
+            await session.pilot.resize_terminal(columns, 24)
+            await session.settle()
+            line = next(each for each in session.lines() if "emergency_stop_dist" in each)
+            assert LONG in line and "1.0 m/s" in line
+        described = [each for each in session.lines() if "Maximum linear" in each]
+        assert not described, "no room beside the name"
+
+    run(live(), play, (120, 24))
+
+
+def test_the_slider_stands_beside_its_value_and_the_description_fills_a_wide_row() -> None:
+    async def play(session: Session) -> None:
+        await session.press("1")
+        line = next(each for each in session.lines() if "max_speed" in each)
+        value, slider = line.index("1.0 m/s"), line.index("──●")
+        assert slider - value < 16 and "Maximum linear velocity (m/s)" in line
+
+    run(live(), play, (120, 40))
 
 
 def test_default_undo_redo_fold_and_filters() -> None:

@@ -6,7 +6,8 @@ from dataclasses import replace
 from types import MappingProxyType
 
 import pytest
-from bot_console.tui.panes.parameters.pane import ParameterRows, ParametersPane
+from bot_console.tui.panes.parameters.pane import ParametersPane
+from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.screens.confirm import ConfirmScreen
 from bot_console.tui.screens.picker import PickerScreen
 from bot_console.tui.widgets.prompt.line import Prompt

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
 from bot_console.tui.console.model import Kind, ParameterInfo, Range, Value
 from rcl_interfaces.msg import Parameter, ParameterDescriptor, ParameterValue
+
+STEP_TOLERANCE = 1e-6
+"""How far a double may lie from a step, relative to it: that of rclpy's `Node.PARAM_REL_TOL`."""
 
 FIELDS = {
     Kind.BOOL: "bool_value",
@@ -112,4 +116,15 @@ def refusal(parameter: ParameterInfo | None, value: Value) -> tuple[str, str]:
         return "", ""
     if not limits.low <= value <= limits.high:
         return "descriptor", f"out of range. Min: {limits.low}, Max: {limits.high}, value: {value}"
+    if not _on_a_step(limits, value):
+        ends = f"Min: {limits.low}, max: {limits.high}, value: {value}, step: {limits.step}"
+        return "descriptor", f"not a valid step. {ends}"
     return "", ""
+
+
+def _on_a_step(limits: Range, value: float) -> bool:
+    """Whether a value in the range is one of its ends or a whole number of steps above the lower one, as in rclpy."""
+    if not limits.step or value in (limits.low, limits.high):
+        return True
+    nearest = limits.low + round((value - limits.low) / limits.step) * limits.step
+    return value == nearest if isinstance(value, int) else math.isclose(nearest, value, rel_tol=STEP_TOLERANCE)

@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from bot_console.tui.screens.confirm import ConfirmScreen
+from bot_console.tui.screens.elements import ElementsScreen
 from bot_console.tui.screens.launch_arguments import ArgumentsScreen
 from bot_console.tui.screens.picker import PickerScreen
 from bot_console.tui.screens.question import QuestionScreen
-from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Form, Question
+from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Elements, Form, Question
 
 
 def screen_for(question: Question[Any]) -> QuestionScreen[Any]:
@@ -17,6 +18,8 @@ def screen_for(question: Question[Any]) -> QuestionScreen[Any]:
         return ConfirmScreen(question)
     if isinstance(question, Choice):
         return PickerScreen(question)
+    if isinstance(question, Elements):
+        return ElementsScreen(question)
     if isinstance(question, Form):
         return ArgumentsScreen(question)
     raise TypeError(f"no screen asks a {type(question).__name__}")

@@ -13,6 +13,9 @@ from textual.reactive import reactive
 from textual.scroll_view import ScrollView
 from textual.strip import Strip
 
+LOUD = ("warn", "error", "good")
+"""Styles whose colour says something."""
+
 
 class RowList(ScrollView, can_focus=True):
     """Rows with a cursor. A subclass gives `row_count` and `row(index, width)`."""
@@ -48,7 +51,7 @@ class RowList(ScrollView, can_focus=True):
         raise NotImplementedError
 
     def row(self, index: int, width: int) -> list[Segment]:
-        """The segments of a row; they are cut and padded to the width (cells)."""
+        """The segments of a row; they are padded to the width (cells), or end there in an ellipsis."""
         raise NotImplementedError
 
     def rows_changed(self) -> None:
@@ -76,10 +79,14 @@ class RowList(ScrollView, can_focus=True):
             return Strip.blank(width, base)
         if index == self.cursor and self.has_focus:
             cursor = self.get_component_rich_style("row-list--cursor")
-            strip = Strip(Segment(segment.text, cursor) for segment in self.row(index, width))
-            return strip.adjust_cell_length(width, cursor)
-        strip = Strip(self.row(index, width)).adjust_cell_length(width, base)
-        return _on(strip, base)
+            strip = Strip(Segment(text, self._chosen(style, cursor)) for text, style, _ in self.row(index, width))
+            return _fitted(strip, width, cursor)
+        return _on(_fitted(Strip(self.row(index, width)), width, base), base)
+
+    def _chosen(self, style: Style | None, cursor: Style) -> Style:
+        """The cursor's style; what warns keeps its colour under it."""
+        loud = (self.get_component_rich_style(f"row-list--{each}", partial=True).color for each in LOUD)
+        return cursor + Style(color=style.color) if style and style.color and style.color in loud else cursor
 
     def watch_cursor(self, before: int, after: int) -> None:
         """Redraw the two rows, keep the cursor in view, and tell."""
@@ -122,6 +129,15 @@ class RowList(ScrollView, can_focus=True):
         """Fit the rows to the new width."""
         self.rows_changed()
         self.show_cursor()
+
+
+def _fitted(strip: Strip, width: int, style: Style) -> Strip:
+    """A row of exactly so many cells; one that is longer ends in an ellipsis."""
+    if strip.cell_length <= width or width < 1:
+        return strip.adjust_cell_length(width, style)
+    kept = strip.crop(0, width - 1)
+    last = next((each.style for each in reversed(list(kept)) if each.text), None)
+    return Strip([*kept.adjust_cell_length(width - 1, style), Segment("…", last)])
 
 
 def _on(strip: Strip, base: Style) -> Strip:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bot_console.tui.console.model import ConsoleSnapshot, ProcessState, Severity
 from bot_console.tui.console.robot_model import DriveInfo
-from bot_console.tui.format import harmless, profile_text
+from bot_console.tui.format import counted, harmless, profile_text
 from bot_console.tui.widgets.words import Words
 
 
@@ -16,31 +16,49 @@ class StatusBar(Words):
     StatusBar.stopped { background: $error; color: $background; text-style: bold; }
     """
 
+    _acknowledged = 0
+
     def show(self, snapshot: ConsoleSnapshot, held_back: int = 0) -> None:
         """Say how things are."""
-        self.say(status_text(snapshot, held_back))
+        self._acknowledged = min(self._acknowledged, errors_of(snapshot))  # a log that was emptied counts anew
+        self.say(status_text(snapshot, held_back, self._acknowledged))
         self.set_class(snapshot.drive.stopped, "stopped")
 
+    def acknowledge(self, snapshot: ConsoleSnapshot) -> None:
+        """Count only the errors that come from now on."""
+        self._acknowledged = errors_of(snapshot)
 
-def status_text(snapshot: ConsoleSnapshot, held_back: int = 0) -> str:
-    """The line."""
+
+def errors_of(snapshot: ConsoleSnapshot) -> int:
+    """How many errors the log holds."""
+    return sum(snapshot.logs.counts.get(each, 0) for each in (Severity.ERROR, Severity.FATAL))
+
+
+def status_text(snapshot: ConsoleSnapshot, held_back: int = 0, acknowledged: int = 0) -> str:
+    """The line; `acknowledged` errors are not told any more."""
     if snapshot.problem:
         return harmless(snapshot.problem)
     parts = [stop_text(snapshot.drive)] if snapshot.drive.stopped else []
     dead = [each.label for each in snapshot.launch.processes if each.state is ProcessState.CRASHED]
     if dead:
         parts.append(f"✗ ended: {harmless(', '.join(dead))}")
-    errors = sum(snapshot.logs.counts.get(each, 0) for each in (Severity.ERROR, Severity.FATAL))
+    if snapshot.launch.problem:
+        parts.append(reason_first(harmless(snapshot.launch.problem)))
+    errors = errors_of(snapshot) - acknowledged
     if errors:
-        parts.append(f"{errors} error{'s' if errors > 1 else ''}")
+        parts.append(counted(errors, "new error" if acknowledged else "error"))
     parts.append(drive_text(snapshot.drive))
     if snapshot.active_profile:
         parts.append(profile_text(snapshot))
-    if snapshot.launch.problem:
-        parts.append(harmless(snapshot.launch.problem))
     if held_back:
         parts.append(f"slow link: {held_back} frames merged in 5 s")
     return "  ".join(each for each in parts if each)
+
+
+def reason_first(problem: str) -> str:
+    """A problem that begins with the path of a file, as its reason with the file's name behind it."""
+    path, colon, why = problem.partition(": ")
+    return f"{why} ({path.rpartition('/')[2]})" if colon and path.startswith("/") else problem
 
 
 def stop_text(drive: DriveInfo) -> str:

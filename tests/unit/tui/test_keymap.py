@@ -10,6 +10,7 @@ from bot_console.tui.keymap import TABLE, Key
 from bot_console.tui.pane_table import PANES
 from bot_console.tui.panes.broken import BrokenPane
 from bot_console.tui.screens.confirm import ConfirmScreen
+from bot_console.tui.screens.elements import ElementsScreen
 from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.screens.launch_arguments import ArgumentsScreen
 from bot_console.tui.screens.overlay import Overlay
@@ -23,6 +24,7 @@ SCREENS = {
     "help": HelpScreen,
     "question": QuestionScreen,
     "confirm": ConfirmScreen,
+    "elements": ElementsScreen,
     "picker": PickerScreen,
     "form": ArgumentsScreen,
 }

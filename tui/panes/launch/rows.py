@@ -6,8 +6,9 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from bot_console.tui.console.model import LaunchInfo, ProcessInfo, ProcessState
-from bot_console.tui.format import harmless
+from bot_console.tui.format import cut, harmless
 from bot_console.tui.widgets.row_list import RowList
+from rich.cells import cell_len
 from rich.segment import Segment
 from rich.style import Style
 
@@ -19,6 +20,9 @@ STATES = {
     ProcessState.CRASHED: ("✗", "error"),
     ProcessState.ABANDONED: ("⚠", "warn"),
 }
+
+STATE_AND_PID = 20
+"""Cells of the columns behind the name that are always seen."""
 
 
 @dataclass(frozen=True)
@@ -106,9 +110,9 @@ class ProcessRows(RowList):
 
     def _process(self, process: ProcessInfo, indent: str, width: int) -> list[Segment]:
         glyph, style = STATES[process.state]
-        names = max(14, min(36, width // 3))
-        name = f"{indent}{glyph} {harmless(process.label)}"[: names - 1].ljust(names)
-        columns = [f"{process.state.value:<10}", f"{process.pid or '':>8}"]
+        head, names = f"{indent}{glyph}", self._names(width)
+        name = cut(f"{head} {harmless(process.label)}", names, pad=True)
+        columns = [f"  {process.state.value:<10}", f"{process.pid or '':>8}"]
         columns.append(f"{f'↻{process.restarts}' if process.restarts else '':>5}")
         columns.append("" if process.exit_code is None else f"  exit {process.exit_code}")
         if process.cpu is not None and width >= 60:
@@ -119,5 +123,11 @@ class ProcessRows(RowList):
         if process.problem and (process.exit_code is None or width >= 60):
             columns.append(f"  {harmless(process.problem)}")
         plain = None if process.state is ProcessState.RUNNING else self._style(style)
-        head = [Segment(name[: len(indent) + 1], self._style(style)), Segment(name[len(indent) + 1 :], plain)]
-        return [*head, Segment("".join(columns), plain), Segment(harmless(nodes), self._style("dim"))]
+        loud = [Segment(name[: len(head)], self._style(style)), Segment(name[len(head) :], plain)]
+        return [*loud, Segment("".join(columns), plain), Segment(harmless(nodes), self._style("dim"))]
+
+    def _names(self, width: int) -> int:
+        """Cells of the column of names: what the longest needs, where state and process id keep their room."""
+        labels = ((each.depth, each.process.label) for each in self.rows if each.process is not None)
+        longest = max((2 * depth + 2 + cell_len(harmless(label)) for depth, label in labels), default=0)
+        return max(14, min(longest, width - STATE_AND_PID))

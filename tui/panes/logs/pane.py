@@ -10,7 +10,7 @@ from pathlib import Path
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, LogFilter, LogRecord, LogState, Severity
 from bot_console.tui.console.protocol import Console, LogFindings, LogNumbers, LogView
-from bot_console.tui.format import LETTERS, clock_text, harmless
+from bot_console.tui.format import LETTERS, clock_text, cut, harmless
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.save_file import save_file
 from bot_console.tui.screens.detail import DetailScreen
@@ -72,7 +72,7 @@ def line_text(record: LogRecord, width: int) -> str:
     time = f"{clock_text(record.stamp)} " if width >= 70 else ""
     node = record.node.rpartition("/")[2] if len(record.node) > NODE else record.node
     text = harmless(record.text[: 4 * width])
-    return f"{time}{LETTERS[record.severity]} {harmless(node)[:NODE].ljust(NODE)} {text}"
+    return f"{time}{LETTERS[record.severity]} {cut(harmless(node), NODE, pad=True)} {text}"
 
 
 def rotated(numbers: Sequence[int], now: int) -> Sequence[int]:

@@ -10,87 +10,24 @@ from bot_console.tui import keymap
 from bot_console.tui.console.model import ChangeSource, ConsoleSnapshot, Kind, ParameterInfo, SetOutcome, Value
 from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.query import parse
-from bot_console.tui.format import command_of, field_text, harmless, parse_value, range_text, value_text
+from bot_console.tui.format import ARRAYS, command_of, field_text, harmless, parse_value, range_text
 from bot_console.tui.panes.pane import Pane
+from bot_console.tui.panes.parameters.details import details
 from bot_console.tui.panes.parameters.rows import Row, View, rows
+from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.widgets.prompt.common import file_line, filter_line
 from bot_console.tui.widgets.prompt.line import Prompt
-from bot_console.tui.widgets.prompt.question import Line
+from bot_console.tui.widgets.prompt.question import Elements, Line
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.words import Words
-from rich.segment import Segment
-from rich.style import Style
 from rich.text import Text
 from textual.app import ComposeResult
 
-BAR = 12
-NAMES = 24
-SHORT = 18
+LEAST = 3
+"""Lines of detail that every parameter has: what it is for, its facts, its command."""
 
-
-class ParameterRows(RowList):
-    """The rows of the tree."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.rows: list[Row] = []
-        self.refused: dict[tuple[str, str], SetOutcome] = {}
-
-    def row_count(self) -> int:
-        """How many rows there are."""
-        return len(self.rows)
-
-    @property
-    def current(self) -> Row | None:
-        """The row at the cursor."""
-        return self.rows[self.cursor] if self.rows and self.cursor < len(self.rows) else None
-
-    def row(self, index: int, width: int) -> list[Segment]:
-        """A node, a group or a parameter."""
-        row = self.rows[index]
-        if row.parameter is None:
-            return self._head(row)
-        return self._parameter(row, row.parameter, width)
-
-    def _style(self, name: str) -> Style:
-        return self.get_component_rich_style(f"row-list--{name}", partial=True)
-
-    def _head(self, row: Row) -> list[Segment]:
-        if row.name:
-            return [Segment(f"{'  ' * row.depth}{harmless(row.name)}.", self._style("dim"))]
-        arrow = "▸" if row.folded else "▾"
-        head = Segment(f"{arrow} {harmless(row.node)}", self._style("head"))
-        if row.problem:
-            return [head, Segment(f"  {harmless(row.problem)}", self._style("warn"))]
-        return [head, Segment(f"  {row.count}", self._style("dim"))]
-
-    def _parameter(self, row: Row, parameter: ParameterInfo, width: int) -> list[Segment]:
-        names = min(NAMES, max(12, width * 2 // 5))
-        indent = "  " * row.depth
-        mark = "•" if parameter.changed else " "
-        name = f"{indent}{harmless(row.name)}"[: names - 1].ljust(names)
-        refused = self.refused.get((parameter.node, parameter.name))
-        value = harmless(value_text(parameter.value)) + (f" {parameter.unit}" if parameter.unit else "")
-        segments = [Segment(f"{mark}{name}", self._style("strong" if parameter.changed else "plain"))]
-        if refused:
-            tried = harmless(value_text(refused.value))
-            segments.append(Segment(value + "  ", None))
-            segments.append(Segment(f"✗ {tried}: {harmless(refused.reason)}", self._style("error")))
-            return segments
-        room = max(8, width - names - BAR - 3)
-        segments.append(Segment(value[:room].ljust(room), self._style("dim") if parameter.read_only else None))
-        segments.append(Segment(bar(parameter) or ("read only" if parameter.read_only else ""), self._style("dim")))
-        return segments
-
-
-def bar(parameter: ParameterInfo) -> str:
-    """Where a number stands in its range."""
-    limits, value = parameter.range, parameter.value
-    if limits is None or isinstance(value, (bool, str, tuple)) or value is None or limits.high <= limits.low:
-        return ""
-    share = min(1.0, max(0.0, (value - limits.low) / (limits.high - limits.low)))
-    place = round(share * (BAR - 1))
-    return "─" * place + "●" + "─" * (BAR - 1 - place)
+SHARE = 3
+"""The detail takes at most this part of the pane's height."""
 
 
 class ParametersPane(Pane):
@@ -149,7 +86,9 @@ class ParametersPane(Pane):
         shown, old = self._list, self._list.rows
         at = shown.current
         new = rows(self._snapshot.parameters, self._view)
-        shown.rows = new
+        moved = shown.take(new)
+        if moved:
+            shown.refresh()
         if len(old) == len(new):
             for index, (before, after) in enumerate(zip(old, new, strict=True)):
                 if before != after:
@@ -175,57 +114,61 @@ class ParametersPane(Pane):
         self._describe()
 
     def _describe(self) -> None:
-        self.query_one("#parameter-detail", Words).say(self._details(self._list.current))
+        """Say what is known, in as many lines as it needs."""
+        words, text = self.query_one("#parameter-detail", Words), self._details(self._list.current)
+        most = max(LEAST, self.size.height // SHARE)
+        need = len(text.wrap(self.host.console, max(1, words.size.width))) if words.size.width else LEAST
+        height = min(max(need, LEAST), most) + 1  # one is the line above
+        if words.styles.height is None or words.styles.height.value != height:
+            words.styles.height = height
+        words.say(text)
 
     def _details(self, row: Row | None) -> Text:
         if row is None:
             if self._filter or self._view.only_changed:
                 return Text("Nothing matches. Press / to change the filter.", "dim")
             return Text(harmless(self._snapshot.problem) or "Waiting for nodes with parameters ...", "dim")
-        parameter = row.parameter
-        if parameter is None:
+        if row.parameter is None:
             return Text(harmless(row.problem or f"{row.node}  {row.count} parameters"), "dim")
-        text = Text(no_wrap=False, overflow="fold")
-        text.append(harmless(parameter.description) or "(no description)")
-        facts = [parameter.kind.word, range_text(parameter.range, parameter.kind), harmless(parameter.constraints)]
-        facts.append("read only" if parameter.read_only else "")
-        facts.append(f"default {harmless(value_text(parameter.default))}" if parameter.changed else "")
-        facts.append(harmless(parameter.origin))
-        text.append("\n" + " · ".join(each for each in facts if each), "dim")
-        refused = self._list.refused.get((parameter.node, parameter.name))
-        if refused:
-            who = {"descriptor": "by its descriptor", "callback": "by the node", "node": "", "console": "here"}
-            by = who.get(refused.refused_by, "")
-            text.append(f"\n✗ {harmless(value_text(refused.value))} refused {by}: {harmless(refused.reason)}", "bold")
-        text.append("\n" + harmless(command_of(parameter, parameter.value)), "dim italic")
-        return text
+        return details(row.parameter, self._list.refused.get((row.node, row.parameter.name)))
 
     def _at(self) -> ParameterInfo | None:
         row = self._list.current
         return row.parameter if row else None
 
     def action_edit(self) -> None:
-        """Edit a value, toggle a bool, open or close a node."""
+        """Edit a value, toggle a bool, list the elements of an array, open or close a node."""
         row = self._list.current
         if row is None:
             return
         parameter = row.parameter
         if parameter is None:
             self.action_fold(not row.folded)
-        elif parameter.kind is Kind.BOOL and isinstance(parameter.value, bool):
-            self._set(parameter, not parameter.value)
+        elif parameter.kind in ARRAYS:
+            values = parameter.value if isinstance(parameter.value, tuple) else ()
+            then = partial(self._set, parameter)
+            gone = partial(self._gone, parameter)
+            self.ask(Elements(_label(parameter), then, gone, values=values, kind=parameter.kind))
         else:
-            limits = range_text(parameter.range, parameter.kind)
-            label = f"{parameter.name} ({', '.join(each for each in (parameter.kind.word, limits) if each)})"
-            self.ask(
-                Line(
-                    label,
-                    partial(self._set_text, parameter),
-                    partial(self._gone, parameter),
-                    text=field_text(parameter.value),
-                    check=partial(_wrong, parameter),
-                )
+            self.action_edit_text()
+
+    def action_edit_text(self) -> None:
+        """Edit a value on one line; toggle a bool."""
+        parameter = self._at()
+        if parameter is None:
+            return
+        if parameter.kind is Kind.BOOL and isinstance(parameter.value, bool):
+            self._set(parameter, not parameter.value)
+            return
+        self.ask(
+            Line(
+                _label(parameter),
+                partial(self._set_text, parameter),
+                partial(self._gone, parameter),
+                text=field_text(parameter.value),
+                check=partial(_wrong, parameter),
             )
+        )
 
     def _gone(self, parameter: ParameterInfo) -> str:
         """Why a parameter cannot be set any more."""
@@ -253,6 +196,13 @@ class ParametersPane(Pane):
                 self._list.refused[key] = each
         self._list.refresh()
         self._describe()
+
+    def action_dismiss(self) -> None:
+        """Take the mark of a refusal away."""
+        row = self._list.current
+        if row is not None and self._list.refused.pop((row.node, row.parameter.name if row.parameter else ""), None):
+            self._list.row_changed(self._list.cursor)
+            self._describe()
 
     def action_nudge(self, steps: int) -> None:
         """Move a number by its step, or by a hundredth of its range."""
@@ -362,8 +312,14 @@ class ParametersPane(Pane):
         self.notify(answer.text, severity="information" if answer.ok else "error", markup=False)
 
     def on_resize(self) -> None:
-        """Fewer lines of detail where there is little room."""
-        self.set_class(self.size.height < SHORT, "short")
+        """The detail is wrapped anew."""
+        self.call_after_refresh(self._describe)
+
+
+def _label(parameter: ParameterInfo) -> str:
+    """Name, kind and range of what is asked for."""
+    facts = (parameter.kind.word, range_text(parameter.range, parameter.kind))
+    return f"{parameter.name} ({', '.join(each for each in facts if each)})"
 
 
 def _wrong(parameter: ParameterInfo, text: str) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
-from bot_console.tui.console.model import LaunchArgument
+from bot_console.tui.console.model import Kind, LaunchArgument, Value
 
 A = TypeVar("A")
 
@@ -92,6 +92,14 @@ class Form(Question[dict[str, str]]):
     """Values for the arguments of a launch file; those that differ from their defaults are the answer."""
 
     arguments: Sequence[LaunchArgument] = ()
+
+
+@dataclass(frozen=True)
+class Elements(Question[Value]):
+    """The elements of an array, to be changed one by one; the answer is the whole array."""
+
+    values: Sequence[bool | int | float | str | bytes] = ()
+    kind: Kind = Kind.STRING_ARRAY
 
 
 class Asker(Generic[A]):

@@ -1,0 +1,121 @@
+"""An array is changed element by element, and set as a whole when the person says so."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable
+from dataclasses import replace
+from types import MappingProxyType
+
+import pytest
+from bot_console.tui.console.model import Kind, ParameterInfo, Value
+from bot_console.tui.panes.parameters.pane import ParametersPane
+from bot_console.tui.panes.parameters.table import ParameterRows
+from bot_console.tui.screens.elements import ElementsScreen
+from fake_launcher import FakeLauncher
+from fakes import FakeConsole
+from piloting import Session, run
+from samples import live
+
+
+def with_array(kind: Kind, value: Value) -> tuple[FakeConsole, FakeLauncher]:
+    console, launcher = live()
+    trees = dict(console.current.parameters)
+    tree = trees["/robot_navigator"]
+    extra = ParameterInfo("/robot_navigator", "a_list", kind, value, default=value)
+    trees["/robot_navigator"] = replace(tree, parameters=(extra, *tree.parameters))
+    console.change(parameters=MappingProxyType(trees))
+    return console, launcher
+
+
+async def opened(session: Session) -> None:
+    await session.press("1")
+    rows = session.pane(ParametersPane).query_one(ParameterRows)
+    at = next(index for index, row in enumerate(rows.rows) if row.name == "a_list")
+    await session.press(*["down"] * (at - rows.cursor), "enter")
+    assert isinstance(session.app.screen, ElementsScreen)
+
+
+def sets(session: Session) -> list[Value]:
+    return [each[2]["a_list"] for each in session.console.asked if each[0] == "set"]
+
+
+def edited(kind: Kind, value: Value, play: Callable[[Session], Awaitable[None]]) -> list[Value]:
+    """The values that were set while the list of that array was open and keys were pressed."""
+    found: list[Value] = []
+
+    async def scene(session: Session) -> None:
+        await opened(session)
+        await play(session)
+        found.extend(sets(session))
+
+    run(with_array(kind, value), scene)
+    return found
+
+
+def test_elements_are_edited_inserted_deleted_moved_and_set_once() -> None:
+    async def play(session: Session) -> None:
+        await session.press("enter")
+        await session.type("9")
+        await session.press("enter", "a")  # 9 | new | 2 3
+        await session.type("7.5")
+        await session.press("enter", "down", "d", "J")  # 9 7.5 3, then 3 is the last: it stays
+        await session.press("K", "s")  # 9 3 7.5
+
+    assert edited(Kind.DOUBLE_ARRAY, (1.0, 2.0, 3.0), play) == [(9.0, 3.0, 7.5)]
+
+
+def test_a_text_with_a_comma_stays_one_element() -> None:
+    async def play(session: Session) -> None:
+        assert "b, d" in session.text()
+        await session.press("down", "i")
+        await session.type("x, y")
+        await session.press("enter", "s")
+
+    assert edited(Kind.STRING_ARRAY, ("a", "b, d"), play) == [("a", "x, y", "b, d")]
+
+
+def test_a_wrong_element_is_explained_and_not_taken() -> None:
+    async def play(session: Session) -> None:
+        await session.press("enter")
+        await session.type("x")
+        await session.press("enter")
+        assert "is no integer" in session.text()
+        await session.press("escape", "s")
+
+    assert edited(Kind.INTEGER_ARRAY, (1,), play) == []
+
+
+def test_bytes_and_an_empty_array() -> None:
+    async def play(session: Session) -> None:
+        assert "empty" in session.text()
+        await session.press("enter")
+        await session.type("255")
+        await session.press("enter")
+        assert "0xff" in session.text()
+        await session.press("s")
+
+    assert edited(Kind.BYTE_ARRAY, (), play) == [(b"\xff",)]
+
+
+@pytest.mark.parametrize("undone", [True, False])
+def test_changes_are_dropped_only_when_that_is_said_twice(undone: bool) -> None:
+    async def play(session: Session) -> None:
+        await session.press("d", *(["u"] if undone else []), "escape")
+        assert isinstance(session.app.screen, ElementsScreen) is not undone
+        if not undone:
+            assert "s sets it" in session.text()
+            await session.press("escape")
+        assert not isinstance(session.app.screen, ElementsScreen)
+
+    assert edited(Kind.BOOL_ARRAY, (True, False), play) == []
+
+
+def test_the_list_closes_when_the_node_leaves() -> None:
+    async def play(session: Session) -> None:
+        session.console.change(parameters=MappingProxyType({}))
+        session.app.pull()
+        await session.pilot.pause()
+        assert not isinstance(session.app.screen, ElementsScreen)
+        assert "has left" in session.text()
+
+    assert edited(Kind.BOOL_ARRAY, (True, False), play) == []

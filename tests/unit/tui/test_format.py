@@ -1,0 +1,17 @@
+"""Texts that are cut say so."""
+
+from __future__ import annotations
+
+from bot_console.tui.format import brief, cut
+
+
+def test_what_is_cut_ends_in_an_ellipsis() -> None:
+    assert [cut("distance", width) for width in (9, 8, 7, 1, 0)] == ["distance", "distance", "distan…", "…", ""]
+    assert cut("日本語", 4) == "日…" and cut("ab", 4, pad=True) == "ab  "
+
+
+def test_a_notification_is_a_few_lines() -> None:
+    assert brief("one\ntwo") == "one\ntwo"
+    many = brief("\n".join(f"parameter {each}" for each in range(399)))
+    assert many.splitlines()[-1] == "... and 394 lines more" and len(many.splitlines()) == 6
+    assert len(brief("x" * 10_000)) == 400

@@ -1,0 +1,23 @@
+"""The status line: what is worth the little room, the reason first."""
+
+from __future__ import annotations
+
+from types import MappingProxyType
+
+from bot_console.tui.console.model import ConsoleSnapshot, LaunchInfo, LogState, Severity
+from bot_console.tui.widgets.status_bar import reason_first, status_text
+
+
+def test_the_reason_of_a_launch_that_failed_comes_before_the_file() -> None:
+    problem = "/home/me/a/long/workspace/src/robot/launch/robot.launch.py, line 12: invalid syntax"
+    assert reason_first(problem) == "invalid syntax (robot.launch.py, line 12)"
+    assert reason_first("there is no package: robot") == "there is no package: robot"
+    assert status_text(ConsoleSnapshot(launch=LaunchInfo(problem=problem))).startswith("invalid syntax (robot")
+
+
+def test_only_errors_that_were_not_acknowledged_are_counted() -> None:
+    counts = {Severity.ERROR: 2, Severity.FATAL: 1, Severity.INFO: 9}
+    snapshot = ConsoleSnapshot(logs=LogState(counts=MappingProxyType(counts)))
+    assert "3 errors" in status_text(snapshot)
+    assert "1 new error" in status_text(snapshot, acknowledged=2) and "errors" not in status_text(snapshot, 0, 2)
+    assert "error" not in status_text(snapshot, acknowledged=3)

@@ -1,0 +1,69 @@
+"""How wide the columns of the parameter pane are: a name is whole before a value, a value before its description."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from bot_console.tui.format import harmless, value_text
+from bot_console.tui.panes.parameters.rows import Row
+from rich.cells import cell_len
+
+BAR = 12
+"""Cells of the slider."""
+
+GAP = 2
+VALUE = 8
+"""Cells that a value has at least."""
+
+DESCRIPTION = 20
+"""A description has at least these cells, or none."""
+
+
+@dataclass(frozen=True)
+class Measures:
+    """What the rows need, in cells: the longest name with its indentation, the longest number that has a slider."""
+
+    name: int = 0
+    number: int = VALUE
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Cells of each column behind the mark; 0: the column is left out."""
+
+    name: int
+    value: int
+    bar: int
+    description: int
+
+
+def measured(rows: Sequence[Row]) -> Measures:
+    """Measure the rows; numbers in steps of two cells, so that the columns stand while a value moves."""
+    name, number = 0, VALUE
+    for row in rows:
+        if row.parameter is None:
+            continue
+        name = max(name, len("  " * row.depth) + cell_len(harmless(row.name)))
+        if row.parameter.range is not None:
+            number = max(number, cell_len(shown_value(row)))
+    return Measures(name, -(-number // 2) * 2)
+
+
+def shown_value(row: Row) -> str:
+    """The value of a parameter with its unit."""
+    parameter = row.parameter
+    if parameter is None:
+        return ""
+    return harmless(value_text(parameter.value)) + (f" {parameter.unit}" if parameter.unit else "")
+
+
+def columns(need: Measures, width: int) -> Columns:
+    """Share a width (cells): the names take what the longest needs, and leave a value its place."""
+    room = width - 1
+    name = max(1, min(need.name, room - GAP - VALUE))
+    left = room - name - GAP
+    value = max(0, min(need.number, left))
+    bar = BAR if left - value >= GAP + BAR else 0
+    left -= value + GAP + BAR if bar else value
+    return Columns(name, value, bar, left - GAP if bar and left - GAP >= DESCRIPTION else 0)

@@ -1,0 +1,173 @@
+"""The elements of an array as a list: edited, inserted, deleted and moved with the keyboard, then set all at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import ClassVar, TypeAlias
+
+from bot_console.tui import keymap
+from bot_console.tui.console.model import Kind, Value
+from bot_console.tui.format import ARRAYS, counted, element_text, harmless, parse_element
+from bot_console.tui.screens.question import QuestionScreen
+from bot_console.tui.widgets.prompt.line import Prompt
+from bot_console.tui.widgets.prompt.question import Elements, Line
+from bot_console.tui.widgets.row_list import RowList
+from bot_console.tui.widgets.words import Words
+from rich.segment import Segment
+from rich.text import Text
+from textual.app import ComposeResult
+from textual.binding import BindingType
+from textual.containers import Vertical
+
+Element: TypeAlias = "bool | int | float | str | bytes"
+HINT = "enter edit · i insert · a add · d delete · J K move · u undo · s set"
+
+
+class ElementRows(RowList):
+    """One element a line, behind its index."""
+
+    def __init__(self, elements: Sequence[Element]) -> None:
+        super().__init__()
+        self.elements = list(elements)
+
+    def row_count(self) -> int:
+        """How many elements there are."""
+        return len(self.elements)
+
+    def row(self, index: int, width: int) -> list[Segment]:
+        """Index and value."""
+        digits = len(str(max(0, len(self.elements) - 1)))
+        dim = self.get_component_rich_style("row-list--dim", partial=True)
+        return [Segment(f" {index:>{digits}}  ", dim), Segment(harmless(element_text(self.elements[index])))]
+
+
+class ElementsScreen(QuestionScreen[Value]):
+    """Asks for the elements of an array; nothing is set before the person says so."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("elements")]
+    DEFAULT_CSS = """
+    ElementsScreen { align: center middle; }
+    ElementsScreen #elements { width: 90%; max-width: 90; height: 70%; background: $panel; border: round $primary;
+                               padding: 0 1; }
+    ElementsScreen RowList { background: $panel; }
+    ElementsScreen Words { background: $panel; padding: 0; }
+    """
+
+    def __init__(self, question: Elements) -> None:
+        super().__init__(question)
+        self._asked = question
+        self._before: list[list[Element]] = []
+        self._leaving = False
+
+    def compose(self) -> ComposeResult:
+        """The list, what is said about it, a field for one element."""
+        with Vertical(id="elements") as box:
+            box.border_title = Text(harmless(self._asked.label))
+            box.border_subtitle = HINT
+            yield ElementRows(self._asked.values)
+            yield Words(id="elements-state")
+            yield Prompt(id="elements-prompt")
+
+    @property
+    def _list(self) -> ElementRows:
+        return self.query_one(ElementRows)
+
+    def on_mount(self) -> None:
+        """The list takes the keys."""
+        self._list.focus()
+        self._tell()
+
+    def _tell(self, what: str = "") -> None:
+        count = len(self._list.elements)
+        state = counted(count, "element") if count else "empty: i inserts the first element"
+        changed = " · changed, s sets it" if self._changed else ""
+        self._leaving = False
+        self.query_one("#elements-state", Words).say(what or state + changed)
+
+    @property
+    def _changed(self) -> bool:
+        return tuple(self._list.elements) != tuple(self._asked.values)
+
+    def _ask(self, label: str, text: str, then: Callable[[Element], object]) -> None:
+        def answered(typed: str) -> None:
+            self._change()
+            then(parse_element(typed, self._asked.kind))
+            self._list.rows_changed()
+            self._tell()
+
+        self.query_one(Prompt).ask(Line(label, answered, text=text, check=partial(_wrong, self._asked.kind)))
+
+    def _change(self) -> None:
+        """Remember how the list was."""
+        self._before.append(list(self._list.elements))
+
+    def action_edit(self) -> None:
+        """Edit the element at the cursor; the first one where there is none."""
+        shown = self._list
+        if not shown.elements:
+            self.action_insert(0)
+            return
+        at = shown.cursor
+        self._ask(f"[{at}]", element_text(shown.elements[at]), partial(shown.elements.__setitem__, at))
+
+    def action_insert(self, behind: int) -> None:
+        """Ask for a new element, before or behind the one at the cursor."""
+        shown = self._list
+        at = min(shown.cursor + behind, len(shown.elements))
+
+        def put(element: Element) -> None:
+            shown.elements.insert(at, element)
+            shown.rows_changed()
+            shown.cursor = at
+
+        self._ask(f"new [{at}] ({ARRAYS[self._asked.kind].word})", "", put)
+
+    def action_delete(self) -> None:
+        """Delete the element at the cursor."""
+        shown = self._list
+        if shown.elements:
+            self._change()
+            del shown.elements[shown.cursor]
+            shown.rows_changed()
+            self._tell()
+
+    def action_move(self, step: int) -> None:
+        """Move the element at the cursor, and the cursor with it."""
+        shown, at = self._list, self._list.cursor
+        if 0 <= at + step < len(shown.elements):
+            self._change()
+            shown.elements.insert(at + step, shown.elements.pop(at))
+            shown.rows_changed()
+            shown.cursor = at + step
+            self._tell()
+
+    def action_undo(self) -> None:
+        """Take the last change of the list back."""
+        if self._before:
+            self._list.elements = self._before.pop()
+            self._list.rows_changed()
+            self._tell()
+
+    def action_take(self) -> None:
+        """Answer with the array as it is here."""
+        if self._changed:
+            self.answer(tuple(self._list.elements))
+        else:
+            self.give_up()
+
+    def action_leave(self) -> None:
+        """Give up; what was changed is dropped only when that is said twice."""
+        if not self._changed or self._leaving:
+            self.give_up()
+            return
+        self._tell("The array was changed: s sets it, esc again drops the changes.")
+        self._leaving = True
+
+
+def _wrong(kind: Kind, text: str) -> str:
+    try:
+        parse_element(text, kind)
+    except ValueError as error:
+        return str(error)
+    return ""
