@@ -2,6 +2,7 @@
 
 import sys
 
+from bot_console.runtime.terse import told
 from ros2cli.command_line import main
 
-sys.exit(main())
+sys.exit(told(main))

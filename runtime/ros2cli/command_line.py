@@ -9,6 +9,7 @@ import sys
 import traceback
 from collections.abc import Mapping, Sequence
 
+from bot_console.runtime.terse import place_fault
 from ros2cli.command import Command, Result, Verb
 
 COMMANDS: Mapping[str, tuple[str, str]] = {
@@ -40,6 +41,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     except Exception as error:  # a verb's border: upstream ends in this traceback, and a console goes on after it
         if type(error).__name__ == "ExternalShutdownException":  # SIGTERM; not imported, as not every verb needs rclpy
             return 128 + signal.SIGTERM
+        if fault := place_fault(error):
+            return _finish(fault)
         traceback.print_exc()
         return 1
 

@@ -41,7 +41,9 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def program() -> NoReturn:
     """The command as a process."""
-    end_program(main())
+    from bot_console.runtime.terse import told
+
+    end_program(told(main))
 
 
 def _run(words: Words) -> int:

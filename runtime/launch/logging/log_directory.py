@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import atexit
 import datetime
 import os
+import shutil
 import socket
+import sys
+import tempfile
 
 
 def get_logging_directory() -> str:
@@ -17,10 +21,27 @@ def get_logging_directory() -> str:
 
 
 def new_run_directory() -> str:
-    """A path for this run that no other run has; `latest` beside it leads to it."""
+    """A folder for this run that no other run has; `latest` beside it leads to it.
+
+    Where none can be made it is a temporary one, and a line on stderr says so.
+    """
+    base = get_logging_directory()
+    try:
+        return _made(base)
+    except OSError as error:
+        print(
+            f"[WARN] [launch]: log files are not kept: {base} cannot be written ({error.strerror}); "
+            "ROS_LOG_DIR names another folder",
+            file=sys.stderr,
+        )
+    path = tempfile.mkdtemp(prefix="ros-log-")
+    atexit.register(shutil.rmtree, path, ignore_errors=True)
+    return path
+
+
+def _made(base: str) -> str:
     moment = datetime.datetime.now().strftime("%Y-%m-%d-%H-%M-%S-%f")
     name = f"{moment}-{socket.gethostname()}-{os.getpid()}"
-    base = get_logging_directory()
     path = os.path.join(base, name)
     number = 1
     while os.path.exists(path):

@@ -70,6 +70,8 @@ def _arguments(parser: argparse.ArgumentParser) -> None:
 
 def _launch(arguments: argparse.Namespace) -> Result:
     words = list(arguments.launch_arguments)
+    if not arguments.package_name:
+        return "name a launch file, or a package and one of its launch files"
     try:
         if os.path.isfile(arguments.package_name):
             path = arguments.package_name

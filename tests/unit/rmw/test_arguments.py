@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from bot_console.runtime.rmw.arguments import ArgumentsError, parse
+from bot_console.runtime.rmw.parameter_scalars import scalar_value
 
 
 @pytest.mark.parametrize(
@@ -123,3 +124,8 @@ def test_where_logs_go(flags: str, stdout: bool, rosout: bool, external: bool) -
 def test_words_must_be_strings() -> None:
     with pytest.raises(TypeError):
         parse(["prog", 5])  # type: ignore[list-item]
+
+
+def test_an_integer_of_any_length_is_read() -> None:
+    assert scalar_value("9" * 5000) == "9" * 5000
+    assert scalar_value("9223372036854775807") == 2**63 - 1

@@ -1,0 +1,56 @@
+"""Faults of the place where a command runs, each as one line: a full disk, a folder that was deleted."""
+
+from __future__ import annotations
+
+import errno
+import os
+import sys
+from collections.abc import Callable
+
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG)
+
+
+def place_fault(error: BaseException) -> str:
+    """What to say of an error that names no file: of standard output, or of the working directory; else empty."""
+    if not isinstance(error, OSError) or error.filename is not None:
+        return ""
+    if error.errno in FULL:
+        return f"the output cannot be written: {error.strerror}"
+    if error.errno == errno.ENOENT and not _has_folder():
+        return "the folder you are in was deleted; go to another one (cd) and try again"
+    return ""
+
+
+def _has_folder() -> bool:
+    try:
+        os.getcwd()
+    except OSError:
+        return False
+    return True
+
+
+def told(run: Callable[[], int]) -> int:
+    """Run a command and flush what it has printed; a fault of its place is told on one line, with exit code 1."""
+    code = 0
+    try:
+        code = run()
+        sys.stdout.flush()
+        return code
+    except OSError as error:
+        text = place_fault(error)
+        if not text:
+            raise
+    if not code:  # else the command has told why
+        print(f"{os.path.basename(sys.argv[0])}: {text}", file=sys.stderr)
+    _give_up_output()
+    return code or 1
+
+
+def _give_up_output() -> None:
+    """What was not written is dropped, or it would fail once more at the end."""
+    try:
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, sys.stdout.fileno())
+        os.close(nowhere)
+    except (OSError, ValueError):  # a stream without a descriptor
+        return

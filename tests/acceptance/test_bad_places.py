@@ -1,0 +1,70 @@
+"""A command in a bad place says so on one line: a full disk, a deleted folder, a home that cannot be written."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+PATIENCE = 120.0
+"""Seconds (wall) until a command that hangs fails its test."""
+
+
+def command(words: list[str], folder: Path, **options: object) -> subprocess.CompletedProcess[str]:
+    program = [sys.executable, "-c", "from bot_console.tui.cli import program; program()", *words]
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), **options.pop("env", {})}
+    return subprocess.run(
+        program,
+        cwd=folder,
+        env=environment,
+        stderr=subprocess.PIPE,
+        text=True,
+        timeout=PATIENCE,
+        check=False,
+        **options,
+    )
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="a system without /dev/full")
+@pytest.mark.parametrize(
+    "words",
+    [["--version"], ["setup", "bash"], ["ros2", "pkg", "list"], ["ros2", "interface", "show", "std_msgs/msg/String"]],
+    ids=" ".join,
+)
+def test_a_full_disk_is_told_once(words: list[str], tmp_path: Path) -> None:
+    with open("/dev/full", "w") as full:
+        done = command(words, tmp_path, stdout=full)
+    assert done.returncode == 1
+    assert done.stderr.strip().splitlines()[-1].endswith("the output cannot be written: No space left on device")
+    assert len(done.stderr.strip().splitlines()) == 1, done.stderr
+
+
+@pytest.mark.parametrize("words", [["run", "x.py"], ["ros2", "pkg", "list"], ["launch", "x.launch.py"]], ids=" ".join)
+def test_a_folder_that_was_deleted_is_told(words: list[str], tmp_path: Path) -> None:
+    there = tmp_path / "gone"
+    there.mkdir()
+    program = "import os, sys; os.rmdir(os.getcwd()); from bot_console.tui.cli import program; program()"
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(each for each in sys.path if each)}
+    done = subprocess.run(
+        [sys.executable, "-c", program, *words], cwd=there, env=environment, capture_output=True, text=True,
+        timeout=PATIENCE, check=False,
+    )  # fmt: skip
+    assert done.returncode == 1 and "Traceback" not in done.stderr
+    assert done.stderr.strip().endswith("the folder you are in was deleted; go to another one (cd) and try again")
+
+
+def test_a_launch_goes_on_without_log_files_where_the_home_cannot_be_written(tmp_path: Path) -> None:
+    (tmp_path / "say.launch.py").write_text(
+        "from launch import LaunchDescription\nfrom launch.actions import LogInfo\n"
+        "def generate_launch_description():\n    return LaunchDescription([LogInfo(msg='here we are')])\n"
+    )
+    home = tmp_path / "file"
+    home.write_text("no folder")
+    extra = {"HOME": str(home), "ROS_LOG_DIR": "", "ROS_HOME": "", "TMPDIR": str(tmp_path)}
+    done = command(["launch", "say.launch.py"], tmp_path, env=extra, stdout=subprocess.PIPE)
+    said = done.stdout + done.stderr
+    assert done.returncode == 0 and "here we are" in said and "Traceback" not in said
+    assert f"log files are not kept: {home}/.ros/log cannot be written" in done.stderr
