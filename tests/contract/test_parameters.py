@@ -129,6 +129,16 @@ def test_a_change_made_elsewhere_is_seen_and_not_ours_to_undo(rig: Rig) -> None:
     assert not rig.console.snapshot().journal.can_undo
 
 
+def test_a_value_tells_who_has_set_it(rig: Rig) -> None:
+    assert parameter(rig, "speed").origin == "start value"
+    setting(rig, {"speed": 0.5})
+    shown(rig, "speed", 0.5)
+    assert parameter(rig, "speed").origin.startswith("set here at ")
+    rig.set_elsewhere("mode", "brave")
+    shown(rig, "mode", "brave")
+    assert parameter(rig, "mode").origin.startswith("set by another program or the node at ")
+
+
 def test_the_journal_is_read_from_a_number_on(rig: Rig) -> None:
     for value in (1, 2, 4):
         setting(rig, {"count": value})

@@ -26,6 +26,7 @@ from bot_console.tui.console.model import (
 )
 from bot_console.tui.console.parameters.file import save
 from bot_console.tui.console.parameters.journal import Journal, Move, Step
+from bot_console.tui.console.parameters.origin import origin_text
 from bot_console.tui.console.parameters.profiles import differences
 from bot_console.tui.console.protocol import Answer, LogView, Samples
 from bot_console.tui.console.values import refusal
@@ -145,7 +146,10 @@ class FakeConsole:
         taken = {each.name: each.value for each in outcomes if each.accepted}
         if taken:
             tree = self.current.parameters[node]
-            parameters = tuple(replace(each, value=taken.get(each.name, each.value)) for each in tree.parameters)
+            parameters = tuple(
+                replace(each, value=taken[each.name], origin=origin_text(source, START)) if each.name in taken else each
+                for each in tree.parameters
+            )
             self.change(
                 parameters=MappingProxyType({**self.current.parameters, node: replace(tree, parameters=parameters)})
             )

@@ -110,7 +110,7 @@ class FakeRig:
 
     def __init__(self, folder: Path) -> None:
         def parameter(name: str, value: Value, kind: Kind, description: str = "", **more: Any) -> ParameterInfo:
-            return ParameterInfo(ROBOT, name, kind, value, description, default=value, **more)
+            return ParameterInfo(ROBOT, name, kind, value, description, default=value, origin="start value", **more)
 
         parameters = (
             parameter("speed", 1.0, Kind.DOUBLE, DESCRIPTION, range=Range(0.0, 2.0)),

@@ -94,9 +94,9 @@ class ConsoleNode:
         self.world.follow(graph)
         self.drive.follow(graph)
 
-    def _parameter_changed(self, node: str, name: str, old: Value, new: Value) -> None:
+    def _parameter_changed(self, node: str, name: str, old: Value, new: Value) -> ChangeSource:
         self.plots.parameter_is(node, name, new)
-        self.setter.announced(node, name, old, new)
+        return self.setter.announced(node, name, old, new)
 
     def _on_log(self, message: Log) -> None:
         stamp = message.stamp.sec * 1_000_000_000 + message.stamp.nanosec

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from bot_console.tui.console.model import Kind, ParameterInfo, Range, Value
+from bot_console.tui.console.parameters.origin import START
 from rcl_interfaces.msg import Parameter, ParameterDescriptor, ParameterValue
 
 STEP_TOLERANCE = 1e-6
@@ -88,7 +89,7 @@ def info(
         range=_range(descriptor.floating_point_range) or _range(descriptor.integer_range),
         constraints=descriptor.additional_constraints,
         default=first.default if first else now,
-        origin=first.origin if first else "",
+        origin=first.origin if first else START,
     )
 
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
 
 from bot_console.tui.console.calls import Calls, NoAnswer
-from bot_console.tui.console.model import GraphInfo, Kind, ParameterInfo, ParameterTree, Value
+from bot_console.tui.console.model import ChangeSource, GraphInfo, Kind, ParameterInfo, ParameterTree, Value
+from bot_console.tui.console.parameters.origin import origin_text
 from bot_console.tui.console.values import from_message, info
 from rcl_interfaces.msg import Parameter, ParameterEvent, ParameterValue
 from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters
@@ -17,14 +19,14 @@ from rclpy.qos import qos_profile_parameter_events
 RELIST = 5.0
 """Seconds between looks for parameters that were undeclared, which no event tells."""
 
-Changed = Callable[[str, str, Value, Value], None]
+Changed = Callable[[str, str, Value, Value], ChangeSource]
 
 
 class ParameterMirror:
     """The parameters of each node that offers the parameter services.
 
     `changed(node, name, old, new)` is called for each value that an event tells, equal ones too, but never for a
-    first sight.
+    first sight; it gives back who has made the change.
     """
 
     def __init__(self, node: Node, calls: Calls, changed: Changed) -> None:
@@ -146,6 +148,6 @@ class ParameterMirror:
         value = from_message(message.value)
         kind = Kind(message.value.type) if message.value.type else before.kind
         # An equal value is announced too, and whoever asked for it waits for word of it.
-        self._changed(before.node, before.name, before.value, value)
+        source = self._changed(before.node, before.name, before.value, value)
         same = value == before.value and kind is before.kind
-        return before if same else replace(before, value=value, kind=kind)
+        return before if same else replace(before, value=value, kind=kind, origin=origin_text(source, time.time_ns()))

@@ -31,8 +31,8 @@ class ParameterSetter:
         """The profile that was applied last and not undone."""
         self._expected: deque[tuple[str, str, Value, ChangeSource]] = deque(maxlen=EXPECTED)
 
-    def announced(self, node: str, name: str, old: Value, new: Value) -> None:
-        """A parameter event came: ours when it was expected, else a change made elsewhere."""
+    def announced(self, node: str, name: str, old: Value, new: Value) -> ChangeSource:
+        """A parameter event came: ours when it was expected, else a change made elsewhere; who has made it."""
         source = ChangeSource.OTHER
         for each in self._expected:
             if each[:2] == (node, name) and each[2] == new:
@@ -41,6 +41,7 @@ class ParameterSetter:
                 break
         if old != new or source is not ChangeSource.OTHER:
             self._journal.record(time.time_ns(), node, name, (old, new), source)
+        return source
 
     async def set(
         self, node: str, values: Mapping[str, Value], source: ChangeSource, *, atomically: bool = False

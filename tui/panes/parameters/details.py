@@ -19,7 +19,7 @@ def details(parameter: ParameterInfo, refused: SetOutcome | None) -> Text:
     text.append(harmless(parameter.description) or "(no description)")
     facts = [parameter.kind.word, range_text(parameter.range, parameter.kind), harmless(parameter.constraints)]
     facts.append("read only" if parameter.read_only else "")
-    facts.append(f"default {harmless(value_text(parameter.default))}" if parameter.changed else "")
+    facts.append(f"start value {harmless(value_text(parameter.default))}" if parameter.changed else "")
     facts.append(harmless(parameter.origin))
     text.append("\n" + " · ".join(each for each in facts if each), "dim")
     text.append("\n" + harmless(command_of(parameter, parameter.value)), "dim italic")

@@ -36,7 +36,8 @@ class ParametersPane(Pane):
     TITLE = "Parameters"
     HELP = (
         "Every node's parameters, live. Enter edits; + and - move a number by its step or a hundredth of its range.\n"
-        "A refused value snaps back; the row says who refused it and why. A dot marks what differs from its default."
+        "A refused value snaps back; the row says who refused it and why. A dot marks what differs from its start\n"
+        "value: the one that it had when the console first saw it."
     )
     BINDINGS = keymap.bindings("parameters")
 
