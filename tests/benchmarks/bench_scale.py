@@ -6,7 +6,9 @@ Processor time, the least of some runs; each curve's last entry over its first i
 from __future__ import annotations
 
 import json
+import math
 import sys
+import threading
 import time
 from collections.abc import Callable
 from typing import Any
@@ -16,13 +18,16 @@ from bot_console.runtime.importer import install
 install()
 
 import rclpy
+from bot_console.tui.console.connection import RosConsole
+from bot_console.tui.console.graph.watch import GraphWatch
 from rcl_interfaces.msg import ParameterEvent
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
 from sensor_msgs.msg import LaserScan
+from std_msgs.msg import Float64
 
 RUNS = 5
-MICRO = 1e6
+MILLI, MICRO = 1e3, 1e6
 
 
 def least(action: Callable[[], Any], count: int) -> float:
@@ -76,6 +81,71 @@ def fan_out(count: int) -> float:
     return cost * MICRO
 
 
+class Watched:
+    """So many nodes of two publishers, two subscriptions and the services of every node, and the console's look."""
+
+    def __init__(self, count: int) -> None:
+        self.nodes = [rclpy.create_node(f"node{number}") for number in range(count)]
+        for number, node in enumerate(self.nodes):
+            for each in (number, (number + 1) % count):
+                node.create_publisher(Float64, f"topic{each}", 10)
+                node.create_subscription(Float64, f"topic{each}", lambda message: None, 10)
+        self.console = rclpy.create_node("_console")
+        self.watch = GraphWatch(self.console, lambda graph: None)
+
+    def end(self) -> None:
+        """Let nothing reach the next curve."""
+        for node in (*self.nodes, self.console):
+            node.destroy_node()
+
+
+def first_look(count: int) -> float:
+    """Milliseconds of the console's first look at a graph."""
+    watched = Watched(count)
+    cost = least(lambda: GraphWatch(watched.console, lambda graph: None).look(), 1)
+    watched.end()
+    return cost * MILLI
+
+
+def look_after_change(count: int) -> float:
+    """Milliseconds of a look after one publisher came or went."""
+    watched, costs = Watched(count), []
+    watched.watch.look()
+    for number in range(2 * RUNS):
+        publisher = watched.nodes[0].create_publisher(Float64, f"new{number}", 10)
+        start = time.process_time()
+        watched.watch.look()
+        costs.append(time.process_time() - start)
+        watched.nodes[0].destroy_publisher(publisher)
+    watched.end()
+    return min(costs) * MILLI
+
+
+def parameters_read(count: int) -> float:
+    """Seconds of processor time until a console that has just come has read 20 parameters of each node, theirs too."""
+    executor = SingleThreadedExecutor()
+    nodes = [rclpy.create_node(f"node{number}") for number in range(count)]
+    for node in nodes:
+        node.declare_parameters("", [(f"p{number}", float(number)) for number in range(20)])
+        executor.add_node(node)
+    threading.Thread(target=executor.spin, daemon=True).start()
+    console = RosConsole()
+    start = time.process_time()
+    console.start()
+
+    def complete() -> bool:
+        trees = console.snapshot().parameters.values()
+        return len(trees) >= count and not any(each.problem for each in trees)
+
+    deadline = time.monotonic() + 120
+    while not complete() and time.monotonic() < deadline:
+        time.sleep(0.05)
+    cost = time.process_time() - start if complete() else math.nan
+    console.close()
+    end(executor, nodes)
+    return cost
+
+
 def end(executor: Any, nodes: list[Any]) -> None:
     """Let nothing of a curve reach the next one."""
     executor.shutdown()
@@ -86,6 +156,9 @@ def end(executor: Any, nodes: list[Any]) -> None:
 CURVES: dict[str, tuple[Callable[[int], float], tuple[int, ...]]] = {
     "set_parameters_atomically_us_each": (set_atomically, (10, 100, 1_000, 10_000)),
     "laserscan_fan_out_us_each": (fan_out, (1, 10, 50, 200)),
+    "first_look_ms": (first_look, (10, 50, 200, 500)),
+    "parameters_read_s": (parameters_read, (10, 100, 500)),
+    "look_after_change_ms": (look_after_change, (10, 50, 200, 500)),
 }
 
 

@@ -47,6 +47,7 @@ class Session:
             profile_folders=[ROOT / "profiles"],
             active_profile="" if options.launch else options.profile,
             run_line=run_line,
+            graph_events=graph_events,
         )
         self.launcher = RosLauncher(
             self.console.record, self.console.printed, launch_files, self._spawn, find_vitals, self.console.heard
@@ -138,6 +139,13 @@ def run(options: Options) -> int:
     install()
     choose(options.workspace)
     return Session(options).run()
+
+
+def graph_events(domain: int, changed: Callable[[], None]) -> Callable[[], None]:
+    """Call back after each change of the graph of a domain; returns what ends that."""
+    from bot_console.runtime.rmw.middleware import bus_of
+
+    return bus_of(domain).on_graph_change(changed)
 
 
 def run_line(line: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import itertools
 import threading
 from collections.abc import Callable, Coroutine
 from concurrent.futures import Future
@@ -15,7 +16,11 @@ from rclpy.task import Future as RosFuture
 
 T = TypeVar("T")
 PATIENCE = 5.0
-"""Seconds to wait for an answer; a slow link answers late, a hung node never."""
+"""Seconds to wait for an answer from when it is asked for; a slow link answers late, a hung node never."""
+
+LOOKS = 5
+"""How often the clock is looked at meanwhile. Each look counts once, however late it comes: while this program itself
+got no processor, nobody's answer could be taken, and none is overdue."""
 
 
 class NoAnswer(Exception):
@@ -103,7 +108,13 @@ class Calls:
         if not client.service_is_ready():
             raise NoAnswer(f"no service {service} is offered; has its node ended?")
         answer: RosFuture[Any] = client.call_async(request)
-        timer = self._node.create_timer(patience, lambda: self._give_up(answer, client, service, patience))
+        looks = itertools.count(1)
+
+        def look() -> None:
+            if next(looks) >= LOOKS:
+                self._give_up(answer, client, service, patience)
+
+        timer = self._node.create_timer(patience / LOOKS, look)
         try:
             return await answer
         finally:

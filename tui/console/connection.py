@@ -32,6 +32,7 @@ from bot_console.tui.console.model import (
 from bot_console.tui.console.protocol import Answer, LogFindings, LogView, Samples
 
 if TYPE_CHECKING:
+    from bot_console.tui.console.graph.watch import GraphEvents
     from bot_console.tui.console.logs.store import LogStore
     from bot_console.tui.console.logs.view import LogViews
     from bot_console.tui.console.node import ConsoleNode
@@ -72,6 +73,7 @@ class RosConsole:
         active_profile: str = "",
         capabilities: Capabilities | None = None,
         run_line: Callable[[str], str] | None = None,
+        graph_events: GraphEvents | None = None,
     ) -> None:
         self._launch_info = launch_info
         self._profile_folders = profile_folders
@@ -79,6 +81,7 @@ class RosConsole:
         self._active_profile = active_profile
         self._capabilities = capabilities or Capabilities()
         self._run_line = run_line
+        self._graph_events = graph_events
         self._node: ConsoleNode | None = None
         self._logs: LogStore | None = None
         self._views: LogViews | None = None
@@ -101,7 +104,7 @@ class RosConsole:
 
             self._logs = LogStore()
             self._views = LogViews(self._logs)
-            self._node = ConsoleNode(self._logs.add)
+            self._node = ConsoleNode(self._logs.add, self._graph_events)
             self._node.setter.profile = self._active_profile
             self._profiles = find(self._profile_folders)
             self._ready.set()

@@ -12,7 +12,7 @@ from typing import Any
 import rclpy
 from bot_console.tui.console.calls import Calls, NoAnswer
 from bot_console.tui.console.drive_link import DriveLink
-from bot_console.tui.console.graph.watch import GraphWatch
+from bot_console.tui.console.graph.watch import GraphEvents, GraphWatch
 from bot_console.tui.console.launch.output import Add
 from bot_console.tui.console.model import (
     ChangeSource,
@@ -50,7 +50,7 @@ ROSOUT = QoSProfile(
 class ConsoleNode:
     """Watches a ROS system and acts on it for the panes; its methods may be called from any thread."""
 
-    def __init__(self, log: Add) -> None:
+    def __init__(self, log: Add, graph_events: GraphEvents | None = None) -> None:
         self.context = Context()
         rclpy.init(args=[], context=self.context)
         self.node = rclpy.create_node(
@@ -73,7 +73,7 @@ class ConsoleNode:
         self.parameters = ParameterMirror(self.node, self.calls, self._parameter_changed)
         self._compared: tuple[Profile | None, object, int] = (None, None, 0)
         self.setter = ParameterSetter(self.calls, self.parameters, self.journal)
-        self.graph = GraphWatch(self.node, self._graph_changed)
+        self.graph = GraphWatch(self.node, self._graph_changed, graph_events)
         self.node.create_subscription(Log, "/rosout", self._on_log, ROSOUT)
 
     def spin(self) -> None:
@@ -84,6 +84,7 @@ class ConsoleNode:
 
     def close(self, why: str) -> None:
         """End `spin` and leave the graph; what is or will be asked is answered with the reason."""
+        self.graph.close()
         self.calls.close(why)
         self.executor.shutdown(timeout_sec=1.0)
         self.node.destroy_node()

@@ -2,29 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw import names
 from bot_console.runtime.rmw.bus import Bus
-from bot_console.runtime.rmw.endpoints import ClientEndpoint, Endpoint, NodeId, ServiceEndpoint
+from bot_console.runtime.rmw.endpoints import Endpoint
 from rclpy._rclpy_pybind11 import NodeNameNonExistentError, RCLError
+from rclpy.impl.graph_index import Entities, NamesAndTypes, Owner, Tables, collect, tables_of
 from rclpy.impl.topic_names import expand_name, remapped
 
 if TYPE_CHECKING:
     from rclpy.type_hash import TypeHash
 
-Served = ServiceEndpoint | ClientEndpoint
-NamesAndTypes = list[tuple[str, list[str]]]
 NANO = 1_000_000_000
-
-
-def _collect(pairs: Iterable[tuple[str, str]]) -> NamesAndTypes:
-    found: dict[str, set[str]] = {}
-    for name, kind in pairs:
-        found.setdefault(name, set()).add(kind)
-    return [(name, sorted(kinds)) for name, kinds in sorted(found.items())]
 
 
 class NodeGraph:
@@ -35,13 +26,15 @@ class NodeGraph:
     def get_topic_names_and_types(self, no_demangle: bool = False) -> NamesAndTypes:
         """All topics with their types, by name."""
         self._ros_use()
-        endpoints = [*self._ros_bus.publishers(), *self._ros_bus.subscriptions()]
-        return _collect((each.topic, each.type_name) for each in endpoints)
+        tables = self._ros_tables()
+        rows = (*tables.publishers.named.values(), *tables.subscriptions.named.values())
+        return collect((each.topic, each.type_name) for row in rows for each in row)
 
     def get_service_names_and_types(self) -> NamesAndTypes:
         """All services with their types, by name."""
         self._ros_use()
-        return _collect((each.name, each.type_name) for each in self._ros_bus.servers())
+        rows = self._ros_tables().servers.named.values()
+        return collect((each.name, each.type_name) for row in rows for each in row)
 
     def get_node_names(self) -> list[str]:
         """The names of all nodes, without namespaces."""
@@ -66,73 +59,68 @@ class NodeGraph:
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
         """What a node publishes; raises `NodeNameNonExistentError`."""
-        return self._ros_endpoints_of("publisher", self._ros_bus.publishers(), node_name, node_namespace)
+        return self._ros_tables().publishers.of(self._ros_who("publisher", node_name, node_namespace))
 
     def get_subscriber_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
         """What a node subscribes to; raises `NodeNameNonExistentError`."""
-        return self._ros_endpoints_of("subscriber", self._ros_bus.subscriptions(), node_name, node_namespace)
+        return self._ros_tables().subscriptions.of(self._ros_who("subscriber", node_name, node_namespace))
 
     def get_service_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
         """What services a node offers; raises `NodeNameNonExistentError`."""
-        return self._ros_services_of("service", self._ros_bus.servers(), node_name, node_namespace)
+        return self._ros_tables().servers.of(self._ros_who("service", node_name, node_namespace))
 
     def get_client_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
         """What services a node asks; raises `NodeNameNonExistentError`."""
-        return self._ros_services_of("client", self._ros_bus.clients(), node_name, node_namespace)
+        return self._ros_tables().clients.of(self._ros_who("client", node_name, node_namespace))
 
-    def _ros_who(self, what: str, name: str, namespace: str) -> set[NodeId]:
+    def _ros_tables(self) -> Tables:
+        return tables_of(self._ros_bus)
+
+    def _ros_who(self, what: str, name: str, namespace: str) -> Owner:
+        """Whom a question is about; raises `RCLError` for what can be no node, and `NodeNameNonExistentError`."""
         self._ros_use()
-        namespace = namespace or "/"
+        owner = name, namespace or "/"
+        if owner in self._ros_tables().nodes:
+            return owner
         for argument, problem in (
-            ("node_name", names.validate_node_name(name)),
-            ("node_namespace", names.validate_namespace(namespace)),
+            ("node_name", names.validate_node_name(owner[0])),
+            ("node_namespace", names.validate_namespace(owner[1])),
         ):
             if problem:
                 raise RCLError(f"failed to get {what} names and types: {argument} argument is invalid: {problem[0]}")
-        found = {each for each in self._ros_bus.nodes() if each.name == name and each.namespace == namespace}
-        if not found:
-            raise NodeNameNonExistentError(f"cannot get {what} names and types for nonexistent node: error not set")
-        return found
-
-    def _ros_endpoints_of(self, what: str, endpoints: Sequence[Endpoint], name: str, namespace: str) -> NamesAndTypes:
-        who = self._ros_who(what, name, namespace)
-        return _collect((each.topic, each.type_name) for each in endpoints if each.node in who)
-
-    def _ros_services_of(self, what: str, services: Sequence[Served], name: str, namespace: str) -> NamesAndTypes:
-        who = self._ros_who(what, name, namespace)
-        return _collect((each.name, each.type_name) for each in services if each.node in who)
+        raise NodeNameNonExistentError(f"cannot get {what} names and types for nonexistent node: error not set")
 
     def count_publishers(self, topic_name: str) -> int:
         """How many publishers a topic has; the name is expanded but not remapped."""
         name = expand_name(self, topic_name)
-        return sum(each.topic == name for each in self._ros_bus.publishers())
+        return len(self._ros_tables().publishers.on(name))
 
     def count_subscribers(self, topic_name: str) -> int:
         """How many subscriptions a topic has; the name is expanded but not remapped."""
         name = expand_name(self, topic_name)
-        return sum(each.topic == name for each in self._ros_bus.subscriptions())
+        return len(self._ros_tables().subscriptions.on(name))
 
     def count_clients(self, service_name: str) -> int:
         """How many clients a service has; the name is expanded but not remapped."""
         name = expand_name(self, service_name, service=True)
-        return sum(each.name == name for each in self._ros_bus.clients())
+        return len(self._ros_tables().clients.on(name))
 
     def count_services(self, service_name: str) -> int:
         """How many servers a service has; the name is expanded but not remapped."""
         name = expand_name(self, service_name, service=True)
-        return sum(each.name == name for each in self._ros_bus.servers())
+        return len(self._ros_tables().servers.on(name))
 
     def get_publishers_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[Any]:
         """The publishers of a topic; the name is remapped."""
-        return self._ros_infos(self._ros_bus.publishers(), topic_name, no_mangle, publisher=True)
+        return self._ros_infos(self._ros_tables().publishers, topic_name, no_mangle, publisher=True)
 
     def get_subscriptions_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[Any]:
         """The subscriptions of a topic; the name is remapped."""
-        return self._ros_infos(self._ros_bus.subscriptions(), topic_name, no_mangle, publisher=False)
+        return self._ros_infos(self._ros_tables().subscriptions, topic_name, no_mangle, publisher=False)
 
-    def _ros_infos(self, endpoints: Sequence[Endpoint], topic: str, no_mangle: bool, *, publisher: bool) -> list[Any]:
+    def _ros_infos(self, endpoints: Entities[Endpoint], topic: str, no_mangle: bool, *, publisher: bool) -> list[Any]:
         from rclpy.impl.qos_in_effect import in_effect
         from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 
@@ -148,8 +136,7 @@ class NodeGraph:
                 endpoint_gid=list(each.gid),
                 qos_profile=in_effect(each.qos),
             )
-            for each in endpoints
-            if each.topic == name
+            for each in endpoints.on(name)
         ]
 
     def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections import deque
+from collections.abc import Callable, Coroutine, Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
+from typing import Any
 
 from bot_console.tui.console.calls import Calls, NoAnswer
-from bot_console.tui.console.model import ChangeSource, GraphInfo, Kind, ParameterInfo, ParameterTree, Value
+from bot_console.tui.console.model import ChangeSource, GraphInfo, Kind, NodeInfo, ParameterInfo, ParameterTree, Value
 from bot_console.tui.console.parameters.origin import origin_text
 from bot_console.tui.console.values import from_message, info
 from rcl_interfaces.msg import Parameter, ParameterEvent, ParameterValue
@@ -18,6 +20,12 @@ from rclpy.qos import qos_profile_parameter_events
 
 RELIST = 5.0
 """Seconds between looks for parameters that were undeclared, which no event tells."""
+
+Reading = Callable[[str], Coroutine[Any, Any, None]]
+"""Asks a node for something."""
+
+WINDOW = 16
+"""Nodes that are read at the same time. Asked all at once, the nodes of a busy machine would all answer too late."""
 
 Changed = Callable[[str, str, Value, Value], ChangeSource]
 
@@ -33,7 +41,10 @@ class ParameterMirror:
         self.trees: Mapping[str, ParameterTree] = MappingProxyType({})
         self._calls = calls
         self._changed = changed
+        self._offering: set[str] = set()
         self._loading: set[str] = set()
+        self._waiting: deque[tuple[Reading, str]] = deque()
+        self._reading = 0
         node.create_subscription(ParameterEvent, "/parameter_events", self._on_event, qos_profile_parameter_events)
         node.create_timer(RELIST, self._look_again)
 
@@ -44,11 +55,7 @@ class ParameterMirror:
 
     def follow(self, graph: GraphInfo) -> None:
         """Take in nodes that have come and forget nodes that have left."""
-        offering = {
-            node.name
-            for node in graph.nodes
-            if any(each.name == f"{node.name}/list_parameters" for each in node.services)
-        }
+        self._offering = offering = {node.name for node in graph.nodes if _offers(node, f"{node.name}/list_parameters")}
         gone = [name for name in self.trees if name not in offering]
         if gone:
             self._publish({name: tree for name, tree in self.trees.items() if name in offering})
@@ -61,21 +68,40 @@ class ParameterMirror:
         self.trees = MappingProxyType(dict(sorted(trees.items())))
 
     def _load(self, node: str) -> None:
+        self._queue(self._read, node)
+
+    def _queue(self, reading: Reading, node: str) -> None:
+        """Ask a node as soon as there is room in the window, unless it is being asked."""
         if node not in self._loading:
             self._loading.add(node)
-            self._calls.run(self._read(node))
+            self._waiting.append((reading, node))
+            self._fill_window()
+
+    def _fill_window(self) -> None:
+        while self._waiting and self._reading < WINDOW:
+            self._reading += 1
+            self._calls.run(self._in_window(*self._waiting.popleft()))
+
+    async def _in_window(self, reading: Reading, node: str) -> None:
+        try:
+            if node in self._offering:  # else it has left while it waited
+                await reading(node)
+        finally:
+            self._loading.discard(node)
+            self._reading -= 1
+            self._fill_window()
 
     async def _read(self, node: str) -> None:
         try:
             listed = await self._calls.ask(ListParameters, f"{node}/list_parameters", ListParameters.Request())
             names = list(listed.result.names)
             found = await self._describe(node, names)
-            self._publish({**self.trees, node: ParameterTree(node, tuple(found))})
+            tree = ParameterTree(node, tuple(found))
         except NoAnswer as error:
             old = self.trees.get(node)
-            self._publish({**self.trees, node: ParameterTree(node, old.parameters if old else (), str(error))})
-        finally:
-            self._loading.discard(node)
+            tree = ParameterTree(node, old.parameters if old else (), str(error))
+        if node in self._offering:  # else it has left meanwhile
+            self._publish({**self.trees, node: tree})
 
     async def _describe(self, node: str, names: Sequence[str]) -> list[ParameterInfo]:
         if not names:
@@ -101,10 +127,10 @@ class ParameterMirror:
         return values
 
     def _look_again(self) -> None:
+        if self._waiting:
+            return  # who has not been read yet comes first
         for node in self.trees:
-            if node not in self._loading:
-                self._loading.add(node)
-                self._calls.run(self._relist(node))
+            self._queue(self._relist, node)
 
     async def _relist(self, node: str) -> None:
         """Read a node again when its list of names has changed, or when it could not be read before."""
@@ -120,10 +146,8 @@ class ParameterMirror:
             stale = False
             if node in self.trees and not self.trees[node].problem:
                 self._publish({**self.trees, node: replace(self.trees[node], problem=str(error))})
-        finally:
-            self._loading.discard(node)
         if stale and node in self.trees:
-            self._load(node)
+            await self._read(node)
 
     def _on_event(self, event: ParameterEvent) -> None:
         tree = self.trees.get(event.node)
@@ -151,3 +175,7 @@ class ParameterMirror:
         source = self._changed(before.node, before.name, before.value, value)
         same = value == before.value and kind is before.kind
         return before if same else replace(before, value=value, kind=kind, origin=origin_text(source, time.time_ns()))
+
+
+def _offers(node: NodeInfo, service: str) -> bool:
+    return any(each.name == service for each in node.services)

@@ -1,0 +1,113 @@
+"""The console's look at the graph: only after an event, each topic asked about once, nothing described twice."""
+
+import itertools
+
+import pytest
+import rclpy
+from bot_console.tui.console.graph.watch import GraphWatch
+from rclpy.context import Context
+from std_msgs.msg import Float64
+
+_domains = itertools.count(8600)
+
+
+class Events:
+    """Stands in for a system that tells of changes of its graph."""
+
+    def __init__(self):
+        self.changed, self.ended = None, False
+
+    def __call__(self, domain, changed):
+        self.domain, self.changed = domain, changed
+        return self.end
+
+    def end(self):
+        self.ended = True
+
+
+@pytest.fixture
+def context():
+    made = Context()
+    rclpy.init(args=[], context=made, domain_id=next(_domains))
+    yield made
+    made.shutdown()
+
+
+@pytest.fixture
+def node(context):
+    made = rclpy.create_node("_watcher", context=context)
+    yield made
+    made.destroy_node()
+
+
+def test_it_looks_only_after_an_event(context, node):
+    events, looks = Events(), []
+    watch = GraphWatch(node, lambda graph: None, events)
+    assert events.domain == context.get_domain_id()
+    watch.look = lambda looking=watch.look: looks.append(1) or looking()
+    for _ in range(3):
+        watch._tick()
+    assert len(looks) == 1  # the first
+    events.changed()
+    watch._tick()
+    watch._tick()
+    assert len(looks) == 2
+    watch.close()
+    assert events.ended
+
+
+def test_without_events_it_looks_at_every_tick(node):
+    watch, looks = GraphWatch(node, lambda graph: None), []
+    watch.look = lambda: looks.append(1)
+    for _ in range(3):
+        watch._tick()
+    assert len(looks) == 3
+
+
+def test_only_what_changed_is_described_again(context, node):
+    others = [rclpy.create_node(f"n{number}", context=context) for number in range(3)]
+    seen = []
+    watch = GraphWatch(node, seen.append)
+    watch.look()
+    watch.look()
+    assert len(seen) == 1
+    publisher = others[1].create_publisher(Float64, "speed", 7)
+    watch.look()
+    before, after = ({each.name: each for each in graph.nodes} for graph in seen)
+    assert [name for name in after if after[name] is not before[name]] == ["/n1"]
+    assert [(each.name, each.qos) for each in after["/n1"].publishers if each not in before["/n1"].publishers] == [
+        ("/speed", "reliable volatile 7")
+    ]
+    assert seen[1].services is seen[0].services
+    others[1].destroy_publisher(publisher)
+    others[2].destroy_node()
+    watch.look()
+    assert [each.name for each in seen[2].nodes] == ["/_watcher", "/n0", "/n1"]
+    assert "/speed" not in {each.name for each in seen[2].topics}
+
+
+def test_each_topic_is_asked_about_once(context, node):
+    others = [rclpy.create_node(f"n{number}", context=context) for number in range(8)]
+    asked, ask = [], node.get_publishers_info_by_topic
+    node.get_publishers_info_by_topic = lambda topic: asked.append(topic) or ask(topic)
+    watch = GraphWatch(node, lambda graph: None)
+    watch.look()
+    assert sorted(asked) == ["/parameter_events", "/rosout"]
+    del asked[:]
+    others[0].create_publisher(Float64, "speed", 7)
+    watch.look()
+    assert asked == ["/speed"]
+
+
+def test_events_of_the_runtime_lead_to_a_look(context, node):
+    from bot_console.tui.cli.session import graph_events
+
+    watch = GraphWatch(node, lambda graph: None, graph_events)
+    watch.look()
+    other = rclpy.create_node("late", context=context)
+    watch._tick()
+    assert "/late" in {each.name for each in watch.info.nodes}
+    other.destroy_node()
+    watch._tick()
+    assert "/late" not in {each.name for each in watch.info.nodes}
+    watch.close()

@@ -1,0 +1,44 @@
+"""How long the console waits for an answer."""
+
+import pytest
+from bot_console.tui.console.calls import LOOKS, PATIENCE, Calls, NoAnswer
+from rclpy.task import Future
+from std_srvs.srv import Trigger
+
+
+class StubNode:
+    """A node whose client never gets an answer, and whose timer fires when the test says so."""
+
+    def __init__(self):
+        self.answer = Future()
+
+    def create_client(self, kind, service):
+        return self
+
+    def service_is_ready(self):
+        return True
+
+    def call_async(self, request):
+        return self.answer
+
+    def remove_pending_request(self, answer):
+        pass
+
+    def create_timer(self, period, fire):
+        self.period, self.fire = period, fire
+
+    def destroy_timer(self, timer):
+        pass
+
+
+def test_time_in_which_the_console_itself_stood_still_takes_no_patience():
+    node = StubNode()
+    asking = Calls(node, None).ask(Trigger, "/wait", Trigger.Request())
+    asking.send(None)
+    assert node.period * LOOKS == PATIENCE
+    for _ in range(LOOKS - 1):
+        node.fire()  # each may come as late as it likes
+        assert not node.answer.done()
+    node.fire()
+    with pytest.raises(NoAnswer, match=r"/wait did not answer within 5 s"):
+        asking.send(None)
