@@ -7,6 +7,7 @@ import re
 import unicodedata
 from shlex import quote
 
+from bot_console.tui.console.kinds import ARRAYS
 from bot_console.tui.console.model import ConsoleSnapshot, Kind, ParameterInfo, Range, Severity, Value
 from bot_console.tui.yaml_flow import in_quotes, is_plain, items, quoted, unquoted
 from rich.cells import cell_len, set_cell_size
@@ -161,16 +162,6 @@ def guess(text: str) -> bool | int | float | str:
         except ValueError:
             continue
     return {"true": True, "false": False}.get(text.lower(), text)
-
-
-ARRAYS = {
-    Kind.BYTE_ARRAY: Kind.INTEGER,
-    Kind.BOOL_ARRAY: Kind.BOOL,
-    Kind.INTEGER_ARRAY: Kind.INTEGER,
-    Kind.DOUBLE_ARRAY: Kind.DOUBLE,
-    Kind.STRING_ARRAY: Kind.STRING,
-}
-"""The kind of the elements of each kind of array, as they are written."""
 
 
 def element_text(value: bool | int | float | str | bytes) -> str:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from bot_console.tui.console.kinds import ARRAYS, TYPES, field_of
 from bot_console.tui.console.model import Kind, ParameterInfo, Range, Value
 from bot_console.tui.console.parameters.origin import START
 from rcl_interfaces.msg import Parameter, ParameterDescriptor, ParameterValue
@@ -13,39 +14,14 @@ from rcl_interfaces.msg import Parameter, ParameterDescriptor, ParameterValue
 STEP_TOLERANCE = 1e-6
 """How far a double may lie from a step, relative to it: that of rclpy's `Node.PARAM_REL_TOL`."""
 
-FIELDS = {
-    Kind.BOOL: "bool_value",
-    Kind.INTEGER: "integer_value",
-    Kind.DOUBLE: "double_value",
-    Kind.STRING: "string_value",
-    Kind.BYTE_ARRAY: "byte_array_value",
-    Kind.BOOL_ARRAY: "bool_array_value",
-    Kind.INTEGER_ARRAY: "integer_array_value",
-    Kind.DOUBLE_ARRAY: "double_array_value",
-    Kind.STRING_ARRAY: "string_array_value",
-}
-SCALARS: tuple[tuple[type, Kind], ...] = (
-    (bool, Kind.BOOL),
-    (int, Kind.INTEGER),
-    (float, Kind.DOUBLE),
-    (str, Kind.STRING),
-)
-ARRAYS: tuple[tuple[type, Kind], ...] = (
-    (bool, Kind.BOOL_ARRAY),
-    (int, Kind.INTEGER_ARRAY),
-    (float, Kind.DOUBLE_ARRAY),
-    (str, Kind.STRING_ARRAY),
-    (bytes, Kind.BYTE_ARRAY),
-)
-
 
 def from_message(message: ParameterValue) -> Value:
     """The value that a `rcl_interfaces/msg/ParameterValue` holds."""
-    kind = Kind(message.type) if message.type in FIELDS else Kind.NOT_SET
+    kind = Kind(message.type) if message.type in TYPES else Kind.NOT_SET
     if kind is Kind.NOT_SET:
         return None
-    value: Any = getattr(message, FIELDS[kind])
-    return tuple(value) if kind >= Kind.BYTE_ARRAY else value
+    value: Any = getattr(message, field_of(kind))
+    return tuple(value) if kind in ARRAYS else value
 
 
 def kind_of(value: Value, declared: Kind = Kind.NOT_SET) -> Kind:
@@ -54,12 +30,12 @@ def kind_of(value: Value, declared: Kind = Kind.NOT_SET) -> Kind:
         return Kind.NOT_SET
     if isinstance(value, tuple):
         if not value:
-            return declared if declared >= Kind.BYTE_ARRAY else Kind.STRING_ARRAY
-        for kind_type, kind in ARRAYS:
-            if all(type(each) is kind_type for each in value):
+            return declared if declared in ARRAYS else Kind.STRING_ARRAY
+        for kind in ARRAYS:
+            if all(type(each) is TYPES[kind].python for each in value):
                 return kind
         raise ValueError(f"the elements of {list(value)!r} are not of one type")
-    return next(kind for kind_type, kind in SCALARS if isinstance(value, kind_type))
+    return next(kind for kind, row in TYPES.items() if row.element is None and isinstance(value, row.python))
 
 
 def to_message(name: str, value: Value, declared: Kind = Kind.NOT_SET) -> Parameter:
@@ -69,7 +45,7 @@ def to_message(name: str, value: Value, declared: Kind = Kind.NOT_SET) -> Parame
     if kind is Kind.INTEGER and not -(2**63) <= int(value) < 2**63:  # type: ignore[arg-type]
         raise ValueError(f"{value} does not fit into 64 bits")
     if kind is not Kind.NOT_SET:
-        setattr(message, FIELDS[kind], list(value) if isinstance(value, tuple) else value)
+        setattr(message, field_of(kind), list(value) if isinstance(value, tuple) else value)
     return Parameter(name=name, value=message)
 
 
@@ -81,7 +57,7 @@ def info(
     return ParameterInfo(
         node=node,
         name=descriptor.name,
-        kind=Kind(value.type) if value.type else Kind(descriptor.type if descriptor.type in FIELDS else 0),
+        kind=Kind(value.type) if value.type else Kind(descriptor.type if descriptor.type in TYPES else 0),
         value=now,
         description=descriptor.description,
         read_only=descriptor.read_only,

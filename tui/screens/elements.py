@@ -7,8 +7,9 @@ from functools import partial
 from typing import ClassVar, TypeAlias
 
 from bot_console.tui import keymap
+from bot_console.tui.console.kinds import ARRAYS
 from bot_console.tui.console.model import Kind, Value
-from bot_console.tui.format import ARRAYS, counted, element_text, harmless, parse_element
+from bot_console.tui.format import counted, element_text, harmless, parse_element
 from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Elements, Line

@@ -7,10 +7,11 @@ from dataclasses import replace
 from functools import partial
 
 from bot_console.tui import keymap
+from bot_console.tui.console.kinds import ARRAYS
 from bot_console.tui.console.model import ChangeSource, ConsoleSnapshot, Kind, ParameterInfo, SetOutcome, Value
 from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.query import parse
-from bot_console.tui.format import ARRAYS, command_of, field_text, harmless, parse_value, range_text
+from bot_console.tui.format import command_of, field_text, harmless, parse_value, range_text
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.parameters.details import details
 from bot_console.tui.panes.parameters.rows import Row, View, rows

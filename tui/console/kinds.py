@@ -1,0 +1,39 @@
+"""The one table of parameter types: what each is in Python, and what the elements of an array are written as."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from bot_console.tui.console.model import Kind
+
+
+@dataclass(frozen=True)
+class Type:
+    """A parameter type other than NOT_SET."""
+
+    python: type
+    """Of a value, or of each element of an array."""
+
+    element: Kind | None = None
+    """How a person writes an element; None for what is no array."""
+
+
+TYPES = {
+    Kind.BOOL: Type(bool),
+    Kind.INTEGER: Type(int),
+    Kind.DOUBLE: Type(float),
+    Kind.STRING: Type(str),
+    Kind.BYTE_ARRAY: Type(bytes, Kind.INTEGER),
+    Kind.BOOL_ARRAY: Type(bool, Kind.BOOL),
+    Kind.INTEGER_ARRAY: Type(int, Kind.INTEGER),
+    Kind.DOUBLE_ARRAY: Type(float, Kind.DOUBLE),
+    Kind.STRING_ARRAY: Type(str, Kind.STRING),
+}
+
+ARRAYS = {kind: row.element for kind, row in TYPES.items() if row.element is not None}
+"""The kind of the elements of each kind of array, as they are written."""
+
+
+def field_of(kind: Kind) -> str:
+    """The field of `rcl_interfaces/msg/ParameterValue` that holds a value of that kind."""
+    return f"{kind.name.lower()}_value"
