@@ -1,10 +1,14 @@
 """A process that is frozen, or does not take what it has subscribed to, holds up nobody else."""
 
+import os
 import signal
 import time
 
 import pytest
-from helpers.two_processes import two_processes
+from bot_console.runtime.process import on_notice
+from bot_console.runtime.rmw.zenoh.session import open_session
+from bot_console.runtime.rmw.zenoh.whole_graph import WholeGraph
+from helpers.two_processes import DOMAIN, two_processes
 from rclpy.node import Node
 from rclpy.qos import HistoryPolicy, QoSProfile
 from sensor_msgs.msg import LaserScan
@@ -22,6 +26,7 @@ def here(tmp_path_factory):
         system.publisher = system.node.create_publisher(LaserScan, "/scan", EVERYTHING)
         system.until(lambda: system.publisher.get_subscription_count() == 2)
         frozen.send_signal(signal.SIGSTOP)
+        system.frozen, system.folder = frozen.pid, os.environ["BOT_CONSOLE_SOCKET_DIR"]
         yield system
 
 
@@ -51,3 +56,17 @@ def test_a_service_of_another_process_answers(here):
     client = here.node.create_client(Trigger, "/pull")
     here.until(client.service_is_ready)
     assert here.result(client.call_async(Trigger.Request())).success
+
+
+def test_who_joins_later_is_told_which_process_is_frozen_and_sees_the_others(here, monkeypatch):
+    monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", here.folder)
+    said = []
+    forget = on_notice(lambda process, text: said.append(text))
+    session = open_session(DOMAIN)
+    here.until(lambda: len(session.linked()) == 2)
+    graph = WholeGraph(session, lambda: None)
+    forget()
+    session.close()
+    assert sorted(each.name for each in graph.nodes()) == ["here", "peer"]
+    (text,) = said
+    assert f"process {here.frozen} is stopped" in text

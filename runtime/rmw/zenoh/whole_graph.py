@@ -5,6 +5,8 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Sequence
 
+from bot_console.runtime.process import current
+from bot_console.runtime.process.notices import notify
 from bot_console.runtime.rmw.endpoints import ClientEndpoint, Endpoint, NodeId, ServiceEndpoint
 from bot_console.runtime.rmw.zenoh.attachment import gid_of
 from bot_console.runtime.rmw.zenoh.attendance import await_answers
@@ -27,6 +29,9 @@ class WholeGraph:
         self._rows: dict[Kind, dict[str, Row]] = {"NN": {}, "MP": {}, "MS": {}, "SS": {}, "SC": {}}
         self.silent = await_answers(session, PATIENCE)
         """The sockets of the processes that did not answer in time: what they have may be missing."""
+        for each in self.silent:
+            if each.is_stopped():
+                notify(current(), f"process {each.pid} is stopped, so its nodes are not seen: `kill -CONT {each.pid}`")
         key, answered = all_tokens(session.domain), threading.Event()
         self._seen = SeenTokens(session, key)
         self._seen.listen(self._saw)
