@@ -27,14 +27,21 @@ RUNTIME = os.path.dirname(os.path.realpath(__file__))
 GENERATED = os.path.join(RUNTIME, "rosidl", "generated")
 PACKAGES = (
     "ament_index_python",
+    "cv_bridge",
     "launch",
     "launch_ros",
     "launch_xml",
     "launch_yaml",
+    "message_filters",
     "rclpy",
     "ros2cli",
     "rosidl_parser",
     "rosidl_runtime_py",
+    "sensor_msgs_py",
+    "tf2_geometry_msgs",
+    "tf2_py",
+    "tf2_ros",
+    "tf_transformations",
 )
 ALIAS = "bot_console.runtime."
 OWN_PACKAGE = "bot_console_robot"

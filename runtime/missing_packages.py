@@ -1,42 +1,63 @@
-"""What to say when a program imports a ROS 2 package that is not there."""
+"""What to say when a program imports a ROS 2 package that is not there: what brings it, or why nothing does."""
 
 from __future__ import annotations
 
-LIBRARIES = frozenset(
-    {
-        "cv_bridge",
-        "diagnostic_updater",
-        "image_geometry",
-        "laser_geometry",
-        "message_filters",
-        "nav2_simple_commander",
-        "rosbag2_py",
-        "rqt_gui_py",
-        "sensor_msgs_py",
-        "tf2_geometry_msgs",
-        "tf2_py",
-        "tf2_ros",
-        "tf_transformations",
-    }
+PIP = "{0} is an ordinary Python package: pip install {1}"
+CPP = (
+    "{0} is a library of ROS 2 around C++ ({1}); bot-console does not bring it. Run this program where ROS 2 is "
+    "installed."
 )
-"""Python libraries beside rclpy that programs import."""
-INTERFACES = ("_actions", "_interfaces", "_msg", "_msgs", "_srvs")
-"""How the names of packages with interfaces usually end."""
-NO_LIBRARY = (
-    "{0} is a ROS 2 library of its own; bot-console brings rclpy, launch and the common messages only. Where {0} is "
-    "installed as an ordinary Python package it can be imported, else this program needs a ROS 2 installation."
+WINDOWS = "{0} makes windows of Qt, and bot-console has none. Its pane does the same: {1}."
+SOURCE = (
+    "{0} is a Python library of ROS 2 that bot-console does not bring. Put its sources into the workspace, or run this "
+    "program where ROS 2 is installed."
 )
 NO_INTERFACES = (
     "bot-console does not bring the interfaces of {0}. Put the sources of that package (package.xml with msg/, srv/ or "
     "action/) into the workspace; they are imported from there, and nothing has to be built."
 )
+INTERFACES = ("_actions", "_interfaces", "_msg", "_msgs", "_srvs")
+"""How the names of packages with interfaces usually end."""
+
+KNOWN: dict[str, tuple[str, str]] = {
+    "cv2": (PIP, "'bot-console[opencv]' (or opencv-python-headless)"),
+    "moveit": (CPP, "the planners of MoveIt"),
+    "moveit_py": (CPP, "the planners of MoveIt"),
+    "open3d": (PIP, "open3d"),
+    "pygame": (PIP, "pygame"),
+    "rosbag2_py": (CPP, "the storage of rosbag2; the Python package rosbags reads and writes the same files"),
+    "rqt_gui_py": (WINDOWS, "bot-console, keys 1 to 9"),
+    "scipy": (PIP, "scipy"),
+    "serial": (PIP, "pyserial"),
+    "tf2_kdl": (CPP, "the types of KDL"),
+    "transforms3d": (PIP, "transforms3d"),
+    "ultralytics": (PIP, "ultralytics"),
+    "xacro": (PIP, "xacro"),
+} | {
+    name: (SOURCE, "")
+    for name in (
+        "diagnostic_updater",
+        "image_geometry",
+        "image_transport_py",
+        "laser_geometry",
+        "launch_pytest",
+        "launch_testing",
+        "launch_testing_ros",
+        "nav2_common",
+        "nav2_simple_commander",
+        "tf2_sensor_msgs",
+        "urdf_parser_py",
+    )
+}
+"""What brings a package, by the name that programs import."""
 
 
 def explain_missing_package(exception: BaseException) -> str | None:
-    """Why a ROS 2 package cannot be imported, and what to do; None for every other exception."""
+    """Why a package cannot be imported, and what to do; None for every other exception."""
     if not isinstance(exception, ModuleNotFoundError) or exception.name is None:
         return None
     package = exception.name.partition(".")[0]
-    if package in LIBRARIES:
-        return NO_LIBRARY.format(package)
+    if package in KNOWN:
+        text, what = KNOWN[package]
+        return text.format(package, what)
     return NO_INTERFACES.format(package) if package.endswith(INTERFACES) else None

@@ -13,6 +13,10 @@ class Condition:
         self._predicate = predicate
         self.__last: bool | None = None
 
+    def describe(self) -> str:
+        """A short text for people."""
+        return repr(self)
+
     def evaluate(self, context: Any) -> bool:
         """Whether it holds now."""
         self.__last = self._predicate(context) if self._predicate is not None else True

@@ -215,8 +215,11 @@ class LaunchService:
         self.__context._set_is_shutdown(True)
         self.__context.emit_event_sync(Shutdown(reason=reason, due_to_sigint=due_to_sigint))
 
-    def shutdown(self, force_sync: bool = False) -> None:
-        """End what runs, from any thread; before it runs, it ends as soon as it does."""
+    def shutdown(self, force_sync: bool = False) -> asyncio.Future[None] | None:
+        """End what runs, from any thread; before it runs, it ends as soon as it does.
+
+        Within a coroutine, and unless `force_sync`, there is something to await; the request is made either way.
+        """
         reason = "LaunchService.shutdown() called"
         with self.__guard:
             loop = self.__loop
@@ -224,9 +227,20 @@ class LaunchService:
                 self.__stop_wanted = reason
             elif loop is not _running_loop():
                 loop.call_soon_threadsafe(lambda: self._shutdown(reason=reason, due_to_sigint=False))
-                return
+                loop = None
         if loop is not None:
             self._shutdown(reason=reason, due_to_sigint=False)
+        return None if force_sync else _done()
+
+
+def _done() -> asyncio.Future[None] | None:
+    """Something to await that is there already; None outside coroutines."""
+    loop = _running_loop()
+    if loop is None:
+        return None
+    future = loop.create_future()
+    future.set_result(None)
+    return future
 
 
 def _running_loop() -> asyncio.AbstractEventLoop | None:

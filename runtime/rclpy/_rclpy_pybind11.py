@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import builtins
+from enum import IntEnum
 
 
 class RCLError(RuntimeError):
@@ -35,3 +36,24 @@ class InvalidHandle(RuntimeError):
 
 class RMWError(RuntimeError):
     """The middleware refused a call, or got bytes that are no message."""
+
+
+class rmw_qos_policy_kind_t(IntEnum):  # noqa: N801
+    """The policies of events, with the middleware's names; the values are those of `rclpy.qos.QoSPolicyKind`."""
+
+    RMW_QOS_POLICY_INVALID = 1 << 0
+    RMW_QOS_POLICY_DURABILITY = 1 << 1
+    RMW_QOS_POLICY_DEADLINE = 1 << 2
+    RMW_QOS_POLICY_LIVELINESS = 1 << 3
+    RMW_QOS_POLICY_RELIABILITY = 1 << 4
+    RMW_QOS_POLICY_HISTORY = 1 << 5
+    RMW_QOS_POLICY_LIFESPAN = 1 << 6
+    RMW_QOS_POLICY_DEPTH = 1 << 7
+    RMW_QOS_POLICY_LIVELINESS_LEASE_DURATION = 1 << 8
+    RMW_QOS_POLICY_AVOID_ROS_NAMESPACE_CONVENTIONS = 1 << 9
+
+    def __str__(self) -> str:
+        return f"{type(self).__name__}.{self.name}"
+
+    def __format__(self, format_spec: str) -> str:
+        return format(str(self), format_spec)

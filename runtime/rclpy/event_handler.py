@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from rclpy._rclpy_pybind11 import UnsupportedEventTypeError
+from rclpy._rclpy_pybind11 import UnsupportedEventTypeError, rmw_qos_policy_kind_t
 from rclpy.impl.event_handlers import (
     EventHandler,
     IncompatibleHandler,
@@ -51,6 +51,9 @@ class QoSIncompatibleInfo:
     total_count: int = 0
     total_count_change: int = 0
     last_policy_kind: int = QoSPolicyKind.INVALID
+
+    def __post_init__(self) -> None:
+        self.last_policy_kind = rmw_qos_policy_kind_t(int(self.last_policy_kind))
 
 
 @dataclass

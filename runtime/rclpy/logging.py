@@ -22,7 +22,9 @@ _REGISTERED_TWICE = (
 
 
 def get_logger(name: str) -> RcutilsLogger:
-    """A logger of that name; raises `ValueError` for an empty one where a child is asked for."""
+    """A logger of that name; raises `ValueError` for an empty one."""
+    if not name:
+        raise ValueError("Logger name must not be empty.")
     return RcutilsLogger(name)
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from bot_console.runtime.process import current
 from rclpy.impl.reexports import reexporting
 from rclpy.parameter import Parameter, parameter_dict_from_yaml_file
-from rclpy.qos import QoSProfile, qos_profile_services_default
+from rclpy.qos import QoSProfile, qos_profile_parameter_events, qos_profile_services_default
 from rclpy.task import Future
 
 if TYPE_CHECKING:
@@ -129,6 +129,30 @@ class AsyncParameterClient:
         """Set all parameters of a file or none; raises what `load_parameter_file` raises."""
         parameters = parameter_dict_from_yaml_file(parameter_file, use_wildcard)
         return self.set_parameters_atomically(list(parameters.values()), callback)
+
+    def on_parameter_event(
+        self,
+        callback: Callable[..., None],
+        qos_profile: QoSProfile = qos_profile_parameter_events,
+        *,
+        callback_group: Any = None,
+        event_callbacks: Any = None,
+        qos_overriding_options: Any = None,
+        raw: bool = False,
+    ) -> Any:
+        """Subscribe to the parameter events of all nodes; returns the subscription."""
+        from rcl_interfaces.msg import ParameterEvent
+
+        return self.node.create_subscription(
+            ParameterEvent,
+            "/parameter_events",
+            callback,
+            qos_profile,
+            callback_group=callback_group,
+            event_callbacks=event_callbacks,
+            qos_overriding_options=qos_overriding_options,
+            raw=raw,
+        )
 
 
 def _messages(parameters: Sequence[Any]) -> list[Any]:

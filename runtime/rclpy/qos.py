@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from enum import Enum
 from typing import Any
 
@@ -22,6 +23,10 @@ QoSDurabilityPolicy = DurabilityPolicy
 QoSLivelinessPolicy = LivelinessPolicy
 
 DEFAULT_DEPTH = 10
+NO_DEPTH = (
+    "A zero depth with KEEP_LAST doesn't make sense; no data could be stored. "
+    "This will be interpreted as SYSTEM_DEFAULT"
+)
 BEST_AVAILABLE_NS = 9223372036854775806
 """The duration that rmw reserves for "best available"."""
 
@@ -89,6 +94,8 @@ class QoSProfile:
     @depth.setter
     def depth(self, value: int) -> None:
         assert isinstance(value, int)
+        if value == 0 and self._history == HistoryPolicy.KEEP_LAST:
+            warnings.warn(NO_DEPTH, UserWarning, stacklevel=3)
         self._depth = value
 
     @property

@@ -18,6 +18,9 @@ from rclpy.qos import (
 )
 from rclpy.subscription import Subscription
 
+QosCallbackType = Callable[[QoSProfile], Any]
+"""Says by a `QosCallbackResult` whether a profile with its overrides is valid."""
+
 _ENUMS: dict[QoSPolicyKind, Any] = {
     QoSPolicyKind.LIVELINESS: LivelinessPolicy,
     QoSPolicyKind.RELIABILITY: ReliabilityPolicy,
@@ -38,7 +41,7 @@ class QoSOverridingOptions:
         self,
         policy_kinds: Iterable[QoSPolicyKind],
         *,
-        callback: Callable[[QoSProfile], bool] | None = None,
+        callback: QosCallbackType | None = None,
         entity_id: str | None = None,
     ) -> None:
         self._policy_kinds = policy_kinds
@@ -51,7 +54,7 @@ class QoSOverridingOptions:
         return self._policy_kinds
 
     @property
-    def callback(self) -> Callable[[QoSProfile], bool] | None:
+    def callback(self) -> QosCallbackType | None:
         """What says whether the profile with its overrides is valid."""
         return self._callback
 
@@ -62,7 +65,7 @@ class QoSOverridingOptions:
 
     @classmethod
     def with_default_policies(
-        cls, *, callback: Callable[[QoSProfile], bool] | None = None, entity_id: str | None = None
+        cls, *, callback: QosCallbackType | None = None, entity_id: str | None = None
     ) -> QoSOverridingOptions:
         """Options for history, depth and reliability."""
         kinds = (QoSPolicyKind.HISTORY, QoSPolicyKind.DEPTH, QoSPolicyKind.RELIABILITY)
@@ -98,8 +101,17 @@ def _declare_qos_parameters(
         except ParameterAlreadyDeclaredException:
             parameter = node.get_parameter(name)
         setattr(qos, word, _policy_value(policy, parameter.value))
-    if options.callback is not None and not options.callback(qos):
-        raise InvalidQosOverridesError(f"Provided QoS overrides {about}, are not valid")
+    if options.callback is not None:
+        _refuse_where_told(options.callback(qos), about)
+
+
+def _refuse_where_told(answer: Any, about: str) -> None:
+    """Raise where a callback's answer, a `QosCallbackResult` or as in older releases a bool, is no."""
+    if isinstance(answer, bool):
+        if not answer:
+            raise InvalidQosOverridesError(f"Provided QoS overrides {about}, are not valid")
+    elif not answer.successful:
+        raise InvalidQosOverridesError(f"Provided QoS overrides {about}, are not valid: {answer.reason}")
 
 
 def _parameter_value(qos: QoSProfile, policy: QoSPolicyKind) -> Any:
@@ -121,3 +133,12 @@ def _policy_value(policy: QoSPolicyKind, value: Any) -> Any:
         return _ENUMS[policy][value.upper()]
     except KeyError:
         raise RuntimeError(f"Unexpected QoS override for policy `{policy.name.lower()}`: `{value}`") from None
+
+
+def __getattr__(name: str) -> Any:
+    """`QosCallbackResult`, which is a message, and is loaded when it is asked for."""
+    if name == "QosCallbackResult":
+        from rcl_interfaces.msg import SetParametersResult
+
+        return SetParametersResult
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

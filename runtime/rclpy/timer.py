@@ -130,8 +130,8 @@ class Timer(Entity):
         self._last = now
         period = self._period
         due = self._next + period
-        if due < now:
-            due = now if period == 0 else due + -((due - now) // period) * period
+        if due <= now:
+            due = now if period == 0 else due + ((now - due) // period + 1) * period
         self._next = due
         self.arm()
         result = self._callback() if self._callback is not None else None

@@ -29,12 +29,15 @@ def get_default_context(*, shutting_down: bool = False) -> Any:
 
 
 def remove_ros_args(args: Sequence[str] | None = None) -> list[str]:
-    """The words that are not for ROS, the program's name included; raises `RCLError` for bad rules."""
+    """The words that are not for ROS, the program's name included.
+
+    Raises `RCLInvalidROSArgsError` for bad rules, `UnknownROSArgsError` for words that ROS does not know.
+    """
     import sys
 
-    from rclpy.impl.command_line import parse_words
+    from rclpy.impl.command_line import parse_local
 
-    return parse_words(sys.argv if args is None else args).unparsed
+    return parse_local(sys.argv if args is None else args).unparsed
 
 
 def ok(*, context: Any = None) -> bool:

@@ -39,7 +39,7 @@ _PATTERNS = (
     (Lexeme.NODE, r"__(?:node|name)(?![A-Za-z0-9_])"),
     (Lexeme.NS, r"__ns(?![A-Za-z0-9_])"),
     (Lexeme.BACK_REFERENCE, r"\\[1-9]"),
-    (Lexeme.TOKEN, r"[A-Za-z_][A-Za-z0-9_]*"),
+    (Lexeme.TOKEN, r"(?!__)[A-Za-z_][A-Za-z0-9_]*"),
     (Lexeme.FORWARD_SLASH, r"/"),
     (Lexeme.WILD_MULTI, r"\*\*"),
     (Lexeme.WILD_ONE, r"\*"),

@@ -74,7 +74,7 @@ def _many(part: Part, names: dict[str, Any]) -> Iterator[str]:
 
 def write_text(value: str, out: bytearray) -> None:
     """A string: its length in bytes with the closing zero, then these."""
-    data = value.encode()
+    data = value.partition("\0")[0].encode()
     out += COUNT[len(out) & 7].pack(len(data) + 1)
     out += data
     out.append(0)
@@ -82,7 +82,7 @@ def write_text(value: str, out: bytearray) -> None:
 
 def write_wide(value: str, out: bytearray) -> None:
     """A wide string: its number of UTF-16 units, then each in four bytes, as ROS 2's middlewares agree."""
-    units = array("H", value.encode("utf-16-le"))
+    units = array("H", value.partition("\0")[0].encode("utf-16-le"))
     if sys.byteorder == "big":
         units.byteswap()
     out += COUNT[len(out) & 7].pack(len(units))

@@ -64,13 +64,13 @@ def to_bool(message: Any, field: str) -> bool:
 
 
 def to_str(message: Any, field: str, limit: int = 0) -> str:
-    """A string of at most `limit` characters (0: any length)."""
+    """A string of at most `limit` characters (0: any length), cut at a NUL, which ends a string on the wire."""
     value = getattr(message, "_" + field)
     if not isinstance(value, str):
         raise _refuse(message, field, "a string", value)
     if limit and len(value) > limit:
         raise _refuse(message, field, f"a string of at most {limit} characters", value)
-    return str(value)
+    return str(value.partition("\0")[0])
 
 
 def to_octet(message: Any, field: str) -> bytes:
@@ -134,7 +134,7 @@ def to_list(message: Any, field: str, kind: type, size: int, bound: int, limit: 
         if not isinstance(value, kind) or (limit and len(value) > limit) or (kind is bytes and len(value) != 1):
             wanted = {"str": "a string", "bool": "a bool", "bytes": "bytes of length 1"}[kind.__name__]
             raise _refuse(message, f"{field}[{index}]", wanted, value)
-    return list(values)
+    return [each.partition("\0")[0] for each in values] if kind is str else list(values)
 
 
 def to_messages(message: Any, field: str, cls: Any, size: int, bound: int) -> list[Any]:

@@ -40,7 +40,16 @@ def read_checks_again() -> None:
     _asked.value = None
 
 
-class Message:
+class MessageType(type):
+    """The class of message classes: their constants cannot be set, as those of upstream cannot."""
+
+    def __setattr__(cls, name: str, value: Any) -> None:
+        if name.isupper() and isinstance(cls.__dict__.get(name), (bool, int, float, str, bytes)):
+            raise AttributeError(f"property '{name}' of 'Metaclass_{cls.__name__}' object has no setter")
+        super().__setattr__(name, value)
+
+
+class Message(metaclass=MessageType):
     """A generated message; its class has `__slots__`, one for each field, and no dictionary."""
 
     __slots__ = ()

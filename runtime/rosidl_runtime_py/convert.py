@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from array import array
 from collections import OrderedDict
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
@@ -68,7 +68,15 @@ def message_to_csv(msg: Any, *, truncate_length: int | None = None, no_arr: bool
 
 def _csv(msg: Any, short: Shortening) -> str:
     types = zip(msg.get_fields_and_field_types(), msg.SLOT_TYPES, strict=False)
-    return ",".join(_csv_value(getattr(msg, name), kind, short) for name, kind in types)
+    return _joined(_csv_value(getattr(msg, name), kind, short) for name, kind in types)
+
+
+def _joined(texts: Iterable[str]) -> str:
+    """Texts with commas between them; as upstream, what is empty at the beginning leaves no comma."""
+    joined = ""
+    for each in texts:
+        joined += f",{each}" if joined else each
+    return joined
 
 
 def _csv_value(value: Any, kind: Any, short: Shortening) -> str:
@@ -77,7 +85,7 @@ def _csv_value(value: Any, kind: Any, short: Shortening) -> str:
             return _array_words(value, kind)
         shown = value[: short.length] if short.cuts(value) else value
         items = [_csv_value(each, None, short) for each in shown]
-        return ",".join([*items, "..."] if short.cuts(value) else items)
+        return _joined([*items, "..."] if short.cuts(value) else items)
     if isinstance(value, str) and short.no_strings:
         return _string_words(value)
     if isinstance(value, str) and short.cuts(value):

@@ -74,8 +74,8 @@ class _Reader:
         self._text = text
         self._at = 0
 
-    def pieces(self, ends: str) -> list[Any]:
-        """Texts and substitutions up to one of the characters, or to the end."""
+    def pieces(self, ends: str, quote: str = "") -> list[Any]:
+        """Texts and substitutions up to one of the characters, or to the end; `quote` is the one around them."""
         from launch.substitutions.text_substitution import TextSubstitution
 
         found: list[Any] = []
@@ -85,7 +85,7 @@ class _Reader:
                 if plain:
                     found.append(TextSubstitution(text=replace_escaped_characters(plain)))
                 plain = ""
-                found.append(self._substitution())
+                found.append(self._substitution(quote))
                 continue
             width = 2 if self._text[self._at] == "\\" else 1
             plain += self._text[self._at : self._at + width]
@@ -94,7 +94,7 @@ class _Reader:
             found.append(TextSubstitution(text=replace_escaped_characters(plain)))
         return found
 
-    def _substitution(self) -> Any:
+    def _substitution(self, quote: str) -> Any:
         self._at += len("$(")
         name = NAME.match(self._text, self._at)
         if name is None:
@@ -104,22 +104,26 @@ class _Reader:
         while not self._take(")"):
             if not self._take(" "):
                 raise self._unexpected("a space or ')'")
-            arguments.append(self._argument())
+            arguments.append(self._quoted_argument() if not quote else self._plain_argument(quote))
         try:
             return _substitution(name[0], arguments)
         except Exception as error:  # a substitution's own words, under the heading that upstream gives them
             raise VisitError(error) from error
 
-    def _argument(self) -> list[Any]:
+    def _quoted_argument(self) -> list[Any]:
         from launch.substitutions.text_substitution import TextSubstitution
 
         for quote in "\"'":
             if self._take(quote):
-                found = self.pieces(quote)
+                found = self.pieces(quote, quote)
                 if not self._take(quote):
                     raise self._unexpected(f"a closing {quote}")
                 return found or [TextSubstitution(text="")]
-        found = self.pieces(" )\"'")
+        return self._plain_argument("\"'")
+
+    def _plain_argument(self, quotes: str) -> list[Any]:
+        """An argument up to a space or parenthesis; quotes other than those that stand around it are plain text."""
+        found = self.pieces(f" (){quotes}", quotes if len(quotes) == 1 else "")
         if not found:
             raise self._unexpected("an argument (exactly one space stands before each)")
         return found

@@ -126,6 +126,7 @@ class Parser:
         if entity.type_name != "launch":
             raise RuntimeError("Expected 'launch' as root tag")
         deprecated = entity.get_attr("deprecated", optional=True)
+        entity.get_attr("version", optional=True)  # public files have it; it means nothing upstream either
         actions = [self.parse_action(each) for each in entity.children]
         entity.assert_entity_completely_parsed()
         return LaunchDescription(actions, deprecated_reason=deprecated)

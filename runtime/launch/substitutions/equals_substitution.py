@@ -30,8 +30,9 @@ def _number(text: str) -> float | None:
 
 
 def _equal(left: str, right: str) -> bool:
-    if left in TRUTH and right in TRUTH:
-        return TRUTH[left] == TRUTH[right]
+    truths = TRUTH.get(left.lower()), TRUTH.get(right.lower())
+    if None not in truths:
+        return truths[0] == truths[1]
     numbers = _number(left), _number(right)
     if numbers[0] is not None and numbers[1] is not None:
         return math.isclose(numbers[0], numbers[1])

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from typing import Any
 
-import launch.logging
 from launch.action import Action
 from launch.frontend import expose_action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
@@ -13,7 +12,7 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 
 @expose_action("set_ros_log_dir")
 class SetROSLogDir(Action):
-    """Lets nodes that follow log to another folder; a relative one is below this run's."""
+    """Lets nodes that follow log to another folder; a relative one is below where they log now."""
 
     def __init__(self, new_log_dir: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -33,5 +32,7 @@ class SetROSLogDir(Action):
 
     def execute(self, context: Any) -> None:
         """Set it."""
-        before = launch.logging.launch_config.log_dir
+        from rclpy.logging import get_logging_directory
+
+        before = context.environment.get("ROS_LOG_DIR") or os.fspath(get_logging_directory())
         context.environment["ROS_LOG_DIR"] = os.path.join(before, perform_substitutions(context, self.__log_dir))

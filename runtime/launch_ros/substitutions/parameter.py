@@ -22,10 +22,10 @@ class Parameter(Substitution):
 
     @classmethod
     def parse(cls, data: Any) -> tuple[type[Parameter], dict[str, Any]]:
-        """From `$(param name)`."""
-        if len(data) != 1:
-            raise TypeError("param substitution expects 1 argument")
-        return cls, {"name": data[0]}
+        """From `$(param name)` or `$(param name default)`."""
+        if len(data) not in (1, 2):
+            raise AttributeError("param substitutions expect 1 or 2 arguments")
+        return cls, {"name": data[0], "default": data[1] if len(data) == 2 else None}
 
     @property
     def name(self) -> list[Substitution]:

@@ -22,10 +22,10 @@ def prefix_namespace(base_ns: str | None, ns: str | None) -> str | None:
     """A namespace or name below another one; an absolute one stays what it is."""
     if base_ns is None and ns is None:
         return None
-    if base_ns is None or is_namespace_absolute(ns):
-        combined = ns or ""
-    elif not ns:
-        combined = base_ns
+    if ns is None:
+        combined = base_ns or ""
+    elif not base_ns or is_namespace_absolute(ns):
+        combined = ns
     else:
         combined = f"{base_ns.rstrip('/')}/{ns}"
     return combined if is_root_namespace(combined) else combined.rstrip("/")

@@ -22,19 +22,29 @@ class NodeGraph:
     """Graph queries of `Node`."""
 
     _ros_bus: Bus
+    context: Any
 
     def get_topic_names_and_types(self, no_demangle: bool = False) -> NamesAndTypes:
-        """All topics with their types, by name."""
-        self._ros_use()
+        """All topics with their types, by name; raises `RCLError` after a shutdown of the context."""
+        self._ros_use_graph("topic")
         tables = self._ros_tables()
         rows = (*tables.publishers.named.values(), *tables.subscriptions.named.values())
         return collect((each.topic, each.type_name) for row in rows for each in row)
 
     def get_service_names_and_types(self) -> NamesAndTypes:
-        """All services with their types, by name."""
-        self._ros_use()
-        rows = self._ros_tables().servers.named.values()
+        """All services with their types, by name; those that only clients know count.
+
+        Raises `RCLError` after a shutdown of the context.
+        """
+        self._ros_use_graph("service")
+        tables = self._ros_tables()
+        rows = (*tables.servers.named.values(), *tables.clients.named.values())
         return collect((each.name, each.type_name) for row in rows for each in row)
+
+    def _ros_use_graph(self, what: str) -> None:
+        self._ros_use()
+        if not self.context.ok():
+            raise RCLError(f"Failed to get {what} names and types: rcl node's context is invalid")
 
     def get_node_names(self) -> list[str]:
         """The names of all nodes, without namespaces."""
@@ -140,13 +150,14 @@ class NodeGraph:
         ]
 
     def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
-        """Whether a node is there, or comes within the time (s)."""
+        """Whether a node is there, or comes within the time (s); a name without a slash is one of the root."""
+        full_name = f"/{fully_qualified_node_name.removeprefix('/')}"
         clock = current().clock
         deadline = clock.steady_ns() + int(timeout * NANO)
         wakeup = clock.wakeup()
         forget = self._ros_bus.on_graph_change(wakeup.set)
         try:
-            while fully_qualified_node_name not in self.get_fully_qualified_node_names():
+            while full_name not in self.get_fully_qualified_node_names():
                 if clock.steady_ns() >= deadline:
                     return False
                 wakeup.wait(deadline)

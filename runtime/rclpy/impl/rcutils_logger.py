@@ -27,12 +27,12 @@ class RcutilsLogger:
         self._sites: dict[tuple[str, str, int, int], Site] = {}
 
     def get_child(self, name: str) -> RcutilsLogger:
-        """The logger `<this>.<name>`; raises `ValueError` for empty names."""
+        """The logger `<this>.<name>`; raises `ValueError` for empty names, `TypeError` for what is no text."""
         if not self.name:
             raise ValueError("Logger name must not be empty.")
         if not name:
             raise ValueError("Child logger name must not be empty.")
-        child = RcutilsLogger(f"{self.name}.{name}")
+        child = RcutilsLogger(self.name + "." + name)
         publish = state().rosout.get(self.name)
         if publish is not None:
             state().rosout.setdefault(child.name, publish)

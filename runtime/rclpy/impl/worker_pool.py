@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 from collections import deque
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 from bot_console.runtime.process import current
@@ -47,7 +48,8 @@ class WorkerPool:
             if work is None:
                 wakeup.wait()
             else:
-                work()
+                with suppress(SystemExit):  # ends the callback alone, as in upstream's pool; the thread goes on
+                    work()
 
     def close(self) -> None:
         """Let the threads end when they have nothing left to do."""

@@ -74,7 +74,7 @@ def get(arguments: argparse.Namespace) -> Result:
 
 
 def _shown(value: ParameterValue) -> Any:
-    """The field of the value as it came by the service, so that arrays print as `array('d', ...)`."""
+    """The field of the value that counts; numbers of an array as a list."""
     fields = [
         "bool_value",
         "integer_value",
@@ -86,7 +86,8 @@ def _shown(value: ParameterValue) -> Any:
         "double_array_value",
         "string_array_value",
     ]
-    return getattr(value, fields[value.type - 1])
+    shown = getattr(value, fields[value.type - 1])
+    return shown.tolist() if hasattr(shown, "tolist") else shown
 
 
 def describe(arguments: argparse.Namespace) -> Result:

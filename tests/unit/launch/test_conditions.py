@@ -74,6 +74,12 @@ def test_a_bad_condition_ends_the_launch(run: Launch) -> None:
     assert outcome.caught.startswith("invalid condition expression")
 
 
+def test_a_condition_describes_itself() -> None:
+    condition = Condition(predicate=lambda context: True)
+    assert condition.describe() == repr(condition)
+    assert IfCondition("true").describe() == "IfCondition('true')"
+
+
 def test_public_launch_files_ask_a_condition_directly() -> None:
     context = LaunchContext()
     assert IfCondition("1")._predicate_func(context)

@@ -373,7 +373,7 @@ def test_a_service_runs_once_at_a_time(log_lines: list[str]) -> None:
         await asyncio.sleep(0)
         with pytest.raises(RuntimeError, match=r"LaunchService cannot be run multiple times concurrently\."):
             await service.run_async()
-        service.shutdown()
+        await service.shutdown()
         await first
 
     asyncio.run(twice())

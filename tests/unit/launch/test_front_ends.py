@@ -11,6 +11,7 @@ from launch.actions import ExecuteProcess, GroupAction, LogInfo, TimerAction
 from launch.conditions import IfCondition, UnlessCondition
 from launch.frontend.parse_substitution import parse_substitution
 from launch.frontend.process_attributes import parse_command_line
+from launch.utilities import perform_substitutions
 from launch_ros.actions import Node
 from launch_ros.descriptions import ParameterFile, ParameterValue
 from launch_xml import Parser as XmlParser
@@ -344,6 +345,9 @@ SUBSTITUTIONS: list[tuple[str, list[str]]] = [
     ("$(anon a)", ["AnonName('a')"]),
     ("$(and true $(var x))", ["AndSubstitution('true' LaunchConfig('x'))"]),
     ("$(path-join a b)", ["PathJoin(''a' + 'b'')"]),
+    ("$(param speed '1 2')", ["Parameter('speed')"]),
+    ("$(env A '$(env B \"c\")')", ["EnvVar('A')"]),
+    ('$(var x "$(var y it\'s)")', ["LaunchConfig('x')"]),
 ]
 
 
@@ -362,11 +366,35 @@ def test_substitutions_in_texts(text: str, pieces: list[str]) -> None:
         ("$(nosuch a)", "Unknown substitution: nosuch"),
         ("$(eval $(var i) == 1)", "eval substitution expects 1 or 2 arguments"),
         ("$(var)", "var substitution expects 1 or 2 arguments"),
+        ("$(param a b c)", "param substitutions expect 1 or 2 arguments"),
+        ("$(env A \"$(env B 'c d')\")", "env substitution expects 1 or 2 arguments"),
+        ("$(eval f(1))", "No terminal matches '('"),
     ],
 )
 def test_malformed_substitutions(text: str, said: str) -> None:
     with pytest.raises(ValueError, match=re.escape(said)):
         parse_substitution(text)
+
+
+def test_quotes_of_the_other_kind_are_text_within_quotes(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("B", raising=False)
+    XmlParser.load_launch_extensions()
+    found = parse_substitution('$(env NO_A \'$(env NO_B "c") == "d e"\')')
+    assert perform_substitutions(LaunchContext(), found) == '"c" == "d e"'
+
+
+def test_the_default_of_a_parameter_that_nobody_has_set() -> None:
+    XmlParser.load_launch_extensions()
+    context = LaunchContext()
+    found = parse_substitution("$(param speed 1.5)")
+    assert perform_substitutions(context, found) == "1.5"
+    context.launch_configurations["global_params"] = [("speed", 2)]
+    assert perform_substitutions(context, found) == "2"
+
+
+def test_the_version_of_a_launch_file_is_allowed() -> None:
+    root, parser = XmlParser.load(io.StringIO('<launch version="0.1.0"><log message="x"/></launch>'))
+    assert len(parser.parse_description(root).entities) == 1
 
 
 def test_what_a_substitution_gives_is_one_word() -> None:

@@ -230,16 +230,15 @@ def test_missing_executables_can_be_left_out(log_lines: list[str]) -> None:
     assert "process has finished cleanly" in "\n".join(log_lines)
 
 
-def test_where_nodes_log(run: Launch) -> None:
-    import launch.logging
-
+def test_where_nodes_log(run: Launch, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path))
     seen: list[str] = []
     launched(
         run,
         SetROSLogDir("sub"),
         OpaqueFunction(function=lambda context: seen.append(context.environment["ROS_LOG_DIR"])),
     )
-    assert seen == [f"{launch.logging.launch_config.log_dir}/sub"]
+    assert seen == [f"{tmp_path}/sub"]
 
 
 PREFIXES: list[tuple[str | None, str | None, str | None]] = [
@@ -252,6 +251,7 @@ PREFIXES: list[tuple[str | None, str | None, str | None]] = [
     ("/", "b", "/b"),
     ("a", "/", "/"),
     ("a", "", "a"),
+    ("", "b", "b"),
 ]
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 import rclpy
+import rclpy.utilities
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError, UnknownROSArgsError
 from rclpy.context import Context
 from rclpy.exceptions import NotInitializedException
@@ -83,6 +84,8 @@ def test_a_bad_domain() -> None:
         (["--ros-args", "--foo"], UnknownROSArgsError, "['--foo']"),
         (["--ros-args", "-r", "a"], RCLError, "failed to initialize rcl: Couldn't parse remap rule: '-r a'. "
          "Error: Expected lexeme type (19) not found, search ended at index 1"),
+        (["--ros-args", "-r", "__foo:=bar"], RCLError, "failed to initialize rcl: Couldn't parse remap rule: "
+         "'-r __foo:=bar'. Error: Expecting token or wildcard"),
     ],
 )  # fmt: skip
 def test_bad_words(words: list[str], kind: type[Exception], text: str) -> None:
@@ -245,3 +248,9 @@ def test_use_before_init() -> None:
     for spin in (rclpy.spin, rclpy.spin_once):
         with pytest.raises(TypeError):
             spin(node)
+
+
+def test_removing_ros_arguments_refuses_what_ros_does_not_know() -> None:
+    assert rclpy.utilities.remove_ros_args(["p", "--ros-args", "-r", "a:=b", "--", "x"]) == ["p", "x"]
+    with pytest.raises(UnknownROSArgsError, match="--nope"):
+        rclpy.utilities.remove_ros_args(["p", "--ros-args", "--nope"])

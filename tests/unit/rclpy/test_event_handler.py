@@ -7,9 +7,13 @@ from typing import Any
 import pytest
 from rclpy.clock import Clock
 from rclpy.duration import Duration, Infinite
-from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
+from rclpy.event_handler import (
+    PublisherEventCallbacks,
+    QoSRequestedIncompatibleQoSInfo,
+    SubscriptionEventCallbacks,
+)
 from rclpy.executors import SingleThreadedExecutor
-from rclpy.qos import LivelinessPolicy, QoSProfile
+from rclpy.qos import LivelinessPolicy, QoSPolicyKind, QoSProfile
 from std_msgs.msg import Int32
 
 SECOND = 1_000_000_000
@@ -135,3 +139,9 @@ def test_events_of_a_node_that_another_executor_serves(stepped_ros: Any) -> None
     events.run(0.7)
     assert [each[1:] for each in events.heard] == [("requested", 1, 1)]
     other.remove_node(events.node)
+
+
+def test_the_policy_that_did_not_fit_prints_by_name() -> None:
+    info = QoSRequestedIncompatibleQoSInfo(1, 1, QoSPolicyKind.RELIABILITY)
+    assert str(info.last_policy_kind) == "rmw_qos_policy_kind_t.RMW_QOS_POLICY_RELIABILITY"
+    assert info.last_policy_kind == QoSPolicyKind.RELIABILITY

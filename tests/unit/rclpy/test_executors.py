@@ -273,3 +273,24 @@ def test_create_task_gives_a_future(ros: Any) -> None:
 
 def test_time_outs_are_no_error_of_user_code() -> None:
     assert not issubclass(TimeoutException, TimeoutError)
+
+
+@pytest.mark.filterwarnings("ignore:MultiThreadedExecutor is used")
+def test_an_exit_in_a_callback_of_a_pool_ends_that_callback_alone(ros: Any) -> None:
+    node = ros.node()
+    calls: list[int] = []
+
+    def exits_at_first() -> None:
+        calls.append(1)
+        if len(calls) == 1:
+            raise SystemExit(3)
+
+    node.create_timer(0.001, exits_at_first)
+    executor = MultiThreadedExecutor(1, context=ros.context)
+    executor.add_node(node)
+    for _ in range(1000):
+        executor.spin_once(timeout_sec=0.01)
+        if len(calls) > 2:
+            break
+    executor.shutdown()
+    assert len(calls) > 2

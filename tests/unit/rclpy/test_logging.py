@@ -251,3 +251,10 @@ def test_what_was_kept_does_not_change(ros: Any) -> None:
     observer.create_subscription(Log, "/rosout", second.append, latched)
     ros.settle()
     assert second[0].msg == "early"
+
+
+def test_names_that_are_none(log: Any) -> None:
+    with pytest.raises(ValueError, match=r"Logger name must not be empty\."):
+        logging.get_logger("")
+    with pytest.raises(TypeError):
+        logging.get_logger("a").get_child(5)  # type: ignore[arg-type]

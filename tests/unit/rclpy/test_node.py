@@ -252,3 +252,30 @@ def test_a_class_that_forgets_its_base(ros: Any) -> None:
 
     with pytest.raises(AttributeError):
         Forgetful()
+
+
+def test_a_service_that_only_clients_know_is_listed(ros: Any) -> None:
+    node = ros.node()
+    node.create_client(Trigger, "/asked")
+    assert ("/asked", ["std_srvs/srv/Trigger"]) in node.get_service_names_and_types()
+
+
+def test_a_node_of_the_root_is_waited_for_without_its_slash(ros: Any) -> None:
+    assert ros.node("a").wait_for_node("a", 0.0)
+    assert not ros.node("b").wait_for_node("c", 0.0)
+
+
+def test_no_graph_after_a_shutdown(ros: Any) -> None:
+    node = ros.node()
+    ros.context.shutdown()
+    with pytest.raises(RCLError, match="Failed to get topic names and types: rcl node's context is invalid"):
+        node.get_topic_names_and_types()
+    with pytest.raises(RCLError, match="Failed to get service names and types: rcl node's context is invalid"):
+        node.get_service_names_and_types()
+
+
+def test_a_tilde_without_a_slash_behind_it(ros: Any) -> None:
+    node = ros.node()
+    with pytest.raises(InvalidTopicNameException, match="must not have tilde '~' unless it is the first character"):
+        node.create_publisher(String, "~foo", 1)
+    assert node.create_publisher(String, "~/foo", 1).topic_name == "/n/foo"

@@ -178,3 +178,12 @@ def test_loading_a_file(ros: Any, tmp_path: Path) -> None:
     assert not result(ros, client.load_parameter_file_atomically(str(path), use_wildcard=True)).result.successful
     with pytest.raises(FileNotFoundError):
         client.load_parameter_file(str(tmp_path / "none.yaml"))
+
+
+def test_the_client_hears_of_parameter_events(ros: Any) -> None:
+    client = client_of(ros)
+    heard: list[str] = []
+    client.on_parameter_event(lambda event: heard.append(event.node))
+    server = ros.node("changing")
+    server.declare_parameter("x", 1)
+    ros.spin(lambda: "/changing" in heard)

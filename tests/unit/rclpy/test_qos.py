@@ -192,3 +192,8 @@ def test_bad_depths(ros: Any, given: Any, kind: type[Exception], words: str) -> 
         with pytest.raises(kind) as caught:
             make()
         assert str(caught.value) == words
+
+
+def test_a_depth_of_zero_is_told() -> None:
+    with pytest.warns(UserWarning, match="A zero depth with KEEP_LAST doesn't make sense; no data could be stored"):
+        qos.QoSProfile(depth=0)

@@ -82,3 +82,15 @@ def test_without_the_option_nothing_is_declared(ros: Any) -> None:
     node = ros.node()
     assert node.create_publisher(String, "t", 10).qos_profile.depth == 10
     assert overrides(node) == {}
+
+
+def test_a_callback_tells_why_it_refuses(ros: Any) -> None:
+    from rclpy.qos_overriding_options import QosCallbackResult
+
+    def shallow(profile: QoSProfile) -> Any:
+        return QosCallbackResult(successful=profile.depth > 5, reason="too shallow")
+
+    options = QoSOverridingOptions.with_default_policies(callback=shallow)
+    ros.node().create_publisher(String, "deep", 10, qos_overriding_options=options)
+    with pytest.raises(InvalidQosOverridesError, match="are not valid: too shallow"):
+        ros.node("m").create_publisher(String, "shallow", 1, qos_overriding_options=options)

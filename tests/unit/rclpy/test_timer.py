@@ -10,6 +10,7 @@ from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.clock import Clock
 from rclpy.clock_type import ClockType
 from rclpy.exceptions import ROSInterruptException
+from rclpy.time import Time
 
 MS = 1_000_000
 
@@ -261,3 +262,17 @@ def test_a_shutdown_wakes_who_sleeps(stepped_ros: Any) -> None:
     threading.Timer(0.2, node.context.shutdown).start()
     with pytest.raises(ROSInterruptException):
         rate.sleep()
+
+
+def test_a_jump_to_a_multiple_of_the_period_is_one_call(ros: Any) -> None:
+    node = ros.node()
+    clock = Clock(clock_type=ClockType.ROS_TIME)
+    clock._set_ros_time_is_active(True)
+    calls: list[int] = []
+    timer = node.create_timer(1.0, lambda: calls.append(1), clock=clock)
+    clock.set_ros_time_override(Time(seconds=4, clock_type=ClockType.ROS_TIME))
+    ros.settle()
+    assert (len(calls), timer.time_until_next_call()) == (1, 10**9)
+    clock.set_ros_time_override(Time(seconds=5, clock_type=ClockType.ROS_TIME))
+    ros.settle()
+    assert len(calls) == 2

@@ -12,12 +12,13 @@ import numpy
 import pytest
 from bot_console.runtime.rosidl.conversion import type_name
 from bot_console.runtime.rosidl.message import read_checks_again
+from diagnostic_msgs.msg import KeyValue
 from example_interfaces.action import Fibonacci
 from geometry_msgs.msg import PoseWithCovariance, Quaternion, Twist, Vector3
 from rcl_interfaces.msg import Log, ParameterDescriptor, ParameterType, ParameterValue
 from rcl_interfaces.srv import ListParameters
 from rosidl_parser.definition import Array, BasicType, NamespacedType, UnboundedSequence, UnboundedString
-from sensor_msgs.msg import Imu, JointState, LaserScan
+from sensor_msgs.msg import Imu, JointState, LaserScan, NavSatStatus
 from std_msgs.msg import Bool, Byte, Int8, Int32, String, UInt8
 from std_srvs.srv import SetBool, Trigger
 
@@ -217,3 +218,19 @@ def test_a_subclass_is_sent_as_the_class_it_comes_from() -> None:
     assert type_name(Marked) == "geometry_msgs/msg/Twist"
     assert repr(message).endswith("Marked(linear=geometry_msgs.msg.Vector3(x=1.0, y=0.0, z=0.0), "
                                   "angular=geometry_msgs.msg.Vector3(x=0.0, y=0.0, z=0.0))")  # fmt: skip
+
+
+def test_a_string_ends_at_a_nul() -> None:
+    assert String(data="ab\0cd")._copy_().data == "ab"
+    assert KeyValue(key="a\0b", value="c")._copy_() == KeyValue(key="a", value="c")
+    assert JointState(name=["a\0b", "c"])._copy_().name == ["a", "c"]
+
+
+def test_defaults_of_the_definition() -> None:
+    assert (NavSatStatus().status, NavSatStatus().service) == (-2, 0)
+
+
+def test_constants_cannot_be_set() -> None:
+    with pytest.raises(AttributeError, match="property 'STATUS_FIX' of 'Metaclass_NavSatStatus' object has no setter"):
+        NavSatStatus.STATUS_FIX = 1
+    assert NavSatStatus.STATUS_FIX == NavSatStatus().STATUS_FIX == 0

@@ -9,7 +9,7 @@ from rcl_interfaces.msg import ParameterDescriptor, ParameterValue
 from rosidl_parser.definition import BasicType, UnboundedString
 from rosidl_runtime_py import get_message_slot_types, message_to_csv, message_to_ordereddict, message_to_yaml
 from sensor_msgs.msg import Image, JointState, LaserScan
-from std_msgs.msg import Byte, Header, String
+from std_msgs.msg import Byte, Float64MultiArray, Header, String
 
 HEADER = "header:\n  stamp:\n    sec: 0\n    nanosec: 0\n  frame_id: ''\n"
 
@@ -67,3 +67,8 @@ def test_dictionaries_are_plain() -> None:
 def test_slot_types_by_name() -> None:
     assert get_message_slot_types(String()) == {"data": UnboundedString()}
     assert get_message_slot_types(Vector3)["x"] == BasicType("double")
+
+
+def test_an_empty_array_at_the_beginning_of_a_csv_line_leaves_no_comma() -> None:
+    assert message_to_csv(Float64MultiArray()) == "0,"
+    assert message_to_csv(Float64MultiArray(data=[1.0])) == "0,1.0"

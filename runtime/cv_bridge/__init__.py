@@ -1,0 +1,7 @@
+"""Images of ROS as NumPy arrays, as upstream's `cv_bridge`; OpenCV only for compressed ones and Bayer patterns."""
+
+from cv_bridge.conversion import cvtColor2
+from cv_bridge.core import CvBridge, CvBridgeError
+from cv_bridge.encodings import getCvType
+
+__all__ = ["CvBridge", "CvBridgeError", "cvtColor2", "getCvType"]

@@ -1,0 +1,7 @@
+"""Messages that belong together, as upstream's `message_filters`: by time, exactly or nearly, and kept for a while."""
+
+from message_filters.cache import Cache
+from message_filters.simple_filter import Chain, SimpleFilter, Subscriber
+from message_filters.synchronizers import ApproximateTimeSynchronizer, TimeSynchronizer
+
+__all__ = ["ApproximateTimeSynchronizer", "Cache", "Chain", "SimpleFilter", "Subscriber", "TimeSynchronizer"]

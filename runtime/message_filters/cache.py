@@ -1,0 +1,68 @@
+"""The last messages, by time."""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from typing import Any
+
+from message_filters.simple_filter import SimpleFilter
+from message_filters.stamps import stamp_of
+from rclpy.time import Time
+
+
+class Cache(SimpleFilter):
+    """Keeps the last `cache_size` messages of a filter in the order of their times, and passes them on."""
+
+    def __init__(self, f: Any = None, cache_size: int = 1, allow_headerless: bool = False) -> None:
+        super().__init__()
+        if f is not None:
+            self.connectInput(f)
+        self.cache_size = cache_size
+        self.allow_headerless = allow_headerless
+        self.cache_msgs: list[Any] = []
+        self.cache_times: list[Time] = []
+
+    def connectInput(self, f: Any) -> None:
+        """Take what a filter gives."""
+        self.incoming_connection = f.registerCallback(self.add)
+
+    def add(self, msg: Any) -> None:
+        """Take a message; the oldest one goes where there are too many."""
+        stamp = stamp_of(msg, self.allow_headerless)
+        if stamp is None:
+            return
+        if self.cache_msgs and len(self.cache_msgs) >= self.cache_size:
+            del self.cache_msgs[0], self.cache_times[0]
+        place = bisect_right(self.cache_times, stamp)
+        self.cache_msgs.insert(place, msg)
+        self.cache_times.insert(place, stamp)
+        self.signalMessage(msg)
+
+    def getInterval(self, from_stamp: Time, to_stamp: Time) -> list[Any]:
+        """The messages from one time to another, both included."""
+        assert from_stamp <= to_stamp
+        return self.cache_msgs[bisect_left(self.cache_times, from_stamp) : bisect_right(self.cache_times, to_stamp)]
+
+    def getElemAfterTime(self, stamp: Time) -> Any:
+        """The first message at or after a time, None where there is none."""
+        place = bisect_left(self.cache_times, stamp)
+        return self.cache_msgs[place] if place < len(self.cache_msgs) else None
+
+    def getElemBeforeTime(self, stamp: Time) -> Any:
+        """The last message at or before a time, None where there is none."""
+        place = bisect_right(self.cache_times, stamp)
+        return self.cache_msgs[place - 1] if place else None
+
+    def getLastestTime(self) -> Time | None:
+        """The time of the newest message; the name is upstream's."""
+        return self.cache_times[-1] if self.cache_times else None
+
+    getLatestTime = getLastestTime  # noqa: N815
+
+    def getOldestTime(self) -> Time | None:
+        """The time of the oldest message."""
+        return self.cache_times[0] if self.cache_times else None
+
+    def getLast(self) -> Any:
+        """The newest message, None where there is none."""
+        return self.cache_msgs[-1] if self.cache_msgs else None

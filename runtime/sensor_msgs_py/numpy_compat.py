@@ -1,0 +1,11 @@
+"""What older releases of NumPy lack."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.lib import recfunctions
+
+
+def structured_to_unstructured(arr: np.ndarray, dtype: np.dtype | None = None, copy: bool = False) -> np.ndarray:
+    """A structured array with its fields as one more dimension."""
+    return recfunctions.structured_to_unstructured(arr, dtype, copy)

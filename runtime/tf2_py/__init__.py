@@ -1,0 +1,21 @@
+"""The tree of frames over time, as upstream's `tf2_py` has it: a buffer without ROS around it, and its exceptions."""
+
+from tf2_py.buffer_core import BufferCore
+from tf2_py.exceptions import (
+    ConnectivityException,
+    ExtrapolationException,
+    InvalidArgumentException,
+    LookupException,
+    TimeoutException,
+    TransformException,
+)
+
+__all__ = [
+    "BufferCore",
+    "ConnectivityException",
+    "ExtrapolationException",
+    "InvalidArgumentException",
+    "LookupException",
+    "TimeoutException",
+    "TransformException",
+]

@@ -1,0 +1,206 @@
+"""Transforms of all frames over time, and what takes points of one frame to another. Contract: upstream's `tf2_py`."""
+
+from __future__ import annotations
+
+import math
+
+from geometry_msgs.msg import TransformStamped
+from rclpy.duration import Duration
+from rclpy.logging import get_logger
+from rclpy.time import Time
+from tf2_py import descriptions
+from tf2_py.exceptions import InvalidArgumentException, LookupException, TransformException
+from tf2_py.frame_history import NANO, FrameHistory, stamp_of
+from tf2_py.frame_tree import latest_common_time, transform
+from tf2_py.rigid import IDENTITY, Rigid, compose
+
+DEFAULT_CACHE_TIME = Duration(seconds=10)
+NORM_TOLERANCE = 1e-2
+"""How far the length of a rotation quaternion may be from 1."""
+
+
+class BufferCore:
+    """Keeps transforms for `cache_time`; one thread may fill it while others ask.
+
+    Times are `rclpy.time.Time`; the zero time means the newest that is known. What asks raises `LookupException`,
+    `ConnectivityException`, `ExtrapolationException` and `InvalidArgumentException`.
+    """
+
+    def __init__(self, cache_time: Duration | None = None) -> None:
+        self._keep = (cache_time or DEFAULT_CACHE_TIME).nanoseconds
+        self._histories: dict[str, FrameHistory] = {}
+        self._parents: set[str] = set()
+
+    def clear(self) -> None:
+        """Forget all transforms that are not static."""
+        self._histories = {name: each for name, each in self._histories.items() if each.is_static}
+
+    def set_transform(self, transform: TransformStamped, authority: str) -> None:
+        """Take a transform; one that makes no sense is ignored, and the log says why."""
+        self._insert(transform, authority, is_static=False)
+
+    def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
+        """Take a transform that holds at any time."""
+        self._insert(transform, authority, is_static=True)
+
+    def _take_later(self, messages: list[TransformStamped]) -> None:
+        """Keep messages that nobody else holds; each is read when its frame is asked for."""
+        histories = self._histories
+        for each in messages:
+            history = histories.get(each.child_frame_id)
+            if history is None or history.is_static:
+                self._insert(each, "default_authority", is_static=False)
+                continue
+            history.wait(each)
+
+    def _digest(self, history: FrameHistory) -> FrameHistory:
+        waiting, history.waiting = history.waiting, []
+        for each in waiting:
+            self._insert(each, "default_authority", is_static=False)
+        return history
+
+    def _find(self, frame: str) -> FrameHistory | None:
+        history = self._histories.get(frame)
+        return self._digest(history) if history is not None and history.waiting else history
+
+    def _insert(self, message: TransformStamped, authority: str, *, is_static: bool) -> None:
+        child = message.child_frame_id.removeprefix("/")
+        parent = message.header.frame_id.removeprefix("/")
+        stamp = stamp_of(message)
+        move, turn = message.transform.translation, message.transform.rotation
+        place = (move.x, move.y, move.z, turn.x, turn.y, turn.z, turn.w)
+        problem = _problem(child, parent, place, authority)
+        if problem is None:
+            history = self._histories.get(child)
+            if history is None or history.is_static != is_static:
+                history = self._histories[child] = FrameHistory(self._keep, is_static)
+            self._parents.add(parent)
+            problem = history.insert((stamp, parent, place, authority))
+            if problem:
+                when = f"at time {stamp / NANO:.6f} according to authority {authority}"
+                problem += f" for frame {child} (parent {parent}) {when}"
+        if problem:
+            get_logger("tf2_buffer").warning(problem)
+
+    def lookup_transform_core(self, target_frame: str, source_frame: str, time: Time) -> TransformStamped:
+        """What takes points of `source_frame` to `target_frame` at a time."""
+        stamp, place = self._look_up(target_frame, source_frame, time.nanoseconds, "lookupTransform")
+        return _message(target_frame, source_frame, stamp, place)
+
+    def lookup_transform_full_core(
+        self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
+    ) -> TransformStamped:
+        """From `source_frame` at one time to `target_frame` at another, by way of a frame that did not move."""
+        self._check(fixed_frame, "lookupTransform argument fixed_frame")
+        _, first = self._look_up(fixed_frame, source_frame, source_time.nanoseconds, "lookupTransform")
+        stamp, second = self._look_up(target_frame, fixed_frame, target_time.nanoseconds, "lookupTransform")
+        return _message(target_frame, source_frame, stamp, compose(second, first))
+
+    def can_transform_core(self, target_frame: str, source_frame: str, time: Time) -> tuple[bool, str]:
+        """Whether `lookup_transform_core` would answer, and why not."""
+        try:
+            self._look_up(target_frame, source_frame, time.nanoseconds, "canTransform")
+        except TransformException as error:
+            return False, str(error)
+        return True, ""
+
+    def can_transform_full_core(
+        self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
+    ) -> tuple[bool, str]:
+        """Whether `lookup_transform_full_core` would answer, and why not."""
+        try:
+            self.lookup_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)
+        except TransformException as error:
+            return False, str(error)
+        return True, ""
+
+    def get_latest_common_time(self, target_frame: str, source_frame: str) -> Time:
+        """The newest time at which the way between two frames is known."""
+        self._check(target_frame, "getLatestCommonTime argument target_frame")
+        self._check(source_frame, "getLatestCommonTime argument source_frame")
+        return Time(nanoseconds=latest_common_time(self._find, target_frame, source_frame))
+
+    def all_frames_as_string(self) -> str:
+        """All frames with their parents, one a line."""
+        return descriptions.as_string(self._all())
+
+    def all_frames_as_yaml(self) -> str:
+        """All frames with parent, broadcaster, rate and times, as YAML."""
+        return descriptions.as_yaml(self._all())
+
+    def _all(self) -> dict[str, FrameHistory]:
+        return {name: self._digest(each) for name, each in list(self._histories.items())}
+
+    def _frameExists(self, frame_id: str) -> bool:
+        return frame_id in self._histories or frame_id in self._parents
+
+    def _getFrameStrings(self) -> list[str]:
+        return sorted({*self._histories, *self._parents})
+
+    def _allFramesAsDot(self, current_time: float = 0.0) -> str:
+        return descriptions.as_dot(self._all())
+
+    def _check(self, frame: str, where: str) -> None:
+        """Raise for a name that can be no frame's, or is not known."""
+        if not frame:
+            raise InvalidArgumentException(
+                f"Invalid argument passed to {where} in tf2 frame_ids cannot be empty",
+            )
+        if frame[0] == "/":
+            raise InvalidArgumentException(
+                f"Invalid argument \"{frame}\" passed to {where} in tf2 frame_ids cannot start with a '/'"
+            )
+        if frame not in self._histories and frame not in self._parents:
+            raise LookupException(f'"{frame}" passed to {where} does not exist. ')
+
+    def _look_up(self, target: str, source: str, time: int, what: str) -> tuple[int, Rigid]:
+        """Time (ns) and place; `what` is the question that a refusal names."""
+        for frame, role in ((target, "target_frame"), (source, "source_frame")):
+            if frame not in self._histories:
+                self._check(frame, f"{what} argument {role}")
+        if target == source:
+            history = self._find(target)
+            latest = None if history is None else history.latest()
+            return time or (latest[0] if latest else 0), IDENTITY
+        time = time or latest_common_time(self._find, target, source)
+        return time, transform(self._find, target, source, time)
+
+
+def _problem(child: str, parent: str, place: Rigid, authority: str) -> str | None:
+    if child == parent:
+        return (
+            f'TF_SELF_TRANSFORM: Ignoring transform from authority "{authority}" with frame_id and child_frame_id '
+            f'"{child}" because they are the same'
+        )
+    if not child:
+        return f'TF_NO_CHILD_FRAME_ID: Ignoring transform from authority "{authority}" because child_frame_id not set '
+    if not parent:
+        return (
+            f'TF_NO_FRAME_ID: Ignoring transform with child_frame_id "{child}" from authority "{authority}" '
+            "because frame_id not set"
+        )
+    if any(map(math.isnan, place)):
+        return (
+            f'TF_NAN_INPUT: Ignoring transform for child_frame_id "{child}" from authority "{authority}" because of '
+            f"a nan value in the transform {place}"
+        )
+    norm = place[3] ** 2 + place[4] ** 2 + place[5] ** 2 + place[6] ** 2
+    if abs(norm - 1.0) > NORM_TOLERANCE:
+        return (
+            f'TF_DENORMALIZED_QUATERNION: Ignoring transform for child_frame_id "{child}" from authority '
+            f'"{authority}" because of an invalid quaternion in the transform '
+            f"({place[3]:f} {place[4]:f} {place[5]:f} {place[6]:f})"
+        )
+    return None
+
+
+def _message(target: str, source: str, time: int, place: Rigid) -> TransformStamped:
+    message = TransformStamped()
+    header, transform = message._header, message._transform  # past the properties: half the time of filling it in
+    header._frame_id = target
+    message._child_frame_id = source
+    stamp = header._stamp
+    stamp._sec, stamp._nanosec = time // NANO, time % NANO
+    move, turn = transform._translation, transform._rotation
+    move._x, move._y, move._z, turn._x, turn._y, turn._z, turn._w = place
+    return message

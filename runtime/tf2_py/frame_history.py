@@ -1,0 +1,130 @@
+"""What is known of one frame over time: where it was in its parent."""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right
+from typing import Any
+
+from tf2_py.rigid import Rigid, interpolate
+
+NANO = 1_000_000_000
+DIGEST_AFTER = 256
+"""After so many the old ones are let go."""
+
+Entry = tuple[int, str, Rigid, str]
+"""Time (ns), parent, place in it, and who said so."""
+
+
+class FrameHistory:
+    """Transforms of one frame by time; messages wait unread until somebody asks, as most of them never matter."""
+
+    __slots__ = ("_keep", "_stamps", "entries", "is_static", "waiting")
+
+    def __init__(self, keep: int, is_static: bool) -> None:
+        self._keep = keep
+        self.is_static = is_static
+        self._stamps: list[int] = []
+        self.entries: list[Entry] = []
+        self.waiting: list[Any] = []
+
+    def wait(self, message: Any) -> None:
+        """Keep a message unread."""
+        waiting = self.waiting
+        waiting.append(message)
+        if len(waiting) % DIGEST_AFTER == 0:
+            self._drop_old_messages()
+
+    def _drop_old_messages(self) -> None:
+        """Let go of unread messages that are too old, where they came in order; nobody has asked for them."""
+        waiting = self.waiting
+        limit = stamp_of(waiting[-1]) - self._keep
+        old = bisect_left(waiting, limit, key=stamp_of)
+        if all(stamp_of(each) < limit for each in waiting[:old]):
+            del waiting[:old]
+
+    def insert(self, entry: Entry) -> str | None:
+        """Take a transform; returns why not where it is too old, or one of that time is there already."""
+        if self.is_static:
+            self.entries, self._stamps = [entry], [0]
+            return None
+        stamps = self._stamps
+        stamp = entry[0]
+        if not stamps or stamp > stamps[-1]:
+            stamps.append(stamp)
+            self.entries.append(entry)
+            self._prune()
+            return None
+        if stamp < stamps[-1] - self._keep:
+            return "TF_OLD_DATA ignoring data from the past"
+        place = bisect_left(stamps, stamp)
+        if stamps[place] == stamp:
+            return "TF_REPEATED_DATA ignoring data with redundant timestamp"
+        stamps.insert(place, stamp)
+        self.entries.insert(place, entry)
+        return None
+
+    def _prune(self) -> None:
+        """Forget what is too old, many at once, as taking from the front of a list costs its length."""
+        limit = self._stamps[-1] - self._keep
+        if self._stamps[0] >= limit:
+            return
+        old = bisect_left(self._stamps, limit)
+        if old > DIGEST_AFTER or old * 2 > len(self._stamps):
+            del self._stamps[:old]
+            del self.entries[:old]
+
+    @property
+    def first(self) -> int:
+        """Index of the oldest entry that still counts."""
+        return bisect_left(self._stamps, self._stamps[-1] - self._keep) if self._stamps else 0
+
+    def latest(self) -> tuple[int, str] | None:
+        """The newest time (ns; 0 of a static frame) and the parent then; None where nothing is known."""
+        if not self.entries:
+            return None
+        return (0 if self.is_static else self._stamps[-1]), self.entries[-1][1]
+
+    def at(self, time: int) -> tuple[str, Rigid]:
+        """Parent and place at a time (ns; 0 is the newest); raises `LookupError` with the words of upstream."""
+        if not self.entries:
+            raise LookupError("")
+        if self.is_static or time == 0 or time == self._stamps[-1]:
+            _, parent, place, _ = self.entries[-1]
+            return parent, place
+        stamps = self._stamps
+        after = bisect_right(stamps, time)
+        if after == len(stamps) or after == 0 or stamps[after - 1] < stamps[-1] - self._keep:
+            raise LookupError(self._outside(time, self.first))
+        stamp, parent, place, _ = self.entries[after - 1]
+        if stamp == time:
+            return parent, place
+        later, other_parent, other_place, _ = self.entries[after]
+        if parent != other_parent:
+            return parent, place
+        return parent, interpolate(place, other_place, (time - stamp) / (later - stamp))
+
+    def _outside(self, time: int, first: int) -> str:
+        oldest, newest = self._stamps[first], self._stamps[-1]
+        if oldest == newest:
+            asked, only = seconds(time), seconds(newest)
+            return f"Lookup would require extrapolation at time {asked}, but only time {only} is in the buffer"
+        if time > newest:
+            return (
+                f"Lookup would require extrapolation into the future.  Requested time {seconds(time)} but the latest "
+                f"data is at time {seconds(newest)}"
+            )
+        return (
+            f"Lookup would require extrapolation into the past.  Requested time {seconds(time)} but the earliest data "
+            f"is at time {seconds(oldest)}"
+        )
+
+
+def stamp_of(message: Any) -> int:
+    """The time (ns) of a message with a header."""
+    stamp = message.header.stamp
+    return stamp.sec * NANO + stamp.nanosec
+
+
+def seconds(time: int) -> str:
+    """A time (ns) as upstream prints it."""
+    return f"{time / NANO:.6f}"

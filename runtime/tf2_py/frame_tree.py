@@ -1,0 +1,102 @@
+"""The way from one frame to another: up to what both have above them, and down again."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from tf2_py.exceptions import ConnectivityException, ExtrapolationException, LookupException
+from tf2_py.frame_history import FrameHistory
+from tf2_py.rigid import IDENTITY, Rigid, compose, inverse
+
+MAX_DEPTH = 1000
+LOOP = "The tf tree is invalid because it contains a loop."
+Find = Callable[[str], FrameHistory | None]
+
+
+def transform(find: Find, target: str, source: str, time: int) -> Rigid:
+    """What takes points of `source` to `target` at a time (ns; 0 is the newest).
+
+    Raises `ConnectivityException`, `ExtrapolationException` and, for a loop, `LookupException`.
+    """
+    above: dict[str, Rigid] = {source: IDENTITY}
+    problem = ""
+    frame, place = source, IDENTITY
+    while frame != target and (history := find(frame)) is not None:
+        try:
+            frame, step = history.at(time)
+        except LookupError as error:
+            problem = str(error)
+            break
+        place = step if place is IDENTITY else compose(step, place)
+        above[frame] = place
+        if len(above) > MAX_DEPTH:
+            raise LookupException(LOOP)
+    if frame == target:
+        return place
+    return _down(find, above, target, source, time, problem)
+
+
+def _down(find: Find, above: dict[str, Rigid], target: str, source: str, time: int, problem: str) -> Rigid:
+    frame, place = target, IDENTITY
+    for _ in range(MAX_DEPTH):
+        if frame in above:
+            return compose(inverse(place), above[frame])
+        history = find(frame)
+        if history is None and not problem:
+            raise ConnectivityException(unconnected(target, source))
+        try:
+            if history is None:
+                raise LookupError(problem)
+            frame, step = history.at(time)
+        except LookupError as error:
+            words = f"{error}, when looking up transform from frame [{source}] to frame [{target}]"
+            raise ExtrapolationException(words) from None
+        place = step if place is IDENTITY else compose(step, place)
+    raise LookupException(LOOP)
+
+
+def latest_common_time(find: Find, target: str, source: str) -> int:
+    """The newest time (ns) at which all frames between two are known, 0 where all are static.
+
+    Raises `ConnectivityException`, for a loop `LookupException`.
+    """
+    above = _ancestors(find, source)
+    if target in above:
+        return above[target]
+    newest = 0
+    frame = target
+    for _ in range(MAX_DEPTH):
+        history = find(frame)
+        latest = None if history is None else history.latest()
+        if latest is None:
+            raise ConnectivityException(unconnected(target, source))
+        newest = _older(newest, latest[0])
+        frame = latest[1]
+        if frame in above:
+            return _older(newest, above[frame])
+    raise LookupException(LOOP)
+
+
+def _ancestors(find: Find, frame: str) -> dict[str, int]:
+    """All frames above one, with the newest time at which the way to each is known."""
+    newest = 0
+    above = {frame: 0}
+    while (history := find(frame)) is not None and (latest := history.latest()) is not None:
+        newest = _older(newest, latest[0])
+        frame = latest[1]
+        if frame in above:
+            raise LookupException(LOOP)
+        above[frame] = newest
+    return above
+
+
+def _older(one: int, other: int) -> int:
+    return min(one, other) if one and other else one or other
+
+
+def unconnected(target: str, source: str) -> str:
+    """What is said of two frames that are in different trees."""
+    return (
+        f"Could not find a connection between '{target}' and '{source}' because they are not part of the same tree."
+        "Tf has two or more unconnected trees."
+    )

@@ -1,0 +1,67 @@
+"""Rigid transforms as seven plain floats: the fastest arithmetic there is for one transform at a time."""
+
+from __future__ import annotations
+
+import math
+
+Rigid = tuple[float, float, float, float, float, float, float]
+"""Translation x, y, z (m) and rotation quaternion x, y, z, w."""
+
+IDENTITY: Rigid = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+
+
+def compose(first: Rigid, second: Rigid) -> Rigid:
+    """`first` after `second`: takes a point through `second`, then through `first`."""
+    px, py, pz, ax, ay, az, aw = first
+    vx, vy, vz, bx, by, bz, bw = second
+    # v + 2w(u x v) + 2u x (u x v), the rotation of v by the quaternion (u, w)
+    cx, cy, cz = 2.0 * (ay * vz - az * vy), 2.0 * (az * vx - ax * vz), 2.0 * (ax * vy - ay * vx)
+    return (
+        px + vx + aw * cx + ay * cz - az * cy,
+        py + vy + aw * cy + az * cx - ax * cz,
+        pz + vz + aw * cz + ax * cy - ay * cx,
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+        aw * bw - ax * bx - ay * by - az * bz,
+    )
+
+
+def inverse(of: Rigid) -> Rigid:
+    """The transform back."""
+    px, py, pz, x, y, z, w = of
+    cx, cy, cz = 2.0 * (z * py - y * pz), 2.0 * (x * pz - z * px), 2.0 * (y * px - x * py)
+    return (
+        -px - w * cx + y * cz - z * cy,
+        -py - w * cy + z * cx - x * cz,
+        -pz - w * cz + x * cy - y * cx,
+        -x,
+        -y,
+        -z,
+        w,
+    )
+
+
+def interpolate(first: Rigid, second: Rigid, ratio: float) -> Rigid:
+    """Between two transforms: straight in translation, along the shorter arc in rotation; `ratio` in 0..1."""
+    px, py, pz, ax, ay, az, aw = first
+    vx, vy, vz, bx, by, bz, bw = second
+    rest = 1.0 - ratio
+    dot = ax * bx + ay * by + az * bz + aw * bw
+    left, right = rest, ratio
+    if dot * dot < 1.0 - 1e-12:
+        angle = math.acos(min(1.0, abs(dot)))
+        sine = math.sin(angle)
+        if sine:
+            left, right = math.sin(rest * angle) / sine, math.sin(ratio * angle) / sine
+    if dot < 0.0:
+        right = -right
+    return (
+        rest * px + ratio * vx,
+        rest * py + ratio * vy,
+        rest * pz + ratio * vz,
+        left * ax + right * bx,
+        left * ay + right * by,
+        left * az + right * bz,
+        left * aw + right * bw,
+    )

@@ -1,0 +1,174 @@
+"""A buffer of transforms in this process, with time-outs, futures and coroutines."""
+
+from __future__ import annotations
+
+import threading
+import time as wall
+from collections.abc import Callable
+from typing import Any
+
+from geometry_msgs.msg import TransformStamped
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.task import Future
+from rclpy.time import Time
+from tf2_py import BufferCore, LookupException, TransformException
+from tf2_ros.buffer_interface import NOW, BufferInterface
+
+POLL = 0.02
+"""How often (s) a waiting call looks again, as upstream."""
+
+
+class Buffer(BufferCore, BufferInterface):
+    """Keeps transforms and answers for them; with a node it also offers the service `tf2_frames`.
+
+    What asks raises `LookupException`, `ConnectivityException`, `ExtrapolationException`, `InvalidArgumentException`.
+    """
+
+    def __init__(self, cache_time: Duration | None = None, node: Node | None = None) -> None:
+        BufferCore.__init__(self, cache_time)
+        BufferInterface.__init__(self)
+        self._new_data_callbacks: list[Callable[[], None]] = []
+        self._callbacks_to_remove: list[Callable[[], None]] = []
+        self._callbacks_lock = threading.RLock()
+        if node is not None:
+            from tf2_msgs.srv import FrameGraph
+
+            self.srv = node.create_service(FrameGraph, "tf2_frames", self.__get_frames)
+
+    def __get_frames(self, request: Any, response: Any) -> Any:
+        response.frame_yaml = self.all_frames_as_yaml()
+        return response
+
+    def set_transform(self, transform: TransformStamped, authority: str) -> None:
+        """Take a transform, and tell those who wait for one."""
+        super().set_transform(transform, authority)
+        self._call_new_data_callbacks()
+
+    def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
+        """Take a transform that holds at any time, and tell those who wait for one."""
+        super().set_transform_static(transform, authority)
+        self._call_new_data_callbacks()
+
+    def take_messages(self, transforms: list[TransformStamped]) -> None:
+        """Take transforms that nobody else holds, such as those of a received message."""
+        self._take_later(transforms)
+        self._call_new_data_callbacks()
+
+    def _call_new_data_callbacks(self) -> None:
+        if not self._new_data_callbacks:
+            return
+        with self._callbacks_lock:
+            for callback in list(self._new_data_callbacks):
+                callback()
+            for callback in self._callbacks_to_remove:
+                self._new_data_callbacks.remove(callback)
+            self._callbacks_to_remove.clear()
+
+    def _remove_callback(self, callback: Callable[[], None]) -> None:
+        with self._callbacks_lock:
+            if callback in self._new_data_callbacks and callback not in self._callbacks_to_remove:
+                self._callbacks_to_remove.append(callback)
+
+    def lookup_transform(
+        self, target_frame: str, source_frame: str, time: Time, timeout: Duration = NOW
+    ) -> TransformStamped:
+        """What takes points of `source_frame` to `target_frame` at a time, waited for as long as `timeout`."""
+        if timeout.nanoseconds:
+            self.can_transform(target_frame, source_frame, time, timeout)
+        return self.lookup_transform_core(target_frame, source_frame, time)
+
+    async def lookup_transform_async(self, target_frame: str, source_frame: str, time: Time) -> TransformStamped:
+        """The same in a coroutine, waited for however long it takes."""
+        await self.wait_for_transform_async(target_frame, source_frame, time)
+        return self.lookup_transform_core(target_frame, source_frame, time)
+
+    def lookup_transform_full(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+        timeout: Duration = NOW,
+    ) -> TransformStamped:
+        """From `source_frame` at one time to `target_frame` at another, by way of a frame that did not move."""
+        if timeout.nanoseconds:
+            self.can_transform_full(target_frame, target_time, source_frame, source_time, fixed_frame, timeout)
+        return self.lookup_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)
+
+    async def lookup_transform_full_async(
+        self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
+    ) -> TransformStamped:
+        """The same in a coroutine, waited for however long it takes."""
+        await self.wait_for_transform_full_async(target_frame, target_time, source_frame, source_time, fixed_frame)
+        return self.lookup_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)
+
+    def can_transform(
+        self,
+        target_frame: str,
+        source_frame: str,
+        time: Time,
+        timeout: Duration = NOW,
+        return_debug_tuple: bool = False,
+    ) -> bool | tuple[bool, str]:
+        """Whether `lookup_transform` would answer within the time-out; with why not, where that is asked for."""
+        answer = _waited(lambda: self.can_transform_core(target_frame, source_frame, time), timeout)
+        return answer if return_debug_tuple else answer[0]
+
+    def can_transform_full(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+        timeout: Duration = NOW,
+        return_debug_tuple: bool = False,
+    ) -> bool | tuple[bool, str]:
+        """Whether `lookup_transform_full` would answer within the time-out."""
+        answer = _waited(
+            lambda: self.can_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame),
+            timeout,
+        )
+        return answer if return_debug_tuple else answer[0]
+
+    def wait_for_transform_async(self, target_frame: str, source_frame: str, time: Time) -> Future[bool]:
+        """A future that is done when `lookup_transform` would answer."""
+        return self._when(lambda: self.can_transform_core(target_frame, source_frame, time)[0])
+
+    def wait_for_transform_full_async(
+        self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
+    ) -> Future[bool]:
+        """A future that is done when `lookup_transform_full` would answer."""
+        return self._when(
+            lambda: self.can_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)[0]
+        )
+
+    def _when(self, is_so: Callable[[], bool]) -> Future[bool]:
+        future: Future[bool] = Future()
+        if is_so():
+            future.set_result(True)
+            return future
+
+        def look_again() -> None:
+            try:
+                if not future.done() and is_so():
+                    future.set_result(True)
+            except TransformException as error:
+                future.set_exception(LookupException(f"Failed to transform: {error}"))
+
+        with self._callbacks_lock:
+            self._new_data_callbacks.append(look_again)
+        future.add_done_callback(lambda _: self._remove_callback(look_again))
+        return future
+
+
+def _waited(ask: Callable[[], tuple[bool, str]], timeout: Duration) -> tuple[bool, str]:
+    """The answer, asked for again and again until it is yes or the time is over."""
+    answer = ask()
+    deadline = wall.monotonic() + timeout.nanoseconds / 1e9
+    while not answer[0] and wall.monotonic() < deadline:
+        wall.sleep(POLL)
+        answer = ask()
+    return answer

@@ -1,0 +1,178 @@
+"""Transforming data of any type that somebody has registered a function for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, ClassVar
+
+from geometry_msgs.msg import TransformStamped
+from rclpy.duration import Duration
+from rclpy.time import Time
+from std_msgs.msg import Header
+
+Transforms = Callable[[Any, TransformStamped], Any]
+NOW = Duration()
+"""No waiting."""
+
+
+class Stamped:
+    """Something with a time and a frame."""
+
+    def __init__(self, obj: Any, stamp: Any, frame_id: str) -> None:
+        self.header = Header(frame_id=frame_id, stamp=stamp)
+        self.obj = obj
+
+
+class TypeException(Exception):
+    """Nobody has registered how this type is transformed or converted."""
+
+    def __init__(self, errstr: str) -> None:
+        self.errstr = errstr
+        super().__init__(errstr)
+
+
+class NotImplementedException(Exception):
+    """A buffer of this kind cannot do this."""
+
+    def __init__(self) -> None:
+        super().__init__("CanTransform or LookupTransform not implemented")
+
+
+class TransformRegistration:
+    """Functions that transform data, by its type; packages such as `tf2_geometry_msgs` add theirs when imported."""
+
+    __type_map: ClassVar[dict[type, Transforms]] = {}
+
+    def add(self, key: type, callback: Transforms) -> None:
+        """Transform data of a type by `callback(data, transform)`."""
+        self.__type_map[key] = callback
+
+    def print_me(self) -> None:
+        """Show what is registered."""
+        print(self.__type_map)
+
+    def get(self, key: type) -> Transforms:
+        """The function of a type; raises `TypeException`."""
+        if key not in self.__type_map:
+            raise TypeException(f"Type {key} if not loaded or supported")
+        return self.__type_map[key]
+
+
+class ConvertRegistration:
+    """Functions between types: to a message, from one, and directly."""
+
+    __to_msg_map: ClassVar[dict[type, Callable[[Any], Any]]] = {}
+    __from_msg_map: ClassVar[dict[type, Callable[[Any], Any]]] = {}
+    __convert_map: ClassVar[dict[tuple[type, type], Callable[[Any], Any]]] = {}
+
+    def add_from_msg(self, key: type, callback: Callable[[Any], Any]) -> None:
+        """Make a type of its message."""
+        self.__from_msg_map[key] = callback
+
+    def add_to_msg(self, key: type, callback: Callable[[Any], Any]) -> None:
+        """Make the message of a type."""
+        self.__to_msg_map[key] = callback
+
+    def add_convert(self, key: tuple[type, type], callback: Callable[[Any], Any]) -> None:
+        """Make one type directly of another one."""
+        self.__convert_map[key] = callback
+
+    def get_from_msg(self, key: type) -> Callable[[Any], Any]:
+        """What makes a type of its message; raises `TypeException`."""
+        return _registered(self.__from_msg_map, key)
+
+    def get_to_msg(self, key: type) -> Callable[[Any], Any]:
+        """What makes the message of a type; raises `TypeException`."""
+        return _registered(self.__to_msg_map, key)
+
+    def get_convert(self, key: tuple[type, type]) -> Callable[[Any], Any]:
+        """What makes one type of another; raises `TypeException`."""
+        return _registered(self.__convert_map, key)
+
+
+def _registered(known: Any, key: Any) -> Any:
+    if key not in known:
+        raise TypeException(f"Type {key} if not loaded or supported")
+    return known[key]
+
+
+def convert(a: Any, b_type: type) -> Any:
+    """Data as another type, directly or by way of its message; raises `TypeException`."""
+    conversions = ConvertRegistration()
+    try:
+        return conversions.get_convert((type(a), b_type))(a)
+    except TypeException:
+        if type(a) is b_type:
+            return a
+        return conversions.get_from_msg(b_type)(conversions.get_to_msg(type(a))(a))
+
+
+class BufferInterface:
+    """What every buffer of transforms offers; one that asks another process would be such too."""
+
+    def __init__(self) -> None:
+        self.registration = TransformRegistration()
+
+    def transform(
+        self, object_stamped: Any, target_frame: str, timeout: Duration = NOW, new_type: type | None = None
+    ) -> Any:
+        """Data in another frame at its own time, waiting for the transform as long as `timeout`."""
+        do_transform = self.registration.get(type(object_stamped))
+        header = object_stamped.header
+        stamp = Time.from_msg(header.stamp)
+        result = do_transform(object_stamped, self.lookup_transform(target_frame, header.frame_id, stamp, timeout))
+        return result if new_type is None else convert(result, new_type)
+
+    def transform_full(
+        self,
+        object_stamped: Any,
+        target_frame: str,
+        target_time: Time,
+        fixed_frame: str,
+        timeout: Duration = NOW,
+        new_type: type | None = None,
+    ) -> Any:
+        """Data in another frame at another time, by way of a frame that did not move."""
+        do_transform = self.registration.get(type(object_stamped))
+        header = object_stamped.header
+        transform = self.lookup_transform_full(
+            target_frame, target_time, header.frame_id, Time.from_msg(header.stamp), fixed_frame, timeout
+        )
+        result = do_transform(object_stamped, transform)
+        return result if new_type is None else convert(result, new_type)
+
+    def lookup_transform(
+        self, target_frame: str, source_frame: str, time: Time, timeout: Duration = NOW
+    ) -> TransformStamped:
+        """What takes points of one frame to another."""
+        raise NotImplementedException
+
+    def lookup_transform_full(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+        timeout: Duration = NOW,
+    ) -> TransformStamped:
+        """The same between two times."""
+        raise NotImplementedException
+
+    def can_transform(
+        self, target_frame: str, source_frame: str, time: Time, timeout: Duration = NOW
+    ) -> bool | tuple[bool, str]:
+        """Whether `lookup_transform` would answer."""
+        raise NotImplementedException
+
+    def can_transform_full(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+        timeout: Duration = NOW,
+    ) -> bool | tuple[bool, str]:
+        """Whether `lookup_transform_full` would answer."""
+        raise NotImplementedException

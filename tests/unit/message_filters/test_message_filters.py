@@ -1,0 +1,115 @@
+"""Filters: what comes out, and when."""
+
+from __future__ import annotations
+
+import itertools
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from message_filters import ApproximateTimeSynchronizer, Cache, Chain, SimpleFilter, TimeSynchronizer
+from rclpy.clock_type import ClockType
+from rclpy.time import Time
+from sensor_msgs.msg import JointState
+from std_msgs.msg import String
+
+
+def message(at: float, name: str = "") -> JointState:
+    found = JointState(name=[name])
+    found.header.stamp.sec, found.header.stamp.nanosec = divmod(round(at * 10**9), 10**9)
+    return found
+
+
+def at_second(second: float) -> Time:
+    return Time(seconds=second, clock_type=ClockType.ROS_TIME)
+
+
+def times(messages: Any) -> list[float]:
+    return [each.header.stamp.sec + each.header.stamp.nanosec / 1e9 for each in messages]
+
+
+def heard(of: Any) -> list[list[float]]:
+    found: list[list[float]] = []
+    of.registerCallback(lambda *messages: found.append(times(messages)))
+    return found
+
+
+def test_exact_times() -> None:
+    one, two, three = SimpleFilter(), SimpleFilter(), SimpleFilter()
+    sets = heard(TimeSynchronizer([one, two, three], 2))
+    for at in (1, 2, 3):
+        one.signalMessage(message(at))
+        two.signalMessage(message(at))
+    for at in (1, 3, 2):
+        three.signalMessage(message(at))
+    assert sets == [[3.0, 3.0, 3.0], [2.0, 2.0, 2.0]], "1 was pushed out of queues of two"
+
+
+def test_near_times_take_the_nearest() -> None:
+    one, two = SimpleFilter(), SimpleFilter()
+    sets = heard(ApproximateTimeSynchronizer([one, two], 10, 0.5))
+    for at in (1.0, 1.25, 3.0):
+        one.signalMessage(message(at))
+    two.signalMessage(message(1.375))
+    two.signalMessage(message(3.5))
+    two.signalMessage(message(1.125))
+    assert sets == [[1.25, 1.375], [1.0, 1.125]], "half a second apart is too far"
+
+
+@given(st.lists(st.tuples(st.integers(0, 2), st.integers(0, 40)), max_size=60))
+def test_no_set_is_wider_than_asked_and_no_message_is_in_two(arrivals: list[tuple[int, int]]) -> None:
+    filters = [SimpleFilter() for _ in range(3)]
+    sync = ApproximateTimeSynchronizer(filters, 100, 0.3)
+    sets: list[Any] = []
+    sync.registerCallback(lambda *messages: sets.append(messages))
+    for index, tenth in arrivals:
+        filters[index].signalMessage(message(tenth / 10))
+        left = [[each / 1e9 for each in queue] for queue in sync.queues]
+        fits = [each for each in itertools.product(*left) if max(each) - min(each) < 0.2999]
+        near = [each for each in fits if tenth / 10 in each]
+        assert not near, "a set that could be passed on was kept"
+    for each in sets:
+        assert max(times(each)) - min(times(each)) < 0.3
+    members = [id(each) for one in sets for each in one]
+    assert len(members) == len(set(members))
+
+
+def test_messages_without_a_time(capfd: pytest.CaptureFixture[str]) -> None:
+    one, two = SimpleFilter(), SimpleFilter()
+    strict = heard_count(ApproximateTimeSynchronizer([one, two], 10, 5.0))
+    relaxed = heard_count(ApproximateTimeSynchronizer([one, two], 10, 5.0, allow_headerless=True))
+    one.signalMessage(String())
+    two.signalMessage(String())
+    assert (len(strict), len(relaxed)) == (0, 1)
+    assert "allow_headerless" in capfd.readouterr().err
+
+
+def heard_count(of: Any) -> list[int]:
+    found: list[int] = []
+    of.registerCallback(lambda *messages: found.append(1))
+    return found
+
+
+def test_a_cache_answers_by_time() -> None:
+    source = SimpleFilter()
+    cache = Cache(source, 3)
+    passed = heard(cache)
+    for at in (1.0, 3.0, 2.0, 4.0):
+        source.signalMessage(message(at))
+    assert passed == [[1.0], [3.0], [2.0], [4.0]]
+    assert times(cache.getInterval(at_second(2), at_second(3))) == [2.0, 3.0]
+    assert times([cache.getElemAfterTime(at_second(2.5)), cache.getElemBeforeTime(at_second(2.5))]) == [3.0, 2.0]
+    assert cache.getElemBeforeTime(at_second(1.5)) is None
+    assert (cache.getOldestTime(), cache.getLastestTime()) == (at_second(2), at_second(4))
+    assert times([cache.getLast()]) == [4.0]
+
+
+def test_a_chain_passes_on_what_its_last_filter_gives() -> None:
+    source = SimpleFilter()
+    chain = Chain(Cache(cache_size=2), Cache(cache_size=5))
+    chain.connectInput(source)
+    passed = heard(chain)
+    source.signalMessage(message(1.0))
+    assert passed == [[1.0]]
+    assert isinstance(chain.getFilter(1), Cache)

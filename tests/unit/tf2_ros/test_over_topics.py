@@ -1,0 +1,84 @@
+"""Broadcasters, the listener, and those who wait for a transform."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from frames import frame, place
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.time import Time
+from tf2_msgs.srv import FrameGraph
+from tf2_ros import Buffer, LookupException, StaticTransformBroadcaster, TransformBroadcaster, TransformListener
+
+Serve = Callable[[Callable[[], bool]], None]
+
+
+def test_what_is_broadcast_is_known(node: Node, serve: Serve) -> None:
+    static = StaticTransformBroadcaster(node)
+    static.sendTransform(frame("base", "laser", x=1.0))
+    static.sendTransform([frame("base", "camera", x=2.0), frame("base", "laser", x=0.5)])
+    buffer = Buffer()
+    listener = TransformListener(buffer, node)
+    TransformBroadcaster(node).sendTransform([frame("map", "base", 1.0, 1.0), frame("map", "other", 1.0)])
+    serve(lambda: buffer.can_transform("map", "laser", Time()) and buffer.can_transform("map", "camera", Time()))
+    assert place(buffer.lookup_transform("map", "laser", Time())) == (1.5, 0.0, 0.0)
+    listener.unregister()
+
+
+def test_a_message_changed_after_it_was_given_changes_nothing() -> None:
+    buffer = Buffer()
+    message = frame("map", "base", 1.0, 1.0)
+    buffer.set_transform(message, "me")
+    message.transform.translation.x = 9.0
+    assert place(buffer.lookup_transform("map", "base", Time())) == (1.0, 0.0, 0.0)
+
+
+def test_a_future_is_done_when_the_transform_comes(node: Node, serve: Serve) -> None:
+    buffer = Buffer()
+    future = buffer.wait_for_transform_async("map", "base", Time(seconds=2))
+    buffer.set_transform(frame("map", "base", 1.0), "me")
+    assert not future.done()
+    buffer.set_transform(frame("map", "base", 3.0), "me")
+    assert future.done() and future.result() is True
+    assert buffer.wait_for_transform_async("map", "base", Time()).done()
+    buffer.set_transform(frame("map", "base", 4.0), "me")
+    assert buffer._new_data_callbacks == []
+
+
+def test_a_coroutine_gets_the_transform(node: Node, serve: Serve) -> None:
+    buffer = Buffer(node=node)
+    TransformListener(buffer, node)
+    found: list[Any] = []
+
+    async def ask() -> None:
+        found.append(await buffer.lookup_transform_async("map", "base", Time()))
+
+    broadcaster = TransformBroadcaster(node)
+    asked = node.create_timer(0.001, ask)
+    serve(lambda: bool(buffer._new_data_callbacks))
+    asked.cancel()
+    broadcaster.sendTransform(frame("map", "base", 1.0, 4.0))
+    serve(lambda: bool(found))
+    assert place(found[0]) == (4.0, 0.0, 0.0)
+
+
+def test_a_call_waits_as_long_as_it_may() -> None:
+    buffer = Buffer()
+    with pytest.raises(LookupException):
+        buffer.lookup_transform("map", "base", Time(), timeout=Duration(seconds=0.03))
+    timer = threading.Timer(0.05, lambda: buffer.set_transform(frame("map", "base", 1.0, 3.0), "me"))
+    timer.start()
+    assert place(buffer.lookup_transform("map", "base", Time(), timeout=Duration(seconds=20))) == (3.0, 0.0, 0.0)
+    assert buffer.can_transform("map", "moon", Time(), return_debug_tuple=True)[1].startswith('"moon" passed to')
+
+
+def test_the_tree_is_offered_as_a_service(node: Node, serve: Serve) -> None:
+    buffer = Buffer(node=node)
+    buffer.set_transform(frame("map", "base", 1.0), "me")
+    future = node.create_client(FrameGraph, "tf2_frames").call_async(FrameGraph.Request())
+    serve(future.done)
+    assert "base: \n  parent: 'map'" in future.result().frame_yaml

@@ -1,0 +1,77 @@
+"""Writes `docs/what-runs.md`: the packages that public rclpy programs import, and how much of each is here.
+
+    python tools/what_runs.py
+
+A package counts as here where the runtime serves it; what is known to be missing of it is in the table below.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from bot_console.runtime.importer import install, is_embedded
+from bot_console.runtime.missing_packages import explain_missing_package
+
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "what-runs.md"
+HEAD = """# What runs
+
+The ROS 2 packages that Python programs import, the usual ones first. Made by `python tools/what_runs.py` from what the
+runtime serves. "yes" means that no missing part is known, not that all of it was compared with ROS 2.
+
+| package | here | what is missing, or what brings it |
+| --- | --- | --- |
+"""
+PARTS = {
+    "cv_bridge": "compressed images and Bayer patterns need OpenCV: `pip install 'bot-console[opencv]'`",
+    "launch_ros": "components in C++",
+    "message_filters": "`LatestTimeSynchronizer`, input aligner",
+    "tf2_geometry_msgs": "`PyKDL` types",
+    "tf2_ros": "`BufferClient`, `BufferServer`, the program `static_transform_publisher`",
+    "tf_transformations": "`Arcball`, `clip_matrix`, `orthogonalization_matrix`",
+}
+"""What is missing of packages that are here."""
+BY_FREQUENCY = (
+    *("rclpy", "std_msgs", "geometry_msgs", "sensor_msgs", "launch", "launch_ros", "ament_index_python", "nav_msgs"),
+    *(
+        "std_srvs",
+        "cv_bridge",
+        "example_interfaces",
+        "tf_transformations",
+        "tf2_ros",
+        "rcl_interfaces",
+        "builtin_interfaces",
+    ),
+    *("visualization_msgs", "turtlesim", "action_msgs", "tf2_msgs", "tf2_geometry_msgs", "sensor_msgs_py", "nav2_msgs"),
+    *("message_filters", "lifecycle_msgs", "trajectory_msgs", "diagnostic_msgs", "launch_xml", "launch_yaml", "tf2_py"),
+    *("rosidl_runtime_py", "action_tutorials_interfaces", "shape_msgs", "rosgraph_msgs", "unique_identifier_msgs"),
+    *("nav2_simple_commander", "launch_testing", "launch_pytest", "rosbag2_py", "control_msgs", "vision_msgs"),
+    *("geographic_msgs", "ackermann_msgs", "irobot_create_msgs", "tf2_sensor_msgs", "laser_geometry", "image_geometry"),
+    *("diagnostic_updater", "nav2_common", "xacro", "rqt_gui_py"),
+)
+
+
+def row(package: str) -> str:
+    """A line of the table."""
+    if is_embedded(package):
+        missing = PARTS.get(package, "")
+        return f"| `{package}` | {'partly' if missing else 'yes'} | {missing} |"
+    why = explain_missing_package(ModuleNotFoundError(f"No module named '{package}'", name=package)) or ""
+    return f"| `{package}` | no | {why} |"
+
+
+def page() -> str:
+    """The whole page."""
+    install()
+    return HEAD + "".join(f"{row(each)}\n" for each in BY_FREQUENCY)
+
+
+def main() -> None:
+    """Write it."""
+    text = page()
+    PAGE.write_text(text, encoding="utf-8")
+    print(f"{PAGE}: {text.count('| yes |')} here, {text.count('| partly |')} partly", file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main()
