@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from concurrent.futures import Future
 from dataclasses import replace
 from functools import partial
@@ -24,6 +24,8 @@ from bot_console.tui.panes.broken import BrokenPane
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.plot.pane import PlotPane
+from bot_console.tui.quitting import Quitting
+from bot_console.tui.safety_news import SafetyNews
 from bot_console.tui.screens.door import screen_for
 from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.screens.output import OutputScreen
@@ -34,8 +36,7 @@ from bot_console.tui.widgets.key_bar import KeyBar
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Asker, Choice
 from bot_console.tui.widgets.status_bar import StatusBar
-from rich.style import Style
-from rich.text import Text
+from bot_console.tui.widgets.tabs import tabs_text
 from textual import events
 from textual.app import ComposeResult
 from textual.binding import BindingType
@@ -94,6 +95,8 @@ class BotConsoleApp(GuardedApp):
         self._snapshot = ConsoleSnapshot()
         self._panes: list[Pane] = []
         self._extent = Size(80, 24)
+        self._quitting = Quitting(self, console)
+        self._safety_news = SafetyNews(console)
         self.faults = Faults(self, self._panes_changed)
         self._keyboard = Keyboard(self, super().on_event)
 
@@ -146,6 +149,8 @@ class BotConsoleApp(GuardedApp):
             self.screen_stack[0].query_one(StatusBar).show(snapshot, self.gate.held_back)
         for asker in self._askers():
             asker.look()
+        for text in self._safety_news.since(snapshot):
+            self.notify(text, severity="warning")
 
     def _askers(self) -> Iterable[Asker[Any]]:
         """Whatever has a question open."""
@@ -223,7 +228,7 @@ class BotConsoleApp(GuardedApp):
         marks += [
             (each.digit, each.title, each.short or each.title, not overview and each.id == single) for each in PANES
         ]
-        self.query_one("#tabs", Static).update(tabs_text(marks, self._extent.width - 2), layout=False)
+        self.query_one("#tabs", Static).update(tabs_text(marks, self._extent.width - 2, DARK.primary), layout=False)
 
     def _typing(self) -> bool:
         return isinstance(self.focused, Input)
@@ -266,11 +271,18 @@ class BotConsoleApp(GuardedApp):
     def action_all_stop(self) -> None:
         """Hold the robot still, or let it go; a stop that nobody has acknowledged is sent again."""
         drive = self.console_of_robot.snapshot().drive
+        if self._quitting.keep_held():
+            self.notify("The robot stays held.")
+            return
         hold = not drive.stopped or (drive.lockable and not drive.stop_confirmed)
         self.console_of_robot.all_stop(hold)
         self.pull()
         if not hold:
             self.notify("The robot may move again.")
+
+    async def action_quit(self) -> None:
+        """End, but ask first where values would be lost."""
+        self._quitting.wanted()
 
     def action_help(self) -> None:
         """Help for the pane that has the keyboard."""
@@ -380,18 +392,3 @@ def too_small(width: int, height: int) -> str:
     if width < 40 or height < 6:
         return f"{width}x{height} is too small\n{need} is needed\n! stops the robot\nq quits"
     return f"{width}x{height} is too small\nthe console needs {need}\n\nthe robot goes on; ! stops it, q quits"
-
-
-def tabs_text(marks: Sequence[tuple[str, str, str, bool]], width: int) -> Text:
-    """Digits and titles of the panes; short titles, then none but the shown one's, where there is little room."""
-    for form in ("long", "short", "digits"):
-        parts: list[Text] = []
-        for digit, title, short, shown in marks:
-            word = title if form == "long" else (short if form == "short" or shown else "")
-            label = f"{digit} {word}".strip()
-            padded = f"[{label}]" if shown else (label if form == "short" else f" {label} ")
-            parts.append(Text(padded, Style(color=DARK.primary, bold=True, reverse=True) if shown else ""))
-        text = Text(" ", no_wrap=True).join(parts)
-        if text.cell_len <= width:
-            return text
-    return Text()

@@ -11,6 +11,8 @@ from bot_console.tui.screens.confirm import ConfirmScreen
 from piloting import Session, run
 from samples import differences, empty, live
 
+HARMLESS = replace(differences()[0], unsafe="")
+
 
 def applied(session: Session) -> list[tuple[str, bool]]:
     return [each[1:] for each in session.console.asked if each[0] == "apply"]
@@ -24,7 +26,7 @@ def test_the_differences_stand_there_before_anything_is_applied() -> None:
         text = session.text()
         assert "max_speed" in text and "1.0 → 3.0" in text
         assert "✗ would be refused" in text and "Parameter turn_rate must be within" in text
-        assert "turns safety off" in text and "needs a world reset" in text
+        assert "turns a protection off" in text and "needs a world reset" in text
         assert "4 changes, 1 would be refused" in text
         assert applied(session) == []
 
@@ -35,7 +37,8 @@ def test_a_refusal_or_safety_is_asked_about_and_no_means_no() -> None:
     async def play(session: Session) -> None:
         await session.press("7", "down", "a")
         assert isinstance(session.app.screen, ConfirmScreen)
-        assert "turns safety off" in session.text()
+        assert "enable_safety true → false turns a protection off" in session.text()
+        assert "max_speed 1.0 → 3.0 raises a limit" in session.text()
         await session.press("n")
         assert applied(session) == []
         await session.press("a", "y")
@@ -48,7 +51,7 @@ def test_a_refusal_or_safety_is_asked_about_and_no_means_no() -> None:
 
 def test_a_harmless_profile_is_applied_at_once_with_or_without_its_world() -> None:
     system = live()
-    system[0].differences["competition"] = differences()[:1]
+    system[0].differences["competition"] = (HARMLESS,)
 
     async def play(session: Session) -> None:
         await session.press("7", "down", "a")
@@ -76,7 +79,7 @@ def test_an_error_while_applying_is_shown_where_it_was_made() -> None:
 
         failed: Future[tuple[object, ...]] = Future()
         failed.set_exception(RuntimeError("the node /robot_navigator does not answer"))
-        session.console.differences["competition"] = differences()[:1]
+        session.console.differences["competition"] = (HARMLESS,)
         session.console.apply_profile = lambda name, reset_world=False: failed  # type: ignore[assignment]
         await session.press("7", "down", "a")
         assert "was not applied: the node /robot_navigator does not answer" in session.text()
@@ -89,7 +92,7 @@ def test_the_list_stays_while_its_values_change() -> None:
         from concurrent.futures import Future
 
         slow: Future[tuple[object, ...]] = Future()
-        session.console.differences["competition"] = differences()[:1]
+        session.console.differences["competition"] = (HARMLESS,)
         session.console.apply_profile = lambda name, reset_world=False: slow  # type: ignore[assignment]
         await session.press("7", "down", "a")
         session.console.differences["competition"] = ()

@@ -305,7 +305,10 @@ class Profile:
 
 @dataclass(frozen=True, slots=True)
 class ProfileDifference:
-    """What a profile would change; `refusal` says why it would be refused, empty when it would be taken."""
+    """What a profile would change; `refusal` says why it would be refused, empty when it would be taken.
+
+    `unsafe` says what it takes from the robot's safety, empty when nothing.
+    """
 
     node: str
     name: str
@@ -313,6 +316,7 @@ class ProfileDifference:
     then: Value
     refusal: str = ""
     needs_reset: bool = False
+    unsafe: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import importlib
+import time
 from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Future
 from functools import partial
@@ -27,6 +28,7 @@ from bot_console.tui.console.parameters.file import save
 from bot_console.tui.console.parameters.journal import Journal
 from bot_console.tui.console.parameters.mirror import ParameterMirror
 from bot_console.tui.console.parameters.profiles import differences
+from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.console.parameters.setter import ParameterSetter
 from bot_console.tui.console.plot.watch import PlotWatch
 from bot_console.tui.console.protocol import Answer
@@ -97,7 +99,13 @@ class ConsoleNode:
 
     def _parameter_changed(self, node: str, name: str, old: Value, new: Value) -> ChangeSource:
         self.plots.parameter_is(node, name, new)
-        return self.setter.announced(node, name, old, new)
+        source = self.setter.announced(node, name, old, new)
+        parameter = self.parameters.get(node, name)
+        why = takes_safety(parameter, old, new) if parameter else ""
+        if why:
+            text = f"{node} {name} {old} -> {new} {why}"
+            self._log(time.time_ns(), Severity.WARN, "bot-console", text, ("", "", 0))
+        return source
 
     def _on_log(self, message: Log) -> None:
         stamp = message.stamp.sec * 1_000_000_000 + message.stamp.nanosec

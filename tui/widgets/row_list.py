@@ -111,6 +111,10 @@ class RowList(ScrollView, can_focus=True):
         """Move the cursor by some pages."""
         self.action_cursor(step * max(1, self.size.height - 1))
 
+    def action_end(self, end: int) -> None:
+        """The first row, or the last."""
+        self.action_cursor(end * self.row_count())
+
     def on_click(self, event: object) -> None:
         """A click moves the cursor."""
         y = getattr(event, "y", 0) + self.scroll_offset.y

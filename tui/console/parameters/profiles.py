@@ -8,6 +8,7 @@ from types import MappingProxyType
 
 from bot_console.tui.console.model import ParameterTree, Profile, ProfileDifference
 from bot_console.tui.console.parameters.patch import same
+from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.console.parameters.text import NOTHING, sections, value_at
 from bot_console.tui.console.values import refusal
 
@@ -59,5 +60,6 @@ def differences(profile: Profile, trees: Mapping[str, ParameterTree]) -> Sequenc
             continue
         _, why = refusal(parameter, then)
         reset = bool(parameter and AT_RESET in parameter.description)
-        found.append(ProfileDifference(node, name, now, then, why, reset))
+        unsafe = takes_safety(parameter, now, then) if parameter else ""
+        found.append(ProfileDifference(node, name, now, then, why, reset, unsafe))
     return found

@@ -10,9 +10,9 @@ from typing import Any
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, Profile, ProfileDifference, SetOutcome
 from bot_console.tui.console.protocol import Answer
-from bot_console.tui.format import counted
+from bot_console.tui.format import counted, value_text
 from bot_console.tui.panes.pane import Pane
-from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, entries, turns_safety_off
+from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, entries
 from bot_console.tui.widgets.prompt.question import Confirmation
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.words import Words
@@ -111,7 +111,7 @@ class ProfilesPane(Pane):
         shown.scroll_relative(y=step * max(1, shown.size.height // 2), animate=False, force=True)
 
     def action_apply(self, reset_world: bool) -> None:
-        """Apply the profile; a refusal, or safety turned off, is asked about first."""
+        """Apply the profile; a refusal, or what takes from the robot's safety, is asked about first."""
         profile = self._list.current
         if profile is None or profile.problem:
             return
@@ -119,7 +119,11 @@ class ProfilesPane(Pane):
         reasons = [f"{each.node} {each.name}: {each.refusal}" for each in self._differences if each.refusal]
         if reasons:
             reasons.insert(0, "Would be refused, and with it every value of the same node:")
-        reasons += [f"⚠ {each.name} false turns safety off." for each in self._differences if turns_safety_off(each)]
+        reasons += [
+            f"⚠ {each.name} {value_text(each.now)} → {value_text(each.then)} {each.unsafe}."
+            for each in self._differences
+            if each.unsafe and not each.refusal
+        ]
         if not reasons:
             self._apply(profile.name, reset_world)
             return

@@ -13,8 +13,6 @@ from rich.style import Style
 
 NAMES = 26
 VALUES = 12
-SAFETY = ("enable_safety",)
-"""Parameters of which a change to false is asked about."""
 
 
 class ProfileRows(RowList):
@@ -129,14 +127,9 @@ def _note(entry: Entry, change: ProfileDifference) -> tuple[str, str]:
         return ("✓ taken", "good") if outcome.accepted else ("✗ refused", "error")
     if change.refusal:
         return "✗ would be refused", "error"
-    if turns_safety_off(change):
-        return "⚠ turns safety off", "warn"
+    if change.unsafe:
+        return f"⚠ {change.unsafe}", "warn"
     return ("needs a world reset", "dim") if change.needs_reset else ("", "dim")
-
-
-def turns_safety_off(change: ProfileDifference) -> bool:
-    """Whether a difference takes a protection away."""
-    return change.name in SAFETY and change.then is False
 
 
 def entries(

@@ -1,0 +1,114 @@
+"""Quitting asks only where values would be lost; the robot stands meanwhile, and nobody is asked twice."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from bot_console.tui.screens.confirm import ConfirmScreen
+from piloting import Session, run
+from samples import live
+
+NODE = "/robot_navigator"
+
+
+def stops(session: Session) -> list[bool]:
+    return [each[1] for each in session.console.asked if each[0] == "all_stop"]
+
+
+def ended(session: Session) -> bool:
+    return not session.app.is_running or session.app._exit
+
+
+async def edited(session: Session) -> None:
+    session.console.set_parameters(NODE, {"turn_rate": 1.5})
+    await session.settle()
+
+
+def test_nothing_to_lose_and_nothing_is_asked() -> None:
+    async def play(session: Session) -> None:
+        await session.pilot.press("q")
+        assert ended(session) and stops(session) == []
+
+    run(live(), play)
+
+
+def test_what_would_be_lost_is_named_and_the_robot_stands_until_no_is_said() -> None:
+    async def play(session: Session) -> None:
+        await edited(session)
+        await session.press("q")
+        assert isinstance(session.app.screen, ConfirmScreen) and not ended(session)
+        assert f"{NODE} turn_rate = 1.5" in session.text()
+        assert stops(session) == [True]
+        await session.press("n")
+        assert stops(session) == [True, False]
+        assert not ended(session) and not session.console.current.drive.stopped
+
+    run(live(), play)
+
+
+def test_yes_ends_it_and_the_robot_stays_held() -> None:
+    async def play(session: Session) -> None:
+        await edited(session)
+        await session.press("q")
+        await session.pilot.press("y")
+        assert ended(session) and stops(session) == [True]
+
+    run(live(), play)
+
+
+def test_ctrl_q_twice_never_asks() -> None:
+    async def play(session: Session) -> None:
+        await edited(session)
+        await session.press("ctrl+q")
+        assert not ended(session) and stops(session) == [True]
+        await session.pilot.press("ctrl+q")
+        assert ended(session)
+
+    run(live(), play)
+
+
+def test_saved_undone_or_in_a_profile_is_not_lost() -> None:
+    async def play(session: Session) -> None:
+        await edited(session)
+        session.console.save_parameters("all.yaml")
+        await session.pilot.press("q")
+        assert ended(session)
+
+    run(live(), play)
+
+
+def test_a_robot_that_was_held_before_stays_held_and_so_does_one_that_is_stopped_in_the_question() -> None:
+    async def play(session: Session) -> None:
+        await edited(session)
+        await session.press("exclamation_mark", "q", "n")
+        assert stops(session) == [True] and session.console.current.drive.stopped
+        await session.press("exclamation_mark", "q", "exclamation_mark", "n")
+        assert stops(session) == [True, False, True] and session.console.current.drive.stopped
+
+    run(live(), play)
+
+
+def test_a_stop_by_somebody_else_is_not_released_by_no() -> None:
+    async def play(session: Session) -> None:
+        await edited(session)
+        await session.press("q")
+        session.console.change(drive=replace(session.console.current.drive, stop_reason="a person is in the way"))
+        await session.press("n")
+        assert stops(session) == [True]
+
+    run(live(), play)
+
+
+def test_an_edit_that_takes_from_safety_is_told_once_with_the_way_back() -> None:
+    async def play(session: Session) -> None:
+        for value in (0.4, 0.3):
+            session.console.set_parameters(NODE, {"safety_distance": value})
+            await session.settle()
+        told = [each.message for each in session.app._notifications]
+        assert told == ["⚠ safety_distance 0.8 → 0.4 lowers a safety margin. u in the Parameters pane takes it back."]
+        session.console.set_parameters(NODE, {"safety_distance": 0.6})
+        session.console.set_parameters(NODE, {"turn_rate": 0.5})
+        await session.settle()
+        assert len(session.app._notifications) == 1
+
+    run(live(), play)

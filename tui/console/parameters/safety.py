@@ -1,0 +1,83 @@
+"""Which changes of a parameter take from the robot's safety: the one place where that is decided.
+
+ROS has no mark for such parameters, so that names and descriptions tell: distances at which a robot stops or slows
+down, limits of its speed, filters and protections that are switched. Whoever sets a value is judged alike.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from enum import Enum
+
+from bot_console.tui.console.model import ParameterInfo, Value
+
+
+class Worse(Enum):
+    """Which way takes from safety."""
+
+    LOWER = "lowers a safety margin"
+    HIGHER = "raises a limit"
+    BLINDER = "makes the robot see less"
+    LATER = "lets the robot go on longer without word"
+    OFF = "turns a protection off"
+    ON = "turns a protection off by switching it on"
+
+
+@dataclass(frozen=True)
+class Rule:
+    """Parameters with such a name, or with such a description, and which way of theirs is the worse one."""
+
+    worse: Worse
+    name: re.Pattern[str]
+    description: re.Pattern[str] | None = None
+
+    def fits(self, name: str, description: str) -> bool:
+        """Whether it is about a parameter."""
+        return bool(self.name.search(name) or (self.description and self.description.search(description)))
+
+
+def _words(text: str) -> re.Pattern[str]:
+    return re.compile(text, re.IGNORECASE)
+
+
+_PROTECTION = "safe|safety|emergency|collision|protective|obstacle|bumper|cliff|watchdog"
+_MOTION = "speed|velocity|vel|acceleration|accel|jerk|turn_rate|force|torque"
+NUMBERS = (
+    Rule(Worse.LATER, _words(r"(watchdog|dead_?man|heartbeat|command|cmd|cmd_vel)_?(timeout|time|silence)")),
+    Rule(
+        Worse.LOWER,
+        _words(
+            rf"(^|_)({_PROTECTION}|stop|stopping|warning|slowdown|min|minimum)_(.*_)?(distance|clearance|margin|radius|gap)"
+            r"|clearance|inflation_radius|safety_margin"
+        ),
+        _words(r"\b(stop\w*|slower|slow down)\b.*\bdistance|minimum .*clearance"),
+    ),
+    Rule(Worse.BLINDER, _words(r"(detection|obstacle)_threshold")),
+    Rule(
+        Worse.HIGHER,
+        _words(rf"^(max|maximum)_(.*_)?({_MOTION})(_|$)|({_MOTION})_(limit|max)"),
+        _words(r"\b(maximum|highest|largest)\b.*\b(speed|velocity|acceleration|turn rate)\b"),
+    ),
+)
+SWITCHES = (
+    Rule(Worse.ON, _words(rf"(disable|bypass|ignore|override)d?_.*({_PROTECTION}|filter|stop|limit)")),
+    Rule(Worse.OFF, _words(rf"(^|_)({_PROTECTION}|filter|filters|filtering)(_|$)|(speed|velocity)_limit")),
+)
+
+
+def takes_safety(parameter: ParameterInfo, before: Value, after: Value) -> str:
+    """What a change takes from the robot's safety, as the end of a sentence; empty when nothing."""
+    name = parameter.name.rpartition(".")[2]
+    for rule in SWITCHES if isinstance(after, bool) else NUMBERS:
+        if rule.fits(name, parameter.description):
+            return rule.worse.value if _is_worse(rule.worse, before, after) else ""
+    return ""
+
+
+def _is_worse(worse: Worse, before: Value, after: Value) -> bool:
+    if isinstance(before, bool) or isinstance(after, bool):
+        return before is not after and after is (worse is Worse.ON)
+    if not isinstance(before, (int, float)) or not isinstance(after, (int, float)):
+        return False
+    return after < before if worse is Worse.LOWER else after > before

@@ -1,0 +1,44 @@
+"""Word of single edits that took from the robot's safety, with the way back."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from bot_console.tui.console.model import Change, ChangeSource, ConsoleSnapshot
+from bot_console.tui.console.parameters.safety import takes_safety
+from bot_console.tui.console.protocol import Console
+from bot_console.tui.format import value_text
+
+TOLD = (ChangeSource.EDIT, ChangeSource.REDO)
+
+
+class SafetyNews:
+    """Reads the journal on; a parameter that goes on the same way, as one that is nudged does, is told of once."""
+
+    def __init__(self, console: Console) -> None:
+        self._console = console
+        self._end: int | None = None
+        self._told: set[tuple[str, str]] = set()
+
+    def since(self, snapshot: ConsoleSnapshot) -> Sequence[str]:
+        """What is to be told of the edits since the last look."""
+        before, self._end = self._end, snapshot.journal.end
+        if before is None or before == self._end:
+            return ()
+        changes = self._console.changes(before)
+        return [text for each in changes if (text := self._news(each, snapshot))]
+
+    def _news(self, change: Change, snapshot: ConsoleSnapshot) -> str:
+        tree = snapshot.parameters.get(change.node)
+        parameter = tree.get(change.name) if tree else None
+        if parameter is None or not change.accepted:
+            return ""
+        key, why = (change.node, change.name), takes_safety(parameter, change.old, change.new)
+        told = key in self._told
+        if not why:
+            self._told.discard(key)
+        if not why or told or change.source not in TOLD:
+            return ""
+        self._told.add(key)
+        values = f"{value_text(change.old)} → {value_text(change.new)}"
+        return f"⚠ {change.name} {values} {why}. u in the Parameters pane takes it back."
