@@ -5,7 +5,13 @@ from __future__ import annotations
 import pytest
 from bot_console.tui.keymap import TABLE, key_text
 from bot_console.tui.pane_table import PANES
+from bot_console.tui.panes.launch.pane import LaunchPane
+from bot_console.tui.panes.logs.pane import LogsPane
+from bot_console.tui.panes.pane import Pane
+from bot_console.tui.panes.parameters.pane import ParametersPane
+from bot_console.tui.panes.profiles.pane import ProfilesPane
 from bot_console.tui.screens.picker import PickerScreen
+from bot_console.tui.widgets.row_list import RowList
 from piloting import Session, run
 from samples import live
 from textual.widgets import Input
@@ -169,3 +175,64 @@ def test_q_quits_and_the_keys_line_fits_every_width() -> None:
         assert not session.app.is_running or session.app._exit
 
     run(live(), play, (60, 20))
+
+
+@pytest.mark.parametrize("digit", [each.digit for each in PANES])
+def test_no_two_scopes_that_are_live_together_claim_one_key(digit: str) -> None:
+    async def play(session: Session) -> None:
+        await session.press(digit)
+        ours = {key.id for keys in TABLE.values() for key in keys}
+        claims: dict[str, set[str]] = {}
+        assert session.app.focused is not None
+        for node in session.app.focused.ancestors_with_self:
+            for key, bound in node._bindings.key_to_bindings.items():
+                claims.setdefault(key, set()).update(each.id for each in bound if each.id in ours)
+        assert {key for key in claims if key in ("q", "0")} == {"q", "0"}, "the keys of the app are among them"
+        assert {key: ids for key, ids in claims.items() if len(ids) > 1} == {}
+
+    run(live(), play)
+
+
+@pytest.mark.parametrize("digit", ["1", "2", "3"])
+def test_the_key_bar_names_the_filter_at_80_columns(digit: str) -> None:
+    async def play(session: Session) -> None:
+        await session.press(digit)
+        assert "/ Filter" in session.lines()[-1]
+
+    run(live(), play)
+
+
+@pytest.mark.parametrize("pane", [ParametersPane, LaunchPane, ProfilesPane, LogsPane])
+def test_the_first_and_the_last_row_are_one_key_away_in_every_list(pane: type[Pane]) -> None:
+    async def play(session: Session) -> None:
+        await session.press(next(each.digit for each in PANES if each.load() is pane))
+        rows = next(each for each in session.pane(pane).query(RowList) if each.can_focus)
+        for last, first in (("G", "g"), ("end", "home")):
+            await session.press(last)
+            assert rows.cursor == rows.row_count() - 1 > 0
+            await session.press(first)
+            assert rows.cursor == 0
+
+    run(live(), play)
+
+
+def test_the_first_cursor_is_on_the_first_row_in_whatever_order_nodes_come() -> None:
+    system = live()
+    trees = dict(system[0].current.parameters)
+    system[0].change(parameters={"/simulator": trees["/simulator"]})
+
+    async def play(session: Session) -> None:
+        await session.press("1")
+        session.console.change(parameters=dict(sorted(trees.items())))
+        await session.settle()
+        rows = session.pane(ParametersPane).query_one(RowList)
+        assert rows.cursor == 0
+        await session.press("slash")
+        await session.type("max")
+        await session.press("enter")
+        every = sum(len(each.parameters) for each in trees.values())
+        assert f"/max  1 of {every}" in session.text()
+        await session.press("escape")
+        assert "/max" not in session.text()
+
+    run(system, play)

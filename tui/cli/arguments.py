@@ -17,6 +17,7 @@ examples:
   bot-console outdoor                      the same robot in the open
   bot-console --launch my.launch.py a:=1   any ROS 2 launch file
   bot-console run my_node.py               a node of yours, alone in this terminal
+  bot-console run --watch my_node.py       the same, with the console open on it
   bot-console launch my_package x.launch.py
   bot-console --headless --fast --profile warehouse --duration 600 --seed 7
 

@@ -61,12 +61,12 @@ class PickerScreen(QuestionScreen[str]):
     def __init__(self, choice: Choice) -> None:
         super().__init__(choice)
         self._choice = choice
+        self._every = 0
 
     def compose(self) -> ComposeResult:
         """What is typed, and the options that match."""
         with Vertical() as box:
             box.border_title = Text(harmless(self._choice.label))
-            box.border_subtitle = "enter takes it · esc closes"
             yield Input(placeholder=self._choice.hint)
             yield OptionRows()
             yield Words()
@@ -74,6 +74,7 @@ class PickerScreen(QuestionScreen[str]):
     def on_mount(self) -> None:
         """Typing narrows."""
         self.set_focus(self.query_one(Input))
+        self._every = len(self._choice.find(""))
         self._show("")
 
     def on_input_changed(self, event: Input.Changed) -> None:
@@ -83,6 +84,7 @@ class PickerScreen(QuestionScreen[str]):
     def _show(self, typed: str) -> None:
         rows = self.query_one(OptionRows)
         rows.options = self._choice.find(typed)
+        self.query_one(Vertical).border_subtitle = f"{len(rows.options)} of {self._every} · enter takes it · esc closes"
         rows.set_reactive(RowList.cursor, 0)
         rows.rows_changed()
         rows.show_cursor()

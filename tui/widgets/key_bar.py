@@ -12,6 +12,8 @@ from textual.events import Click
 from textual.widgets import Static
 
 GAP = "  "
+FILTER = "slash"
+"""The key of the pane that gives way last."""
 
 Shown: TypeAlias = "tuple[str, str, str]"
 """How a key is written, what it does, and its name for Textual."""
@@ -41,7 +43,7 @@ class KeyBar(Static):
         else:
             own, everywhere = list(_named(TABLE.get(scope, ()))), list(_named(TABLE["app"]))
         while own and _line([*own, *everywhere], colour).cell_len > width:
-            own.pop()
+            own.pop(next((at for at in reversed(range(len(own))) if own[at][2] != FILTER), 0))
         while everywhere and _line([*own, *everywhere], colour).cell_len > width:
             everywhere.pop(1 if len(everywhere) > 1 else 0)
         self._keys = [*own, *everywhere]

@@ -112,8 +112,11 @@ class RowList(ScrollView, can_focus=True):
         self.action_cursor(step * max(1, self.size.height - 1))
 
     def action_end(self, end: int) -> None:
-        """The first row, or the last."""
+        """The first row, or the last; told also where the cursor stands there already."""
+        before = self.cursor
         self.action_cursor(end * self.row_count())
+        if self.cursor == before:
+            self.post_message(self.Moved(self, before))
 
     def on_click(self, event: object) -> None:
         """A click moves the cursor."""

@@ -194,16 +194,6 @@ class LogsPane(Pane):
             self._to_end()
         self._tell()
 
-    def action_jump_end(self) -> None:
-        """To the newest line."""
-        self._following = True
-        self._to_end()
-        self._tell()
-
-    def action_jump_home(self) -> None:
-        """To the oldest line."""
-        self._list.cursor = 0
-
     def action_warnings(self) -> None:
         """Warnings and worse, or everything."""
         wanted = Severity.UNSET if self._which.minimum is Severity.WARN else Severity.WARN

@@ -48,6 +48,8 @@ class ParametersPane(Pane):
         self._view = View()
         self._filter = ""
         self._expected = ""
+        self._chosen = False
+        """Whether the cursor was moved; until then it stays on the first row, in whatever order nodes come."""
 
     def compose(self) -> ComposeResult:
         """The tree, what is known of the parameter at the cursor, and a prompt."""
@@ -91,13 +93,14 @@ class ParametersPane(Pane):
         moved = shown.take(new)
         if moved:
             shown.refresh()
+        self.caption(self._filtered(new))
         if len(old) == len(new):
             for index, (before, after) in enumerate(zip(old, new, strict=True)):
                 if before != after:
                     self._forget_refusal(before, after)
                     shown.row_changed(index)
         else:
-            if at is not None:
+            if at is not None and self._chosen:
                 where = (each for each, row in enumerate(new) if (row.node, row.name) == (at.node, at.name))
                 shown.set_reactive(ParameterRows.cursor, next(where, min(shown.cursor, max(0, len(new) - 1))))
             shown.rows_changed()
@@ -106,6 +109,13 @@ class ParametersPane(Pane):
             self._go_to_expected()
         self._describe()
 
+    def _filtered(self, shown: list[Row]) -> str:
+        """The filter, and how many of the parameters pass it."""
+        if not self._filter:
+            return ""
+        every = sum(len(tree.parameters) for tree in self._snapshot.parameters.values())
+        return f"/{self._filter}  {sum(row.parameter is not None for row in shown)} of {every}"
+
     def _forget_refusal(self, before: Row, after: Row) -> None:
         if before.parameter and after.parameter and before.parameter.value != after.parameter.value:
             self._list.refused.pop((after.node, after.parameter.name), None)
@@ -113,6 +123,7 @@ class ParametersPane(Pane):
     def on_row_list_moved(self, event: RowList.Moved) -> None:
         """Tell of the parameter at the cursor."""
         event.stop()
+        self._chosen = self._chosen or event.index > 0
         self._describe()
 
     def _describe(self) -> None:
@@ -255,13 +266,16 @@ class ParametersPane(Pane):
     def _apply_filter(self, text: str) -> None:
         self._filter = text
         self._view = replace(self._view, query=parse(text))
-        self.caption(f"/{text}" if text else "")
         self._arrange()
 
     def _to_first_match(self) -> None:
         if self._filter and self._at() is None:
             matches = (index for index, row in enumerate(self._list.rows) if row.parameter is not None)
             self._list.cursor = next(matches, 0)
+
+    def action_clear_filter(self) -> None:
+        """Show everything again."""
+        self._apply_filter("")
 
     def action_toggle_changed(self) -> None:
         """Only what differs from its default, or all."""
