@@ -210,12 +210,20 @@ class ParametersPane(Pane):
         self._list.refresh()
         self._describe()
 
-    def action_dismiss(self) -> None:
-        """Take the mark of a refusal away."""
+    def action_dismiss(self) -> bool:
+        """Take the mark of a refusal away; whether there was one."""
         row = self._list.current
-        if row is not None and self._list.refused.pop((row.node, row.parameter.name if row.parameter else ""), None):
+        key = (row.node, row.parameter.name if row.parameter else "") if row else ("", "")
+        marked = self._list.refused.pop(key, None) is not None
+        if marked:
             self._list.row_changed(self._list.cursor)
             self._describe()
+        return marked
+
+    def action_clear(self) -> None:
+        """Take the mark at the cursor away, or else the filter."""
+        if not self.action_dismiss():
+            self._apply_filter("")
 
     def action_nudge(self, steps: int) -> None:
         """Move a number by its step, or by a hundredth of its range."""
@@ -272,10 +280,6 @@ class ParametersPane(Pane):
         if self._filter and self._at() is None:
             matches = (index for index, row in enumerate(self._list.rows) if row.parameter is not None)
             self._list.cursor = next(matches, 0)
-
-    def action_clear_filter(self) -> None:
-        """Show everything again."""
-        self._apply_filter("")
 
     def action_toggle_changed(self) -> None:
         """Only what differs from its default, or all."""
