@@ -8,7 +8,7 @@ from typing import NoReturn
 
 from bot_console.tui import __version__
 from bot_console.tui.cli import ros2
-from bot_console.tui.cli.domain import end_program
+from bot_console.tui.cli.domain import end_program, others_take_part
 
 Words = list[str]
 
@@ -21,7 +21,10 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 0
     from bot_console.tui.opening import is_rqt
 
-    if not is_rqt(words):
+    if is_rqt(words):
+        if others_take_part():
+            return _attach(words)
+    else:
         command = _COMMANDS.get(words[0]) if words else None
         if command:
             return command(words[1:])
@@ -44,6 +47,13 @@ def program() -> NoReturn:
     from bot_console.runtime.terse import told
 
     end_program(told(main))
+
+
+def _attach(words: Words) -> int:
+    from bot_console.tui.cli.arguments import parse_attach
+    from bot_console.tui.cli.session import run
+
+    return run(parse_attach(words))
 
 
 def _run(words: Words) -> int:
@@ -104,6 +114,7 @@ _COMMANDS: dict[str, Callable[[Words], int]] = {
     "run": _run,
     "launch": _launch,
     "ros2": _ros2,
+    "attach": _attach,
     "export": _export,
     "setup": _setup,
     "complete": _complete,

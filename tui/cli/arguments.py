@@ -19,9 +19,11 @@ examples:
   bot-console run my_node.py               a node of yours, alone in this terminal
   bot-console run --watch my_node.py       the same, with the console open on it
   bot-console launch my_package x.launch.py
+  bot-console attach                       the console on what runs already, without a robot of its own
   bot-console --headless --fast --profile warehouse --duration 600 --seed 7
 
-other commands: run, launch, export, and the verbs of ros2 (bot-console interface show std_msgs/msg/String)
+other commands: attach, run, launch, export, setup, stop, release,
+and the verbs of ros2 (bot-console interface show std_msgs/msg/String)
 
 exit codes: 0 done, 1 failed (one line says why), 2 wrong usage
 """
@@ -44,6 +46,22 @@ class Options:
     simulator: bool | None = None
     """Whether the simulated robot runs beside a launch file; None: when its nodes want a robot and nobody gives one."""
     log_to: Path | None = None
+    attach: bool = False
+    """Whether the console shows what runs in the domain, and starts nothing."""
+
+
+def parse_attach(words: Sequence[str]) -> Options:
+    """Read what follows `attach`; ends the program with exit code 2 for wrong usage."""
+    parser = argparse.ArgumentParser(
+        "bot-console attach",
+        description="The console on what runs in the ROS domain, without a robot of its own; also by rqt's names.",
+    )
+    parser.add_argument("--pane", default="overview", help="the pane to begin with")
+    parser.add_argument("--workspace", action="append", type=Path, metavar="DIR", help="where packages are")
+    opening, words = rqt_opening(words) if is_rqt(words) else (None, words)
+    given = parser.parse_args(words)
+    _check_pane(parser, given.pane)
+    return Options(opening=opening or Opening(given.pane), workspace=given.workspace or [], attach=True)
 
 
 def parse(words: Sequence[str]) -> Options:
@@ -51,9 +69,7 @@ def parse(words: Sequence[str]) -> Options:
     parser = _parser()
     opening, words = rqt_opening(words) if is_rqt(words) else (None, words)
     given = parser.parse_args(words)
-    named = {each.id for each in PANES} | {"overview"}
-    if given.pane not in named:
-        parser.error(f"there is no pane '{given.pane}'; panes: {', '.join(sorted(named))}")
+    _check_pane(parser, given.pane)
     profile, pairs = _profile_and_pairs(parser, given)
     if given.simulator is not None and not given.launch:
         parser.error("--simulator and --no-simulator go with --launch: the robot system brings its own robot")
@@ -74,6 +90,12 @@ def parse(words: Sequence[str]) -> Options:
         world=given.world or "",
         simulator=given.simulator,
     )
+
+
+def _check_pane(parser: argparse.ArgumentParser, pane: str) -> None:
+    named = {each.id for each in PANES} | {"overview"}
+    if pane not in named:
+        parser.error(f"there is no pane '{pane}'; panes: {', '.join(sorted(named))}")
 
 
 def _profile_and_pairs(parser: argparse.ArgumentParser, given: argparse.Namespace) -> tuple[str, dict[str, str]]:

@@ -5,6 +5,7 @@ Composition alone: what a verb, `run` and `launch` make is then seen by the othe
 
 from __future__ import annotations
 
+import atexit
 import os
 import sys
 from typing import NoReturn
@@ -27,7 +28,7 @@ def take_part() -> str:
     from bot_console.runtime.rmw.zenoh.domain_folder import FolderRefusedError, domain_folder
 
     try:
-        domain_folder(_domain())
+        domain_folder(domain())
     except FolderRefusedError as refused:
         return str(refused)
     choose_middleware(shared_bus)
@@ -35,7 +36,45 @@ def take_part() -> str:
     return ""
 
 
-def _domain() -> int:
+def others_take_part() -> bool:
+    """Whether another process of this user is in the domain, as far as the folder of their sockets tells."""
+    from bot_console.runtime.rmw.zenoh.domain_folder import FolderRefusedError, domain_folder
+    from bot_console.runtime.rmw.zenoh.sockets import sockets
+
+    try:
+        found = sockets(domain_folder(domain())) if os.name != "nt" else []
+    except FolderRefusedError:
+        return False
+    return any(each.pid != os.getpid() and _lives(each.pid) for each in found)
+
+
+def robot_there() -> list[str]:
+    """The nodes of other processes that are a robot's: they obey velocities, or give scans or odometry.
+
+    To be asked after `take_part` and before anything runs in this process.
+    """
+    from bot_console.runtime.rmw.middleware import bus_of
+    from bot_console.tui.console.robot_wanted import SOURCES, VELOCITY
+
+    if not others_take_part():
+        return []
+    bus = bus_of(domain())
+    found = [each for each in bus.publishers() if each.topic in SOURCES]
+    found += [each for each in bus.subscriptions() if each.topic == VELOCITY]
+    return sorted({f"{each.node.namespace.rstrip('/')}/{each.node.name}" for each in found})
+
+
+def _lives(pid: int) -> bool:
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    except PermissionError:
+        return True
+    return True
+
+
+def domain() -> int:
     """The domain of the environment; a text that is no number is told when a context is made."""
     text = os.environ.get("ROS_DOMAIN_ID", "")
     return int(text) if text.isdecimal() else 0
@@ -47,6 +86,7 @@ def end_program(code: int) -> NoReturn:
         from bot_console.runtime.rmw.zenoh.domain_bus import leave_all
 
         leave_all()
+        atexit._run_exitfuncs()  # temporary folders of this process go, as they do at any other end
         for stream in (sys.stdout, sys.stderr):
             try:
                 stream.flush()

@@ -6,7 +6,8 @@ import contextlib
 import signal
 import sys
 import threading
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from types import FrameType
 
@@ -15,6 +16,7 @@ from bot_console.runtime.process import NodeProcess
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.cli import robot_beside
 from bot_console.tui.cli.arguments import Options
+from bot_console.tui.cli.domain import domain, robot_there, take_part
 from bot_console.tui.cli.hangup import hangup_as_signal
 from bot_console.tui.cli.launching import Launching
 from bot_console.tui.cli.process_news import tell_news
@@ -30,6 +32,7 @@ SWITCH_INTERVAL = 0.0005
 LAST_WORD = 0.2
 """Seconds that the final zero Twist has to reach the robot before anything is shut down."""
 READY = 20.0
+ATTACHED = "Attached to ROS domain {}: q ends the console alone. The Launch pane has only what this console starts."
 LINE_LIMIT = 15.0
 """Seconds after which a `ros2` line that does not end by itself is interrupted, as by Ctrl-C."""
 
@@ -37,15 +40,17 @@ LINE_LIMIT = 15.0
 class Session:
     """Holds the parts together."""
 
-    def __init__(self, options: Options) -> None:
+    def __init__(self, options: Options, said: Sequence[tuple[Severity, str]] = ()) -> None:
+        """`said` are lines for the log that were known before there was one."""
         self._options = options
+        self._said = said
         self._closed = False
         self._looking: NodeProcess | None = None
         self._forget_notices: Callable[[], None] = lambda: None
         self.console = RosConsole(
             launch_info=self._launch_info,
             profile_folders=[ROOT / "profiles"],
-            active_profile="" if options.launch else options.profile,
+            active_profile="" if options.launch or options.attach else options.profile,
             run_line=run_line,
             graph_events=graph_events,
         )
@@ -81,6 +86,10 @@ class Session:
             return
         self._forget_notices = tell_news(self.console.printed)
         options = self._options
+        for severity, line in self._said:
+            self.console.printed(severity, "bot-console", line)
+        if options.attach:
+            return
         if options.launch:
             self.launcher.launch(options.launch, options.launch_arguments)
             self._looking = robot_beside.begin(options, self._running, self._start_robot)
@@ -104,7 +113,8 @@ class Session:
         """Ctrl-C from elsewhere, SIGTERM and SIGHUP (a closed terminal) stop the robot first, then end the app."""
 
         def end(number: int, frame: FrameType | None) -> None:
-            self.console.all_stop(True, f"bot-console was ended by {signal.Signals(number).name}")
+            if not self._options.attach:
+                self.console.all_stop(True, f"bot-console was ended by {signal.Signals(number).name}")
             self.app.exit(return_code=128 + number)
 
         before = {each: signal.signal(each, end) for each in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
@@ -115,12 +125,16 @@ class Session:
                 signal.signal(each, handler)
 
     def close(self) -> None:
-        """Zero velocity, then end the launched processes, then leave the graph; a second call does nothing."""
+        """Zero velocity, then end the launched processes, then leave the graph; a second call does nothing.
+
+        A robot that was attached to goes on, but for one that this console steers: leaving the graph locks that.
+        """
         if self._closed:
             return
         self._closed = True
-        self.console.all_stop(True, "bot-console was quit")
-        threading.Event().wait(LAST_WORD)
+        if not self._options.attach:
+            self.console.all_stop(True, "bot-console was quit")
+            threading.Event().wait(LAST_WORD)
         if self._looking is not None:
             self._looking.stop()
         self.launcher.close()
@@ -138,7 +152,30 @@ def run(options: Options) -> int:
         return 1
     install()
     choose(options.workspace)
-    return Session(options).run()
+    alone = take_part()
+    if alone and options.attach:
+        print(alone, file=sys.stderr)
+        return 1
+    if not (alone or options.attach or options.launch) and (there := robot_there()):
+        if not _attach_instead(there):
+            return 1
+        options = replace(options, attach=True)
+    said = [(Severity.WARN, f"No second terminal reaches this system: {alone}")] if alone else []
+    if options.attach:
+        said.append((Severity.INFO, ATTACHED.format(domain())))
+    return Session(options, said).run()
+
+
+def _attach_instead(there: list[str]) -> bool:
+    """Two robots in one domain would obey each other's commands, so the person is asked."""
+    number = domain()
+    print(f"A robot runs already in ROS domain {number}: {', '.join(there)}.")
+    print(f"`ROS_DOMAIN_ID={number + 1} bot-console` starts another one apart from it.")
+    try:
+        return input("Attach the console to the one that runs? [Y/n] ").strip().lower() in ("", "y", "yes")
+    except (EOFError, KeyboardInterrupt):
+        print()
+        return False
 
 
 def graph_events(domain: int, changed: Callable[[], None]) -> Callable[[], None]:

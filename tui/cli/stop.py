@@ -7,6 +7,7 @@ import sys
 import time
 
 from bot_console.runtime.importer import install
+from bot_console.tui.cli.domain import take_part
 
 PATIENCE = 3.0
 """Seconds to find the robot and hear its answer."""
@@ -19,6 +20,10 @@ def run(verb: str, words: list[str]) -> int:
     if verb == "stop":
         parser.add_argument("reason", nargs="?", default="ALL STOP", help="why, for others to read")
     given = parser.parse_args(words)
+    alone = take_part()
+    if alone:
+        print(alone, file=sys.stderr)
+        return 1
     install()
     import rclpy
     from bot_console.tui.console.stop_link import STATUS, StopLink

@@ -46,11 +46,17 @@ LAST_WORD = 0.15
 """Seconds that the final zero Twist has to reach the robot before anything is shut down."""
 
 
-class _NoView:
-    """A view of a log that is not there yet."""
+class _EarlyView:
+    """A view that was asked for before there was a log: it has found nothing until it can be opened."""
+
+    def __init__(self, open_view: Callable[[], LogView | None]) -> None:
+        self._open_view = open_view
+        self._view: LogView | None = None
 
     def look(self) -> LogFindings:
-        return NOTHING_FOUND
+        if self._view is None:
+            self._view = self._open_view()
+        return self._view.look() if self._view else NOTHING_FOUND
 
 
 class _NoNumbers(tuple[int, ...]):
@@ -59,7 +65,6 @@ class _NoNumbers(tuple[int, ...]):
 
 
 NOTHING_FOUND = LogFindings(_NoNumbers())
-NO_VIEW = _NoView()
 
 
 class RosConsole:
@@ -179,7 +184,9 @@ class RosConsole:
 
     def view_logs(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
         """Search for what passes a filter."""
-        return self._views.open(which, instead_of) if self._views else NO_VIEW
+        if self._views:
+            return self._views.open(which, instead_of)
+        return _EarlyView(lambda: self._views.open(which) if self._views else None)
 
     def clear_logs(self) -> None:
         """Forget all log records."""

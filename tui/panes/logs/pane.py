@@ -129,8 +129,8 @@ class LogsPane(Pane):
 
     def _take_in(self) -> bool:
         """Show what was found; lines of the filter before stay until the search has something to show."""
-        if self._view is None or self._found is None:
-            self._view = self.console.view_logs(self._which, self._view)
+        if self._view is None:
+            self._view = self.console.view_logs(self._which)
         found = self._view.look()
         if found is self._found or not (len(found.numbers) or found.complete or found.problem):
             return False
@@ -148,6 +148,7 @@ class LogsPane(Pane):
     def _search(self, which: LogFilter) -> None:
         """Filter anew, over everything that is kept."""
         self._which = which
+        self._view = self.console.view_logs(which, self._view)
         self._found = None
         self._take_in()
         self._tell()

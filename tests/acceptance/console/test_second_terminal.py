@@ -1,0 +1,75 @@
+"""A console that runs, and what a second and a third terminal see of it and do to it: over real processes."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent))
+from terminal import PATIENCE, Terminal
+
+if os.name == "nt":
+    pytest.skip("programs meet on Unix sockets", allow_module_level=True)
+
+CONSOLE = ["-m", "bot_console.tui"]
+
+
+def typed(*words: str) -> subprocess.CompletedProcess[str]:
+    """A command line of another terminal, to its end."""
+    line = [sys.executable, *CONSOLE, *words]
+    return subprocess.run(line, capture_output=True, text=True, timeout=PATIENCE, check=False)
+
+
+def eventually(terminal: Terminal, condition, what: str) -> None:
+    """Ask another terminal again and again while the console's output is read."""
+    terminal.read_until(condition, what)
+
+
+@pytest.fixture
+def console(tmp_path: Path) -> Iterator[Terminal]:
+    terminal = Terminal([*CONSOLE, "--seed", "1"], tmp_path)
+    eventually(terminal, lambda: "/simulator" in typed("node", "list").stdout, "the robot in a second terminal")
+    yield terminal
+    terminal.close()
+
+
+def speed() -> float:
+    return float(typed("topic", "echo", "--once", "/odom", "--field", "twist.twist.linear.x").stdout.split()[0])
+
+
+def test_verbs_of_a_second_terminal_reach_the_robot(console: Terminal) -> None:
+    refused = typed("param", "set", "/robot_navigator", "max_speed", "10.0")
+    assert "out of range" in refused.stderr + refused.stdout
+    assert typed("param", "set", "/robot_navigator", "max_speed", "2.0").stdout == "Set parameter successful\n"
+    assert typed("param", "get", "/robot_navigator", "max_speed").stdout == "Double value is: 2.0\n"
+    assert typed("stop", "a test").returncode == 0
+    console.read_until(lambda: b"ALL STOP" in console.output, "the lock on the first screen")
+    assert abs(speed()) < 0.05
+    assert typed("release").returncode == 0
+    eventually(console, lambda: speed() > 0.1, "the robot that drives again")
+
+
+def test_a_second_console_is_asked_for_and_does_not_take_the_robot_along(console: Terminal, tmp_path: Path) -> None:
+    asking = Terminal(CONSOLE, tmp_path)
+    asking.read_until(lambda: b"Attach the console" in asking.output, "the question")
+    assert b"/simulator" in asking.output
+    asking.type("n\n")
+    assert asking.wait() == 1
+    asking.close()
+
+    attached = Terminal([*CONSOLE, "attach"], tmp_path)
+    attached.read_until(lambda: b"robot_navigator" in attached.output, "the robot's nodes in an attached console")
+    attached.type("!")
+    console.read_until(lambda: b"ALL STOP" in console.output, "the lock of another console on the first screen")
+    attached.type("!")
+    eventually(console, lambda: speed() > 0.1, "the robot that drives again")
+    attached.type("q")
+    assert attached.wait() == 0
+    attached.close()
+    assert console.process.poll() is None
+    eventually(console, lambda: speed() > 0.1, "the robot that drives on")
