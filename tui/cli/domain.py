@@ -5,7 +5,6 @@ Composition alone: what a verb, `run` and `launch` make is then seen by the othe
 
 from __future__ import annotations
 
-import atexit
 import os
 import sys
 from typing import NoReturn
@@ -83,10 +82,13 @@ def domain() -> int:
 def end_program(code: int) -> NoReturn:
     """End the process: at once where it has taken part, since closing waits up to 0.5 s beside a frozen process."""
     if _taking_part:
+        import atexit
+
         from bot_console.runtime.rmw.zenoh.domain_bus import leave_all
 
         leave_all()
-        atexit._run_exitfuncs()  # temporary folders of this process go, as they do at any other end
+        # Temporary folders of this process go, as they do at any other end.
+        atexit._run_exitfuncs()  # pyright: ignore[reportPrivateUsage]  # the only way before os._exit
         for stream in (sys.stdout, sys.stderr):
             try:
                 stream.flush()
