@@ -146,7 +146,8 @@ class BotConsoleApp(GuardedApp):
         with self.batch_update():
             for pane in self.visible_panes():
                 pane.show(snapshot)
-            self.screen_stack[0].query_one(StatusBar).show(snapshot, self.gate.held_back)
+            for bar in self.screen_stack[0].query(StatusBar):  # none while the screen is made or taken away
+                bar.show(snapshot, self.gate.held_back)
         for asker in self._askers():
             asker.look()
         for text in self._safety_news.since(snapshot):

@@ -1,13 +1,15 @@
-"""The real clock and real threads, whatever else is wrapped: for the runtime's own helpers."""
+"""The real clock, process id and threads, whatever else is wrapped: for the runtime's own helpers."""
 
 from __future__ import annotations
 
 import _thread
+import os
 import threading
 import time
 from collections.abc import Callable
 from heapq import heappop, heappush
 
+getpid = os.getpid
 sleep = time.sleep
 monotonic = time.monotonic
 start_thread = threading.Thread.start

@@ -134,7 +134,7 @@ def test_samples_and_picture_are_saved(tmp_path: Path) -> None:
             session.app.focused.value = str(tmp_path / name)
             await session.press("enter")
         await session.press("e")
-        session.app.focused.value = str(tmp_path)
+        session.app.focused.value = tmp_path.anchor
         await session.press("enter")
         assert "is a folder" in session.text()
 

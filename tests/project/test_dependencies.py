@@ -39,6 +39,8 @@ def imported():
                 names |= {alias.name.split(".")[0] for alias in node.names}
             elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
                 names.add(node.module.split(".")[0])
+            elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith("import_module") and node.args:
+                names |= {str(each.value).split(".")[0] for each in node.args[:1] if isinstance(each, ast.Constant)}
     return names
 
 

@@ -93,6 +93,24 @@ def _complete(words: Words) -> int:
     return run(words)
 
 
+def _up(words: Words) -> int:
+    from bot_console.tui.cli.background import up
+
+    return up(words)
+
+
+def _down(words: Words) -> int:
+    from bot_console.tui.cli.background import down
+
+    return down(words)
+
+
+def _status(words: Words) -> int:
+    from bot_console.tui.cli.background import status
+
+    return status(words)
+
+
 def _stop(words: Words) -> int:
     from bot_console.tui.cli.stop import run
 
@@ -118,6 +136,9 @@ _COMMANDS: dict[str, Callable[[Words], int]] = {
     "export": _export,
     "setup": _setup,
     "complete": _complete,
+    "up": _up,
+    "down": _down,
+    "status": _status,
     "stop": _stop,
     "release": _release,
     "colcon": _colcon,

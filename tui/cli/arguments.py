@@ -22,7 +22,7 @@ examples:
   bot-console attach                       the console on what runs already, without a robot of its own
   bot-console --headless --fast --profile warehouse --duration 600 --seed 7
 
-other commands: attach, run, launch, export, setup, stop, release,
+other commands: attach, up, down, status, run, launch, export, setup, stop, release,
 and the verbs of ros2 (bot-console interface show std_msgs/msg/String)
 
 exit codes: 0 done, 1 failed (one line says why), 2 wrong usage

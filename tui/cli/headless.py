@@ -16,7 +16,10 @@ from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.importer import install
 from bot_console.runtime.process import MAIN, NodeProcess, on_notice, stepped
+from bot_console.runtime.rmw.local import local_bus
+from bot_console.runtime.rmw.middleware import choose_middleware
 from bot_console.tui.cli.arguments import Options
+from bot_console.tui.cli.domain import domain, robot_there, take_part
 from bot_console.tui.cli.workspaces import choose
 
 if TYPE_CHECKING:
@@ -38,6 +41,8 @@ def run(options: Options) -> int:
         return 1
     install()
     choose(options.workspace)
+    if not options.fast:
+        _meet_others(options)
     duration = DURATION if options.duration is None else options.duration
     began = time.perf_counter()
     with _orderly_end(), _time(options) as clock, _notices():
@@ -61,6 +66,16 @@ def run(options: Options) -> int:
         report["stalls"] = stalls
     print(json.dumps(report, indent=2))
     return 0 if observer.complete else _no_report(launches)
+
+
+def _meet_others(options: Options) -> None:
+    """Take part in the domain, unless another robot is there: the two would obey each other's commands."""
+    problem = take_part()
+    if not problem and not options.launch and (there := robot_there()):
+        choose_middleware(local_bus)
+        problem = f"a robot is in ROS domain {domain()} already ({', '.join(there)}), so this one runs apart"
+    if problem:
+        print(problem, file=sys.stderr)
 
 
 def _no_report(launches: Launches) -> int:

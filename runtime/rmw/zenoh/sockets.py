@@ -14,6 +14,7 @@ import re
 import sys
 from dataclasses import dataclass
 
+from bot_console.runtime.process.real import getpid
 from bot_console.runtime.rmw.zenoh.domain_folder import BASE_VARIABLE
 
 LONGEST_PATH = 107 if sys.platform == "linux" else 103
@@ -66,14 +67,14 @@ class Socket:
 
 def own_socket(folder: str, zid: str) -> Socket:
     """The socket that a session of this process is to listen on; raises `PathTooLongError`."""
-    path = os.path.join(folder, f"{os.getpid()}.{zid[:8]}")
+    path = os.path.join(folder, f"{getpid()}.{zid[:8]}")
     length = len(os.fsencode(path))
     if length > LONGEST_PATH:
         raise PathTooLongError(
             f"the path {path} has {length} bytes, and that of a socket may have {LONGEST_PATH}: "
             f"set {BASE_VARIABLE} to a shorter folder"
         )
-    return Socket(path, os.getpid(), zid[:8])
+    return Socket(path, getpid(), zid[:8])
 
 
 def sockets(folder: str) -> list[Socket]:

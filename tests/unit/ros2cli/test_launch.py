@@ -139,7 +139,6 @@ def test_not_found(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
         (["nopkg", "x"], f"Package 'nopkg' not found: \"package 'nopkg' not found, searching: ['{folder}']\""),
         (["pkg", "zz.launch.py"], f"file 'zz.launch.py' was not found {where} which is at '{share}'"),
         (["pkg"], f"file 'None' was not found {where} which is at '{share}'"),
-        (["pkg", "-s"], f"file 'None' was not found {where} which is at '{share}'"),
     ]
     for words, said in rows:
         assert launched(capsys, *words) == (1, "", said + "\n")
