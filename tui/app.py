@@ -49,14 +49,13 @@ from textual.widgets import Input, Static
 
 OVERVIEW = (100, 30)
 """Columns and lines from which several panes are shown at once."""
-
 WIDE = (170, 45)
 """Columns and lines from which the overview has room for the graph as well."""
-
 PLOT = "plot"
 SMALLEST = (60, 20)
 HERE = Path(__file__).parent
-
+SEEN_AT_ONCE = 2
+"""Notifications for which the corner has room."""
 
 AT_ONCE = frozenset(next(key.keys for key in keymap.TABLE["app"] if key.id == "app.quit_now").split(","))
 """Keys that never wait for those typed before."""
@@ -347,6 +346,8 @@ class BotConsoleApp(GuardedApp):
         markup: bool = False,
     ) -> None:
         """Tell something in a corner; what nodes and people write is shown as it is written, whoever tells it."""
+        if len(self._notifications) >= SEEN_AT_ONCE:
+            self.clear_notifications()  # the newest, a refusal above all, must have room
         super().notify(brief(message), title=harmless(title), severity=severity, timeout=timeout, markup=False)
 
     def contain(self, error: Exception, culprits: list[DOMNode]) -> bool:
