@@ -32,10 +32,18 @@ def run(make_node: Callable[[], Node], args: list[str] | None) -> None:
         get_logger(make_node.__name__).fatal(str(error))
         sys.exit(1)
     except Exception:
-        if rclpy.ok():
+        if _goes_on():
             raise
         # A signal has shut the context down while a callback was about to publish: that is the end, and no fault.
     finally:
         if node is not None:
             node.destroy_node()
         rclpy.try_shutdown()
+
+
+def _goes_on() -> bool:
+    """Whether nothing has ended the program; a second signal may come just now."""
+    try:
+        return rclpy.ok()
+    except KeyboardInterrupt:
+        return False
