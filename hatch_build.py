@@ -28,9 +28,10 @@ class CustomBuildHook(BuildHookInterface):
             links.mkdir(parents=True, exist_ok=True)
             for folder in FOLDERS:
                 link(root / folder, links / folder)
-            # The type checker's way to the package name that the importer serves.
+            # The type checker's way to the package names that the importer serves.
             (root / "build" / "types").mkdir(parents=True, exist_ok=True)
             link(root / "nodes", root / "build" / "types" / "bot_console_robot")
+            link(root / "nodes" / "demos", root / "build" / "types" / "bot_console_demos")
 
 
 def link(target: Path, place: Path) -> None:

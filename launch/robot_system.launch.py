@@ -8,7 +8,7 @@ import os
 
 from ament_index_python.packages import get_package_share_directory
 from launch.actions import DeclareLaunchArgument, OpaqueFunction
-from launch.substitutions import LaunchConfiguration
+from launch.substitutions import LaunchConfiguration, PythonExpression
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 
@@ -22,9 +22,13 @@ def generate_launch_description():
     """Describe the system."""
     profiles = os.path.join(get_package_share_directory(PACKAGE), "config")
     profile = LaunchConfiguration("profile")
+    navigator = LaunchConfiguration("navigator")
     config_file = LaunchConfiguration("config_file")
     use_sim_time = {"use_sim_time": ParameterValue(LaunchConfiguration("use_sim_time"), value_type=bool)}
     follow_route = {"follow_route": ParameterValue(LaunchConfiguration("follow_route"), value_type=bool)}
+
+    # One of the two goes to a goal: the controller straight on, or the navigator of Nav2's goals over the map.
+    goals = "goal_pose", PythonExpression(["'_direct_goal' if '", navigator, "' == 'goals' else 'goal_pose'"])
 
     def robot_node(executable, name, remappings=(), extra=None, **options):
         return Node(
@@ -52,7 +56,7 @@ def generate_launch_description():
             DeclareLaunchArgument(
                 "navigator",
                 default_value="true",
-                description="Who drives: our robot_navigator (true), nobody (false), or the node in this Python file",
+                description="Who drives: robot_navigator (true), nobody (false), Nav2's goals (goals), a Python file",
             ),
             DeclareLaunchArgument(
                 "follow_route", default_value="false", description="Drive along the world's waypoints"
@@ -64,7 +68,7 @@ def generate_launch_description():
             robot_node("sensor_node", "sensor_handler"),
             # Without it the robot stands, locked; when it is back a person releases it.
             robot_node("safety_node", "safety_monitor", respawn=True, respawn_delay=1.0),
-            robot_node("controller_node", "motion_controller", [("cmd_vel", "cmd_vel_nav")], follow_route),
+            robot_node("controller_node", "motion_controller", [("cmd_vel", "cmd_vel_nav"), goals], follow_route),
             robot_node("telemetry_node", "telemetry_publisher"),
             OpaqueFunction(function=make_navigator),
         ]
@@ -72,15 +76,17 @@ def generate_launch_description():
 
 
 def make_navigator(context):
-    """Our navigator, a file in its place, or nothing."""
+    """Our navigator, that of Nav2's goals or a file in its place, or nothing."""
     chosen = LaunchConfiguration("navigator").perform(context)
     if chosen.lower() in ("false", "0"):
         return []
     program = {"executable": chosen} if chosen.endswith(".py") else {"package": PACKAGE, "executable": "robot_node"}
+    if chosen == "goals":
+        program["executable"] = "navigation_node"
     return [
         Node(
             **program,
-            name="robot_navigator",
+            name="bt_navigator" if chosen == "goals" else "robot_navigator",
             output="screen",
             parameters=[
                 LaunchConfiguration("config_file"),

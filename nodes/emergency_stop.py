@@ -15,6 +15,8 @@ from std_srvs.srv import Trigger
 REQUESTS = "emergency_stop/request"
 ARBITER, BASE = "emergency_stop/arbiter", "emergency_stop/base"
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+SERVICE = "service"
+"""The key of stops that were asked for by a service call, which does not tell who calls."""
 WATCH_PERIOD = 0.1
 """Seconds between two looks at who has fallen silent."""
 GONE = 3
@@ -22,7 +24,10 @@ GONE = 3
 
 
 class EmergencyStop:
-    """A node's latch, with the services `~/stop` and `~/release`. `changed` is called whenever its state is another."""
+    """A node's latch, with the services `~/stop`, `~/release` and `~/release_all`.
+
+    `changed` is called whenever its state is another.
+    """
 
     def __init__(
         self, node: Node, steady: Clock, own: str, other: str, changed: Callable[[], None], lock: Lock | None = None
@@ -35,13 +40,14 @@ class EmergencyStop:
         self._other = other
         self._other_instance = ""
         self._gone = 0
-        self._told = self._latch.lock.held
+        self._told = self._latch.lock.stops
         self._states = node.create_publisher(DiagnosticStatus, own, LATCHED)
         self._requests = node.create_publisher(DiagnosticStatus, REQUESTS, 10)
         node.create_subscription(DiagnosticStatus, REQUESTS, self._on_request, 10)
         node.create_subscription(DiagnosticStatus, other, self._on_state, LATCHED)
         node.create_service(Trigger, "~/stop", self._on_stop)
         node.create_service(Trigger, "~/release", self._on_release)
+        node.create_service(Trigger, "~/release_all", self._on_release_all)
         node.create_timer(WATCH_PERIOD, self._watch, clock=steady)
         self._publish()
 
@@ -74,18 +80,27 @@ class EmergencyStop:
         self._note(self._latch.follow(lock))
 
     def _on_stop(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        return self._asked(STOP, response)
+        response.message = "locked"
+        return self._asked(Request(STOP, self._caller("stop"), "asked for by a service call", SERVICE), response)
 
     def _on_release(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        return self._asked(RELEASE, response)
+        return self._asked(Request(RELEASE, self._caller("release"), "", SERVICE), response)
 
-    def _asked(self, verb: str, response: Trigger.Response) -> Trigger.Response:
+    def _on_release_all(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        held = tuple(each.key for each in self.lock.stops)
+        return self._asked(Request(RELEASE, self._caller("release_all"), "", SERVICE, held), response)
+
+    def _caller(self, verb: str) -> str:
+        return f"a call of {self._node.get_name()}/{verb}"
+
+    def _asked(self, request: Request, response: Trigger.Response) -> Trigger.Response:
         """Do it, and let the robot's other latches hear it."""
-        request = Request(verb, f"a call of {self._node.get_name()}/{verb}", "asked for by a service call")
         self._note(self._latch.request(request, self._now()))
         self._requests.publish(request_message(request))
-        response.success = True
-        response.message = "locked" if self.lock.held else "released"
+        response.success = self.lock.held is (request.verb == STOP)
+        if request.verb == RELEASE:
+            others = "; ".join(f"{each.holder}: {each.reason}" for each in self.lock.stops)
+            response.message = f"still locked by {others} (release_all releases these too)" if others else "released"
         return response
 
     def _watch(self) -> None:
@@ -100,15 +115,14 @@ class EmergencyStop:
         if changed:
             self._changed()
             self._publish()
-        if self.lock.held is not self._told:
-            self._told = self.lock.held
-            self._tell()
+        self._tell()
 
     def _tell(self) -> None:
-        log = self._node.get_logger()
-        if self.lock.held:
-            log.warning(f"Emergency stop: locked by {self.lock.holder}: {self.lock.reason}")
-        else:
+        log, told, self._told = self._node.get_logger(), self._told, self.lock.stops
+        for each in self.lock.stops:
+            if each.key not in {other.key for other in told}:
+                log.warning(f"Emergency stop: locked by {each.holder}: {each.reason}")
+        if told and not self.lock.held:
             log.info("Emergency stop: released")
 
     def _publish(self) -> None:

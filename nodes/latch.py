@@ -1,35 +1,70 @@
 """The emergency stop as a state: locked by the first word of anybody, released only by a person's. Pure.
 
+It remembers everybody who has stopped the robot, and stays locked until the last of these stops is released.
 Several nodes of a robot hold one each (who commands it, and the base itself); `follow` keeps them together.
 """
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 
 SILENCE_NS = 1_000_000_000
 """A console that holds the steering is gone when it has not been heard for so long."""
 STOP, RELEASE, STEER, HAND_BACK = "stop", "release", "steer", "hand_back"
+SILENT = "held the steering and fell silent"
+NODE = "node"
+"""The key of stops that no person made but a node of the robot; every release lets go of these as well."""
+MOST = 50
+"""Stops that are told apart, and consoles that are watched; those beyond share one place."""
+CROWD = "others"
 
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """What somebody wants: one of the four verbs. `key` tells two of the same name apart."""
+    """What somebody wants: one of the four verbs. `key` tells two of the same name apart.
+
+    `of` are the keys of the stops that a release is for; empty for the asking program's own and the nodes'.
+    """
 
     verb: str
     holder: str
     reason: str = ""
     key: str = ""
+    of: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """That somebody has stopped the robot, why, and in which turn of the lock."""
+
+    key: str
+    holder: str = ""
+    reason: str = ""
+    turn: int = 0
 
 
 @dataclass(frozen=True, slots=True)
 class Lock:
-    """Whether the robot is held, by whom and why. `turn` counts changes, so that the later of two states is known."""
+    """Who holds the robot, the first one first; nobody when it is free. `turn` counts changes."""
 
-    held: bool = False
-    holder: str = ""
-    reason: str = ""
+    stops: tuple[Stop, ...] = ()
     turn: int = 0
+
+    @property
+    def held(self) -> bool:
+        """Whether anybody holds it."""
+        return bool(self.stops)
+
+    @property
+    def holder(self) -> str:
+        """Who has held it longest."""
+        return self.stops[0].holder if self.stops else ""
+
+    @property
+    def reason(self) -> str:
+        """Why the one who has held it longest does so."""
+        return self.stops[0].reason if self.stops else ""
 
 
 class Latch:
@@ -37,6 +72,7 @@ class Latch:
 
     def __init__(self, lock: Lock | None = None) -> None:
         self.lock = lock or Lock()
+        self._released: dict[str, int] = {}
         self._steering: dict[str, tuple[str, int]] = {}
 
     @property
@@ -47,35 +83,52 @@ class Latch:
     def request(self, request: Request, now: int) -> bool:
         """Do as a request says; one that nobody understands is a stop."""
         if request.verb == RELEASE:
-            return self._change(held=False)
+            return self.release(request.of or (request.key, NODE))
         if request.verb == STEER:
-            steered, self._steering[request.key] = self.steered_by, (request.holder, now)
+            key = self._place(request.key, self._steering)
+            steered, self._steering[key] = self.steered_by, (request.holder, now)
             return self.steered_by != steered
         if request.verb == HAND_BACK:
             return self._steering.pop(request.key, None) is not None
         reason = request.reason if request.verb == STOP else f"a request that nobody understands: {request.verb!r}"
-        return self.stop(request.holder, reason)
+        return self.stop(request.holder, reason, request.key)
 
-    def stop(self, holder: str, reason: str) -> bool:
+    def stop(self, holder: str, reason: str, key: str = NODE) -> bool:
         """Lock; who holds an earlier lock goes on to hold it."""
-        return self._change(held=True, holder=holder, reason=reason)
-
-    def _change(self, *, held: bool, holder: str = "", reason: str = "") -> bool:
-        if held is self.lock.held:
+        held = [each.key for each in self.lock.stops]
+        key = self._place(key, held)
+        if key in held:
             return False
-        self.lock = Lock(held, holder, reason, self.lock.turn + 1)
+        turn = self.lock.turn + 1
+        self.lock = Lock((*self.lock.stops, Stop(key, holder, reason, turn)), turn)
         return True
 
-    def follow(self, other: Lock) -> bool:
-        """Take over another node's lock, unless it is older than our release. A release is never taken over."""
-        if other.turn < self.lock.turn:
+    def release(self, keys: Collection[str]) -> bool:
+        """Let go of the stops of these keys; the robot is free when none is left."""
+        gone = [each.key for each in self.lock.stops if each.key in keys]
+        if not gone:
             return False
-        if other.held and not self.lock.held:
-            self.lock = other
-            return True
-        if other.held is self.lock.held:
-            self.lock = Lock(self.lock.held, self.lock.holder, self.lock.reason, other.turn)
-        return False
+        turn = self.lock.turn + 1
+        self._released |= dict.fromkeys(gone, turn)
+        while len(self._released) > 2 * MOST:
+            del self._released[min(self._released, key=self._released.__getitem__)]
+        self.lock = Lock(tuple(each for each in self.lock.stops if each.key not in gone), turn)
+        return True
+
+    @staticmethod
+    def _place(key: str, taken: Collection[str]) -> str:
+        return key if key in taken or len(taken) < MOST else CROWD
+
+    def follow(self, other: Lock) -> bool:
+        """Take over another node's stops, unless they are older than our release. A release is never taken over."""
+        stops = {each.key: each for each in self.lock.stops}
+        for each in other.stops:
+            if each.turn > self._released.get(each.key, 0):
+                key = self._place(each.key, stops)
+                stops.setdefault(key, each if key == each.key else Stop(key, each.holder, each.reason, each.turn))
+        news = len(stops) > len(self.lock.stops)
+        self.lock = Lock(tuple(stops.values()), max(self.lock.turn, other.turn))
+        return news
 
     def watch(self, now: int) -> bool:
         """Lock when a console that holds the steering has fallen silent."""
@@ -83,5 +136,5 @@ class Latch:
         changed = False
         for key in silent:
             holder, _ = self._steering.pop(key)
-            changed |= self.stop(holder, "held the steering and fell silent")
+            changed |= self.stop(holder, SILENT, key)
         return changed or bool(silent)

@@ -28,6 +28,11 @@ def plain(description: str) -> ParameterDescriptor:
     return ParameterDescriptor(description=description)
 
 
+def fixed(description: str) -> ParameterDescriptor:
+    """The descriptor of a value that counts only when the node starts."""
+    return ParameterDescriptor(description=description, read_only=True)
+
+
 def proposed(node: Node, changes: Iterable[Parameter], *names: str) -> list[float]:
     """The numbers that some parameters would have after the changes, for rules between parameters."""
     after = {each.name: each.value for each in changes}

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from bot_console_robot.arbitration import Arbiter, Command, Verdict, limit
 from bot_console_robot.diagnostics import ERROR, OK, WARN, status
 from bot_console_robot.emergency_stop import ARBITER, BASE, EmergencyStop
-from bot_console_robot.latch import Lock
+from bot_console_robot.latch import NODE, Lock, Stop
 from bot_console_robot.parameters import accepted, number, plain, proposed, refused
 from bot_console_robot.robot_time import RobotTime
 from bot_console_robot.running import CannotStart, run
@@ -56,7 +56,8 @@ class SafetyMonitor(Node):
         for topic in (TELEOP, NAVIGATION):
             self.create_subscription(Twist, topic, self._listener(topic), 10)
         self.create_subscription(LaserScan, "scan", self._on_scan, 10)
-        locked = Lock(True, "safety_monitor", "its parameter start_locked is true") if self._start_locked else None
+        began = Stop(NODE, "safety_monitor", "its parameter start_locked is true", 1)
+        locked = Lock((began,), 1) if self._start_locked else None
         self._stop = EmergencyStop(self, self._steady, ARBITER, BASE, self._decide, locked)
         self.create_timer(WATCH_PERIOD, self._watch, clock=self._steady)
         self.get_logger().info(f"Watching: slower from {self._warning} m, stop at {self._emergency} m")

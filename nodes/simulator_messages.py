@@ -6,6 +6,8 @@ import math
 from array import array
 from collections.abc import Iterable
 
+import numpy as np
+from bot_console_robot.models import Model
 from bot_console_robot.scans import packed
 from bot_console_robot.simulation.arrays import Floats
 from bot_console_robot.simulation.geometry import Point, Pose
@@ -18,7 +20,9 @@ from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from sensor_msgs.msg import LaserScan
 from visualization_msgs.msg import Marker, MarkerArray
 
-MAP, ODOM, BASE, SENSOR = "map", "odom", "base_link", "base_scan"
+MAP, ODOM, BASE = "map", "odom", "base_link"
+FULL_TURN = 6.2
+"""Fields of view (rad) from which on a scan is taken for a full turn."""
 PERSON_HEIGHT = 1.7
 
 
@@ -38,19 +42,23 @@ def heading_of(q: Quaternion) -> float:
     return math.atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z))
 
 
-def scan_message(scan: Scan, settings: LidarSettings, period: float, stamp: Time) -> LaserScan:
+def scan_message(scan: Scan, settings: LidarSettings, period: float, stamp: Time, model: Model) -> LaserScan:
     """A scan, `period` s after the one before."""
+    first, ranges, intensities = settings.first_angle, scan.ranges, scan.intensities
+    if model.scan_from_front and settings.field_of_view > FULL_TURN:
+        ahead = settings.beams // 2
+        first, ranges, intensities = 0.0, np.roll(ranges, -ahead), np.roll(intensities, -ahead)
     message = LaserScan()
     message.header.stamp = stamp
-    message.header.frame_id = SENSOR
-    message.angle_min = settings.first_angle
-    message.angle_max = -settings.first_angle
+    message.header.frame_id = model.scan
+    message.angle_min = first
+    message.angle_max = first + settings.field_of_view
     message.angle_increment = settings.increment
     message.scan_time = period
     message.range_min = settings.range_min
     message.range_max = settings.range_max
-    message.ranges = packed(scan.ranges)
-    message.intensities = packed(scan.intensities)
+    message.ranges = packed(ranges)
+    message.intensities = packed(intensities)
     return message
 
 

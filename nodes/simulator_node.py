@@ -7,14 +7,16 @@ import json
 
 from bot_console_robot import simulator_messages as messages
 from bot_console_robot.emergency_stop import ARBITER, BASE, EmergencyStop
+from bot_console_robot.models import MODELS
 from bot_console_robot.parameters import accepted, refused
 from bot_console_robot.running import CannotStart, run
 from bot_console_robot.simulation.geometry import Pose
 from bot_console_robot.simulation.simulation import STEP, STEP_NS, Simulation
 from bot_console_robot.simulation.world import WorldError
 from bot_console_robot.simulator_parameters import declare, problem, settings
+from bot_console_robot.simulator_signals import Signals
 from bot_console_robot.worlds import find_world
-from geometry_msgs.msg import PoseWithCovarianceStamped, Twist
+from geometry_msgs.msg import PoseWithCovarianceStamped, Twist, TwistStamped
 from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import Clock, ClockType
@@ -46,6 +48,7 @@ class Simulator(Node):
         trouble = problem(self, ())
         if trouble:
             raise CannotStart(trouble)
+        self._model = MODELS[str(self.get_parameter("model").value)]
         self.add_on_set_parameters_callback(self._check)
         self.add_post_set_parameters_callback(self._apply)
         self._steady = Clock(clock_type=ClockType.STEADY_TIME)
@@ -57,13 +60,17 @@ class Simulator(Node):
         self._lagged = -QUIET_NS
         self._read_rates()
         self._create_publishers()
-        self.create_subscription(Twist, "cmd_vel", self._on_command, 10)
+        if self.get_parameter("enable_stamped_cmd_vel").value:
+            self.create_subscription(TwistStamped, "cmd_vel", self._on_stamped, 10)
+        else:
+            self.create_subscription(Twist, "cmd_vel", self._on_command, 10)
         self.create_subscription(PoseWithCovarianceStamped, "initialpose", self._on_pose, 10)
         self.create_service(Trigger, "reset", self._on_reset)
         self.create_service(SetBool, "pause", self._on_pause)
         self.create_service(Trigger, "step", self._on_step)
         self.create_service(Trigger, "report", self._on_report)
         self._stop = EmergencyStop(self, self._steady, BASE, ARBITER, self._hold)
+        self._signals = Signals(self, self._model)
         self._begin()
         self.create_timer(STEP, self._tick, clock=self._steady)
 
@@ -92,6 +99,7 @@ class Simulator(Node):
         self._routes.publish(messages.route_message(world.route, stamp))
         self._collisions.publish(UInt32(data=0))
         self._bumper.publish(Bool(data=False))
+        self._signals.begin(self._simulation, stamp)
         self.get_logger().info(
             f"{world.title}: {world.size[0]:g} m x {world.size[1]:g} m, seed {self._simulation.seed}"
         )
@@ -134,6 +142,9 @@ class Simulator(Node):
             self._simulation.command(message.linear.x, message.angular.z)
         except ValueError as error:
             self.get_logger().error(f"Command on cmd_vel ignored: {error}", throttle_duration_sec=1.0)
+
+    def _on_stamped(self, message: TwistStamped) -> None:
+        self._on_command(message.twist)
 
     def _on_pose(self, message: PoseWithCovarianceStamped) -> None:
         place = message.pose.pose
@@ -234,12 +245,14 @@ class Simulator(Node):
         truth = (simulation.speed, simulation.turn_rate)
         self._odometry.publish(messages.odometry_message(simulation.odometry.pose, wheels, messages.ODOM, stamp))
         self._truth.publish(messages.odometry_message(simulation.pose, truth, messages.MAP, stamp))
+        self._signals.publish(simulation, stamp)
 
     def _publish_scan(self) -> None:
         simulation = self._simulation
         stamp = messages.time_of(simulation.time_ns)
         period = self._scan_every * STEP
-        self._scans.publish(messages.scan_message(simulation.scan(), simulation.lidar.settings, period, stamp))
+        scan, settings = simulation.scan(), simulation.lidar.settings
+        self._scans.publish(messages.scan_message(scan, settings, period, stamp, self._model))
         if self._obstacles.get_subscription_count():
             self._obstacles.publish(messages.obstacles_message(simulation.moving(), stamp))
 

@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
-from bot_console_robot.parameters import number, plain, proposed, whole
+from bot_console_robot.models import MODELS
+from bot_console_robot.parameters import fixed, number, plain, proposed, whole
 from bot_console_robot.simulation.lidar import LidarSettings
 from bot_console_robot.simulation.odometry import OdometryNoise
 from bot_console_robot.simulation.robot import DriveLimits
@@ -21,6 +22,8 @@ DECLARED: tuple[tuple[str, Any, ParameterDescriptor], ...] = (
     ("seed", 1, whole("Seed of all random numbers, used at reset", 0, 2**31 - 1)),
     ("scan_rate", 10.0, number("Rate of the LIDAR (Hz)", 1.0, 50.0)),
     ("odom_rate", 20.0, number("Rate of odometry and ground truth (Hz)", 1.0, 100.0)),
+    ("model", "plain", fixed(f"Whose names its frames and joints have: {', '.join(MODELS)}")),
+    ("enable_stamped_cmd_vel", False, fixed("Take TwistStamped on cmd_vel, not Twist")),
     ("step_duration", 0.1, number("What one call of the service step simulates (s)", 0.01, 60.0)),
     ("map_resolution", 0.05, number("Size of a cell of the map, used at reset (m)", 0.02, 0.5)),
     ("drive.max_speed", LIMITS.max_speed, number("What the wheels can do at most (m/s)", 0.1, 10.0)),
@@ -68,4 +71,5 @@ def problem(node: Node, changes: Iterable[Parameter]) -> str:
     low, high = proposed(node, changes, "lidar.range_min", "lidar.range_max")
     if low >= high:
         return f"lidar.range_min ({low} m) must be less than lidar.range_max ({high} m)"
-    return ""
+    model = str(node.get_parameter("model").value)
+    return "" if model in MODELS else f"model must be one of {', '.join(MODELS)}, not '{model}'"

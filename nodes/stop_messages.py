@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from bot_console_robot.latch import Lock, Request
+import json
+from typing import Any, cast
+
+from bot_console_robot.latch import CROWD, MOST, RELEASE, Lock, Request, Stop
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
 RELEASED = "released"
@@ -12,24 +15,32 @@ LONGEST = 200
 
 def request_message(request: Request) -> DiagnosticStatus:
     """A request."""
+    values = [KeyValue(key="request", value=request.verb)]
+    if request.of:
+        values.append(KeyValue(key="of", value=json.dumps(request.of)))
     return DiagnosticStatus(
         level=DiagnosticStatus.WARN,
         name=request.holder,
         message=request.reason,
         hardware_id=request.key,
-        values=[KeyValue(key="request", value=request.verb)],
+        values=values,
     )
 
 
 def request_of(message: DiagnosticStatus) -> Request:
     """What a request says; the verb is empty when it says nothing."""
-    verb = _short(_values(message).get("request", ""))
-    return Request(verb, _short(message.name) or "somebody", _short(message.message), _short(message.hardware_id))
+    values = _values(message)
+    verb = _short(values.get("request", ""))
+    holder = _short(message.name) or "somebody"
+    key, of = _short(message.hardware_id) or holder, values.get("of")
+    keys = () if verb != RELEASE or of is None else _texts(of) or (key,)
+    return Request(verb, holder, _short(message.message), key, keys)
 
 
 def state_message(lock: Lock, node: str, instance: str, steered_by: str) -> DiagnosticStatus:
     """The state of a node's latch; `instance` is another one after each start of the node."""
     values = {"locked": str(lock.held).lower(), "holder": lock.holder, "reason": lock.reason, "turn": str(lock.turn)}
+    values["stops"] = json.dumps([[each.key, each.holder, each.reason, each.turn] for each in lock.stops])
     values |= {"steered_by": steered_by, "instance": instance}
     return DiagnosticStatus(
         level=DiagnosticStatus.ERROR if lock.held else DiagnosticStatus.OK,
@@ -43,11 +54,35 @@ def state_message(lock: Lock, node: str, instance: str, steered_by: str) -> Diag
 def lock_of(message: DiagnosticStatus) -> tuple[Lock, str]:
     """The lock that a state tells of, and the instance; what cannot be read is a lock."""
     values = _values(message)
-    held = values.get("locked") != "false"
-    turn = values.get("turn", "")
-    number = int(turn) if turn.isascii() and turn.isdigit() and len(turn) < LONGEST else 0
-    lock = Lock(held, _short(values.get("holder", "")), _short(values.get("reason", "")), number)
-    return lock, values.get("instance", "")
+    turn, stops = _number(values.get("turn")), _stops(values.get("stops"))
+    if values.get("locked") == "false":
+        stops = ()
+    elif not stops:  # of a node that tells no more than that it is locked
+        stops = (Stop(CROWD, _short(values.get("holder", "")), _short(values.get("reason", "")), turn),)
+    return Lock(stops, turn), values.get("instance", "")
+
+
+def _stops(text: str | None) -> tuple[Stop, ...]:
+    lists = [cast("list[Any]", entry) for entry in _json(text) if isinstance(entry, list)]
+    entries = [[str(each) for each in entry] for entry in lists]
+    found = [entry for entry in entries if len(entry) == 4][:MOST]
+    return tuple(Stop(_short(key), _short(who), _short(why), _number(turn)) for key, who, why, turn in found)
+
+
+def _texts(text: str) -> tuple[str, ...]:
+    return tuple(_short(each) for each in _json(text) if isinstance(each, str))
+
+
+def _json(text: str | None) -> list[Any]:
+    try:
+        read = json.loads(text or "[]")
+    except (ValueError, RecursionError):
+        return []
+    return cast("list[Any]", read) if isinstance(read, list) else []
+
+
+def _number(text: str | None) -> int:
+    return int(text) if text and text.isascii() and text.isdigit() and len(text) < LONGEST else 0
 
 
 def _values(message: DiagnosticStatus) -> dict[str, str]:

@@ -12,18 +12,12 @@ from collections.abc import Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
 
-from bot_console.runtime.importer import embedded_names, install
+from bot_console.runtime.commands import BIN, COMMAND_VARIABLE, command
+from bot_console.runtime.importer import embedded_names
+from bot_console.runtime.process.scratch import scratch
 from bot_console.runtime.workspace.program import source_folders
 
-ROS2 = """\
-#!/bin/sh
-exec '{python}' -c 'import sys
-if sys.path[:1] == [""]:
-    sys.path.pop(0)
-from bot_console.runtime.child_environment import ros2
-sys.exit(ros2())' "$@"
-"""
-"""The working directory is not looked into, as no installed command does."""
+RANGE_VARIABLE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
 
 STAND_IN = '''\
 """Stands in for `{name}` until the embedded runtime is in place, and gives way to it."""
@@ -33,7 +27,7 @@ import sys
 if {parent!r} not in sys.path:
     sys.path.append({parent!r})
 
-from bot_console.runtime.importer import give_way
+from bot_console.runtime.stand_in import give_way
 
 give_way(__name__)
 '''
@@ -44,6 +38,8 @@ class ChildEnvironment:
 
     def __init__(self) -> None:
         self._stood_in: set[str] = set()
+        self.meet = False
+        """Whether they take part in the domain: not where what runs here is alone in this process."""
 
     def added_to(self, env: Mapping[str, str]) -> dict[str, str]:
         """An environment with the folders first on both paths; one without PATH was not inherited, and stays."""
@@ -51,23 +47,15 @@ class ChildEnvironment:
             return dict(env)
         return {
             **env,
-            "PATH": _joined([str(self._executables), *_venv()], env["PATH"]),
+            COMMAND_VARIABLE: command(),
+            **({} if self.meet else {RANGE_VARIABLE: "OFF"}),
+            "PATH": _joined([str(BIN / "ros2"), *_venv()], env["PATH"]),
             "PYTHONPATH": _joined([str(self._stand_ins()), *source_folders()], env.get("PYTHONPATH", "")),
         }
 
     @cached_property
     def _folder(self) -> Path:
-        self._held = tempfile.TemporaryDirectory(prefix="bot-console-child-")
-        return Path(self._held.name)
-
-    @cached_property
-    def _executables(self) -> Path:
-        folder = self._folder / "bin"
-        folder.mkdir()
-        ros2 = folder / "ros2"
-        ros2.write_text(ROS2.format(python=sys.executable))
-        ros2.chmod(0o755)
-        return folder
+        return Path(tempfile.mkdtemp(prefix="child-", dir=scratch()))
 
     def _stand_ins(self) -> Path:
         """The folder of stand-ins; a package that has come to the workspace since the last process gets one now."""
@@ -94,14 +82,11 @@ def _joined(first: Iterable[str], rest: str) -> str:
 _environment = ChildEnvironment()
 
 
+def let_children_meet(meet: bool) -> None:
+    """Let the programs that launches start take part in the domain, as this program does, or keep them apart."""
+    _environment.meet = meet
+
+
 def child_environment(env: Mapping[str, str]) -> dict[str, str]:
     """The environment of a process that a launch starts, made from the one that the launch file describes."""
     return _environment.added_to(env) if os.name == "posix" else dict(env)
-
-
-def ros2() -> int:
-    """The command `ros2` of such a process."""
-    install()
-    from ros2cli.command_line import main
-
-    return main()

@@ -20,7 +20,7 @@ from bot_console.runtime.process.crashes import explain_with
 from bot_console.runtime.rosidl.sources import EXAMPLES, add_source
 
 if TYPE_CHECKING:
-    from bot_console.runtime.process.fresh_import import FreshModules
+    from bot_console.runtime.process.virtual.fresh_import import FreshModules
 
 # No importlib.abc, importlib.util or pathlib here: they are a fifth of the time to the first message.
 RUNTIME = os.path.dirname(os.path.realpath(__file__))
@@ -29,10 +29,14 @@ PACKAGES = (
     "ament_index_python",
     "cv_bridge",
     "launch",
+    "launch_pytest",
     "launch_ros",
+    "launch_testing",
+    "launch_testing_ros",
     "launch_xml",
     "launch_yaml",
     "message_filters",
+    "nav2_simple_commander",
     "rclpy",
     "ros2cli",
     "rosidl_parser",
@@ -41,6 +45,7 @@ PACKAGES = (
     "tf2_geometry_msgs",
     "tf2_py",
     "tf2_ros",
+    "tf2_sensor_msgs",
     "tf_transformations",
 )
 ALIAS = "bot_console.runtime."
@@ -48,6 +53,8 @@ OWN_PACKAGE = "bot_console_robot"
 """The ROS package that the folder `nodes/` is."""
 OWN_PACKAGES = (OWN_PACKAGE, "intelligent_robot")
 """Its two names; the second means it where the workspace has no package of that name."""
+DEMOS = "bot_console_demos"
+"""What the folder `nodes/demos/` is imported as: the nodes of the tutorials."""
 
 
 class RosFinder:
@@ -71,6 +78,8 @@ class RosFinder:
             return PathFinder.find_spec(name, [RUNTIME])
         if name in OWN_PACKAGES:
             return _own_package(name)
+        if name == DEMOS:
+            return _package_in(name, os.path.join(os.path.dirname(RUNTIME), "nodes", "demos"))
         if os.path.isdir(os.path.join(GENERATED, name)) and not (name in EXAMPLES and name in interface_folders()):
             return PathFinder.find_spec(name, [GENERATED])
         return None
@@ -78,8 +87,6 @@ class RosFinder:
 
 def _own_package(name: str) -> ModuleSpec | None:
     """What one of our names means: the package of that name of a workspace or a path, else our own nodes."""
-    from importlib.util import spec_from_file_location
-
     from bot_console.runtime.workspace.discover import workspace
 
     theirs = workspace().packages.get(name)
@@ -88,7 +95,13 @@ def _own_package(name: str) -> ModuleSpec | None:
         beside = PathFinder.find_spec(name)
         return beside if beside is not None and beside.loader is not None else _alias(name, OWN_PACKAGE)
     place = os.path.join(os.path.dirname(RUNTIME), "nodes") if folder is None else os.fspath(folder)
-    return spec_from_file_location(name, os.path.join(place, "__init__.py"), submodule_search_locations=[place])
+    return _package_in(name, place)
+
+
+def _package_in(name: str, folder: str) -> ModuleSpec | None:
+    from importlib.util import spec_from_file_location
+
+    return spec_from_file_location(name, os.path.join(folder, "__init__.py"), submodule_search_locations=[folder])
 
 
 def _alias(name: str, stands_for: str) -> ModuleSpec:
@@ -119,16 +132,7 @@ def is_embedded(name: str) -> bool:
 def embedded_names() -> list[str]:
     """All top-level names that `install` leads somewhere: the runtime's, ours, the workspace's interfaces."""
     generated = (each.name for each in os.scandir(GENERATED) if each.is_dir())
-    return sorted({*PACKAGES, *generated, *OWN_PACKAGES, *interface_folders()})
-
-
-def give_way(name: str) -> None:
-    """Put the runtime in place of a stand-in module, which is just being imported from a folder of such."""
-    folder = os.path.dirname(os.fspath(sys.modules[name].__file__ or ""))
-    sys.path[:] = [each for each in sys.path if each != folder]
-    install()
-    del sys.modules[name]
-    importlib.import_module(name)
+    return sorted({*PACKAGES, *generated, *OWN_PACKAGES, DEMOS, *interface_folders()})
 
 
 def node_modules(folders: Sequence[str | os.PathLike[str]] = ()) -> FreshModules:
@@ -136,9 +140,9 @@ def node_modules(folders: Sequence[str | os.PathLike[str]] = ()) -> FreshModules
 
     A folder is what would be on `sys.path`: that of a node file, or the one in which a Python package lies.
     """
-    from bot_console.runtime.process.fresh_import import FreshModules
+    from bot_console.runtime.process.virtual.fresh_import import FreshModules
 
-    return FreshModules([os.fspath(folder) for folder in folders], packages=OWN_PACKAGES, shared=is_embedded)
+    return FreshModules([os.fspath(folder) for folder in folders], packages=(*OWN_PACKAGES, DEMOS), shared=is_embedded)
 
 
 _finder = RosFinder()

@@ -1,4 +1,4 @@
-"""Lets the interfaces of a workspace be imported from source: `from my_interfaces.msg import Num`, nothing built."""
+"""Lets interfaces be imported from their definitions: `from my_interfaces.msg import Num`, nothing built."""
 
 from __future__ import annotations
 
@@ -17,10 +17,16 @@ NEVER_OURS = sys.stdlib_module_names | {"org"}
 
 
 def interface_folders() -> Mapping[str, Path]:
-    """The workspace's packages that define interfaces, with the folders in which `msg`, `srv`, `action` lie."""
+    """Packages that define interfaces, with the folders in which `msg`, `srv`, `action` lie.
+
+    Those of the workspace count first, then those that were added for good, those that come along, and what was told.
+    """
+    from bot_console.runtime.further_interfaces import added_by_user, unverified_folders
+    from bot_console.runtime.learned_interfaces import learned_folders
     from bot_console.runtime.workspace.discover import workspace
 
-    return {name: each.folder for name, each in workspace().packages.items() if each.has_interfaces}
+    theirs = {name: each.folder for name, each in workspace().packages.items() if each.has_interfaces}
+    return {**learned_folders(), **unverified_folders(), **added_by_user(), **theirs}
 
 
 class InterfaceFinder:
@@ -106,6 +112,17 @@ class InterfaceLoader:
                 found.update({path.stem + suffix: module for suffix in PARTS[kind]})
         return found
 
+    def _defining(self, fullname: str) -> str:
+        """All that the source of a module depends on: a definition's text, or which definitions there are."""
+        _, *inside = fullname.split(".")
+        if len(inside) == 2:
+            path = _definition(self._folder, *inside)
+            try:
+                return "" if path is None else path.read_text(encoding="utf-8")
+            except (OSError, UnicodeDecodeError):
+                return ""
+        return repr(sorted(self._classes(inside[0]).items())) if inside else ""
+
     def create_module(self, spec: ModuleSpec) -> ModuleType | None:
         """The module that another node process has imported already, or a new one."""
         module = self._modules.get(spec.name)
@@ -117,6 +134,9 @@ class InterfaceLoader:
         if self._kept is not None:
             module.__spec__ = self._kept
             return
-        code = compile(self.get_source(module.__name__), f"<{module.__name__}>", "exec", dont_inherit=True)
+        from bot_console.runtime.interface_cache import compiled
+
+        name = module.__name__
+        code = compiled(name, self._defining(name), lambda: self.get_source(name))
         exec(code, vars(module))
         self._modules[module.__name__] = module

@@ -40,16 +40,41 @@ KNOWN: dict[str, tuple[str, str]] = {
         "image_geometry",
         "image_transport_py",
         "laser_geometry",
-        "launch_pytest",
-        "launch_testing",
-        "launch_testing_ros",
         "nav2_common",
-        "nav2_simple_commander",
-        "tf2_sensor_msgs",
         "urdf_parser_py",
     )
 }
 """What brings a package, by the name that programs import."""
+
+
+GAZEBO = "It starts Gazebo; the simulated robot stands in for it: bot_console_robot simulator.launch.py."
+EXECUTABLES: dict[str, str] = {
+    "gazebo_ros": GAZEBO,
+    "ros_gz_sim": GAZEBO,
+    "robot_state_publisher": "It is C++; the simulated robot publishes /tf and /tf_static itself.",
+    "joint_state_publisher": "The simulated robot publishes /joint_states itself.",
+    "nav2_bringup": "Nav2 is C++; `navigation:=true` of simulator.launch.py offers its goals for the simulated robot.",
+    "rviz2": "It makes windows; the World pane of the console shows map, robot and scan.",
+    "rqt_graph": "It makes windows; the Graph pane of the console is the same: bot-console rqt_graph.",
+    "rqt_console": "It makes windows; the Logs pane of the console is the same: bot-console rqt_console.",
+    "slam_toolbox": "It is C++, not here; the simulated robot publishes its map on /map.",
+    "image_view": "It makes windows, and bot-console has none.",
+}
+"""What stands in for the executables of a package that is not here."""
+NO_EXECUTABLE = (
+    "Packages in C++ are not here, because bot-console compiles nothing; "
+    "Python ones run from their sources in the workspace."
+)
+
+
+def what_brings(package: str) -> str:
+    """What brings the executables of a package, or what does the same here; a sentence."""
+    if package in EXECUTABLES:
+        return EXECUTABLES[package]
+    if package in KNOWN:
+        text, what = KNOWN[package]
+        return text.format(package, what)
+    return NO_EXECUTABLE
 
 
 def explain_missing_package(exception: BaseException) -> str | None:

@@ -38,6 +38,8 @@ def examine(path: Path) -> PlainFile:
         return PlainFile(f"{path}:{error.lineno}: {error.msg}")
     except ValueError as error:
         return PlainFile(f"{path} is not a Python file: {error}")
+    except (MemoryError, RecursionError):
+        return PlainFile(f"{path} is nested too deeply for Python")
     if _imports_qt(tree):
         return PlainFile(QT_PLUGIN.format(path))
     mains = [each for each in tree.body if isinstance(each, ast.FunctionDef) and each.name == "main"]

@@ -68,7 +68,7 @@ def run_file(path: Path, words: Sequence[str]) -> int:
 
 def _run(runs: Program, argv: Sequence[str]) -> int:
     """Run to the end; an uncaught exception is a traceback that begins in the user's own file."""
-    from bot_console.runtime.process.main_thread import SIGINT_EXIT, exit_code_of
+    from bot_console.runtime.process.node.main_thread import SIGINT_EXIT, exit_code_of
 
     sys.argv = list(argv)
     code = exit_code_of(runs)

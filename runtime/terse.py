@@ -36,6 +36,9 @@ def told(run: Callable[[], int]) -> int:
         code = run()
         sys.stdout.flush()
         return code
+    except BrokenPipeError:  # as of `head`, which has read enough
+        _give_up_output()
+        return code or 1
     except OSError as error:
         text = place_fault(error)
         if not text:

@@ -7,6 +7,8 @@ from bot_console.runtime.importer import install
 INTERFACES = ("action_msgs", "builtin_interfaces", "geometry_msgs", "nav_msgs", "rcl_interfaces", "sensor_msgs",
               "std_msgs", "std_srvs", "tf2_msgs")  # fmt: skip
 """Those whose messages, services and actions most nodes import."""
+MODULES = ("numpy", "launch_ros.node_program", "rclpy.action", "rclpy.executors", "rclpy.qos",
+           "bot_console.runtime.rmw.zenoh.domain_bus")  # fmt: skip
 
 
 def warm_up() -> None:
@@ -14,18 +16,24 @@ def warm_up() -> None:
     import contextlib
     import importlib
 
+    from bot_console.runtime.rmw.zenoh.attachment import gid_of
+    from bot_console.runtime.rmw.zenoh.session import preload
+
     install()
     for package in INTERFACES:
         for kind in ("msg", "srv", "action"):
             with contextlib.suppress(ModuleNotFoundError):
                 importlib.import_module(f"{package}.{kind}")
-    for name in ("numpy", "rclpy.action", "rclpy.executors", "rclpy.qos", "launch_ros.node_program"):
+    for name in MODULES:
         importlib.import_module(name)
+    preload()
+    gid_of("warm_up")  # which imports what hashes
     _make_one_node()
 
 
 def _make_one_node() -> None:
     import rclpy
+    from bot_console.runtime.rosidl import type_hash
     from std_msgs.msg import String
 
     context = rclpy.Context()
@@ -39,6 +47,10 @@ def _make_one_node() -> None:
         executor.add_node(node)
         executor.spin_once(timeout_sec=0.0)
         executor.shutdown()
+        for endpoint in (*context.bus.publishers(), *context.bus.subscriptions()):
+            type_hash.text(endpoint.message_class)
+        for service in context.bus.servers():
+            type_hash.text(service.service_class)
     finally:
         node.destroy_node()
         rclpy.try_shutdown(context=context)

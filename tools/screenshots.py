@@ -17,7 +17,7 @@ from bot_console.runtime.importer import install
 install()
 
 from bot_console.tui.cli.arguments import Options  # noqa: E402
-from bot_console.tui.cli.session import Session  # noqa: E402
+from bot_console.tui.cli.live.session import Session  # noqa: E402
 from bot_console.tui.panes.parameters.table import ParameterRows  # noqa: E402
 from textual.pilot import Pilot  # noqa: E402
 

@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from bot_console.runtime.importer import install
+from bot_console.runtime.workspace.demos import EXECUTABLES
 
 install()
 
@@ -27,7 +28,8 @@ import yaml  # noqa: E402
 from ament_index_python.packages import get_package_share_directory  # noqa: E402
 from bot_console.tui.cli import arguments as console_arguments  # noqa: E402
 from bot_console.tui.cli import run as console_run  # noqa: E402
-from bot_console.tui.keymap import TABLE, key_text  # noqa: E402
+from bot_console.tui.keymap import TABLE  # noqa: E402
+from bot_console.tui.keys import key_text  # noqa: E402
 from bot_console_robot.controller_node import MotionController  # noqa: E402
 from bot_console_robot.robot_node import RobotNavigator  # noqa: E402
 from bot_console_robot.safety_node import SafetyMonitor  # noqa: E402
@@ -168,6 +170,12 @@ def verbs() -> str:
     return _table(("command", "verbs"), ((f"`{name}`", ", ".join(each)) for name, each in found.items() if each))
 
 
+def tutorials() -> str:
+    """The packages of the tutorials with their executables."""
+    rows = ((f"`{name}`", ", ".join(f"`{each}`" for each in rows)) for name, rows in EXECUTABLES.items())
+    return _table(("package", "executables"), rows)
+
+
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     lines = [head, ["---"] * len(head), *rows]
     return "".join("| " + " | ".join(each.replace("|", "\\|") for each in line) + " |\n" for line in lines)
@@ -181,6 +189,7 @@ TABLES: dict[str, Callable[[], str]] = {
     "options:bot-console": lambda: options(console_arguments._parser()),
     "options:run": lambda: options(console_run._parser()),
     "options:launch": lambda: options(launch_parser()),
+    "tutorials": tutorials,
     "verbs": verbs,
     "profiles": profiles,
 }

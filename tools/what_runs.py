@@ -10,6 +10,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+from bot_console.runtime.further_interfaces import unverified_folders
 from bot_console.runtime.importer import install, is_embedded
 from bot_console.runtime.missing_packages import explain_missing_package
 
@@ -24,13 +25,19 @@ runtime serves. "yes" means that no missing part is known, not that all of it wa
 """
 PARTS = {
     "cv_bridge": "compressed images and Bayer patterns need OpenCV: `pip install 'bot-console[opencv]'`",
+    "control_msgs": "interfaces of rarely used controllers",
+    "irobot_create_msgs": "`Mouse`, `IrOpcode`, `WallFollow`, `DockServo`",
     "launch_ros": "components in C++",
+    "nav2_msgs": "services that came after the first Jazzy",
+    "launch_pytest": "`launch_service`, `launch_context` and `event_loop` for fixtures wider than a function",
+    "launch_testing": "actions that run GTest or pytest, JUnit files; `bot-console test` runs test files",
     "message_filters": "`LatestTimeSynchronizer`, input aligner",
     "tf2_geometry_msgs": "`PyKDL` types",
-    "tf2_ros": "`BufferClient`, `BufferServer`, the program `static_transform_publisher`",
+    "tf2_ros": "`BufferClient`, `BufferServer`",
     "tf_transformations": "`Arcball`, `clip_matrix`, `orthogonalization_matrix`",
 }
 """What is missing of packages that are here."""
+UNVERIFIED = "fields are known, the type hash was not compared with ROS 2"
 BY_FREQUENCY = (
     *("rclpy", "std_msgs", "geometry_msgs", "sensor_msgs", "launch", "launch_ros", "ament_index_python", "nav_msgs"),
     *(
@@ -45,8 +52,17 @@ BY_FREQUENCY = (
     *("visualization_msgs", "turtlesim", "action_msgs", "tf2_msgs", "tf2_geometry_msgs", "sensor_msgs_py", "nav2_msgs"),
     *("message_filters", "lifecycle_msgs", "trajectory_msgs", "diagnostic_msgs", "launch_xml", "launch_yaml", "tf2_py"),
     *("rosidl_runtime_py", "action_tutorials_interfaces", "shape_msgs", "rosgraph_msgs", "unique_identifier_msgs"),
-    *("nav2_simple_commander", "launch_testing", "launch_pytest", "rosbag2_py", "control_msgs", "vision_msgs"),
+    *(
+        "nav2_simple_commander",
+        "launch_testing",
+        "launch_testing_ros",
+        "launch_pytest",
+        "rosbag2_py",
+        "control_msgs",
+        "vision_msgs",
+    ),
     *("geographic_msgs", "ackermann_msgs", "irobot_create_msgs", "tf2_sensor_msgs", "laser_geometry", "image_geometry"),
+    *("map_msgs", "pcl_msgs", "can_msgs", "turtlebot3_msgs"),
     *("diagnostic_updater", "nav2_common", "xacro", "rqt_gui_py"),
 )
 
@@ -56,6 +72,9 @@ def row(package: str) -> str:
     if is_embedded(package):
         missing = PARTS.get(package, "")
         return f"| `{package}` | {'partly' if missing else 'yes'} | {missing} |"
+    if package in unverified_folders():
+        missing = f"{PARTS[package]}; {UNVERIFIED}" if package in PARTS else UNVERIFIED
+        return f"| `{package}` | {'partly' if package in PARTS else 'yes'} | {missing} |"
     why = explain_missing_package(ModuleNotFoundError(f"No module named '{package}'", name=package)) or ""
     return f"| `{package}` | no | {why} |"
 

@@ -3,59 +3,64 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeVar
 
 from bot_console.tui import keymap
-from bot_console.tui.commands import all_commands, options_for
+from bot_console.tui.arrangement.stage import Stage
+from bot_console.tui.commands import Command, all_commands, options_for
 from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.console.protocol import Console, Launcher
-from bot_console.tui.crash import keep, reason
+from bot_console.tui.console.no_console import NoCommandLine
+from bot_console.tui.console.protocol import CommandLine, Console, Launcher
 from bot_console.tui.faults import Faults
+from bot_console.tui.files.crash import keep, reason
 from bot_console.tui.format import brief, harmless
 from bot_console.tui.keyboard import Keyboard
+from bot_console.tui.layout.named import OVERVIEW
+from bot_console.tui.look import Look
 from bot_console.tui.opening import Opening, is_rqt, rqt_opening
-from bot_console.tui.pane_table import PANES
+from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.panes.broken import BrokenPane
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.plot.pane import PlotPane
-from bot_console.tui.quitting import Quitting
-from bot_console.tui.safety_news import SafetyNews
+from bot_console.tui.safety.line_risk import risk_of
+from bot_console.tui.safety.quitting import Quitting
+from bot_console.tui.safety.safety_news import SafetyNews
+from bot_console.tui.safety.stopping import Stopping
+from bot_console.tui.screens.arrange import ArrangeScreen
 from bot_console.tui.screens.door import screen_for
 from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.screens.output import OutputScreen
 from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.terminal.guard import GuardedApp
-from bot_console.tui.theme import DARK
+from bot_console.tui.theme import THEMES
+from bot_console.tui.time_cursor import TimeCursor
 from bot_console.tui.widgets.key_bar import KeyBar
+from bot_console.tui.widgets.pane_area import PaneArea
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Asker, Choice
 from bot_console.tui.widgets.status_bar import StatusBar
-from bot_console.tui.widgets.tabs import tabs_text
+from bot_console.tui.widgets.stream_panel import StreamPanel
+from bot_console.tui.widgets.tabs import Tabs
 from textual import events
 from textual.app import ComposeResult
 from textual.binding import BindingType
-from textual.containers import Container
 from textual.dom import DOMNode
-from textual.geometry import Size
 from textual.notifications import SeverityLevel
 from textual.types import CSSPathType
-from textual.widgets import Input, Static
+from textual.widgets import Static
 
-OVERVIEW = (100, 30)
-"""Columns and lines from which several panes are shown at once."""
-WIDE = (170, 45)
-"""Columns and lines from which the overview has room for the graph as well."""
 PLOT = "plot"
-SMALLEST = (60, 20)
 HERE = Path(__file__).parent
 SEEN_AT_ONCE = 2
 """Notifications for which the corner has room."""
+
+P = TypeVar("P", bound=Pane)
 
 AT_ONCE = frozenset(next(key.keys for key in keymap.TABLE["app"] if key.id == "app.quit_now").split(","))
 """Keys that never wait for those typed before."""
@@ -76,27 +81,35 @@ class BotConsoleApp(GuardedApp):
         self,
         console: Console,
         launcher: Launcher | None = None,
+        command_line: CommandLine | None = None,
         *,
         refresh_hz: float = 10.0,
         opening: Opening | None = None,
         on_first_frame: Callable[[], None] | None = None,
+        look: Look | None = None,
+        plugins: Callable[[], Sequence[PaneEntry]] = tuple,
     ) -> None:
         super().__init__()
-        self.register_theme(DARK)
-        self.theme = DARK.name
+        for each in THEMES.values():
+            self.register_theme(each)
+        look = look or Look()
+        self.theme = THEMES[look.theme].name
+        self.plain = look.plain
+        self.set_keymap({**look.keys})
         self.console_of_robot = console
         self.launcher = launcher
+        self._command_line = command_line or NoCommandLine()
         self._refresh_hz = refresh_hz
         self._opening = opening or Opening()
-        self._wanted = self._opening.pane
-        self._focused_pane = "parameters"
+        self.time_cursor = TimeCursor()
         self._on_first_frame = on_first_frame
         self._snapshot = ConsoleSnapshot()
-        self._panes: list[Pane] = []
-        self._extent = Size(80, 24)
+        self.stage = Stage(self, look.arrangement, self._opening.pane, lambda: self._snapshot)
         self._quitting = Quitting(self, console)
+        self._stopping = Stopping(self, console)
         self._safety_news = SafetyNews(console)
-        self.faults = Faults(self, self._panes_changed)
+        self._plugins = plugins
+        self.faults = Faults(self, self, self._panes_changed)
         self._keyboard = Keyboard(self, super().on_event)
 
     async def on_event(self, event: events.Event) -> None:
@@ -109,10 +122,11 @@ class BotConsoleApp(GuardedApp):
 
     def compose(self) -> ComposeResult:
         """Tabs, panes, status, footer, and a word for terminals that are too small."""
-        yield Static("", id="tabs", markup=False)
-        with Container(id="panes"):
+        yield Tabs()
+        with PaneArea(id="panes"):
             for each in sorted(PANES, key=lambda entry: entry.place):
-                yield each.load()(self.console_of_robot, self.launcher, id=each.id)
+                yield self.made(each.load(), each.id)
+        yield StreamPanel()
         yield StatusBar()
         yield KeyBar()
         yield Static("", id="too-small", markup=False)
@@ -120,8 +134,7 @@ class BotConsoleApp(GuardedApp):
     def on_mount(self) -> None:
         """Choose the theme, lay out, and begin to pull."""
         self.ask()
-        self._extent = self.size
-        self._lay_out()
+        self.stage.resized(self.size)
         self.pull()
         if self._opening != Opening(self._opening.pane):
             self.open(self._opening)
@@ -129,12 +142,23 @@ class BotConsoleApp(GuardedApp):
             self.set_interval(1.0 / self._refresh_hz, self._beat)
         if self._on_first_frame is not None:
             self.call_after_refresh(self._on_first_frame)
+        self.call_after_refresh(self._add_plugins)
+
+    async def _add_plugins(self) -> None:
+        """Panes of others, looked for when the first frame has been seen, which they are not to delay."""
+        found = self._plugins()
+        if found:
+            self.stage.plugins = [*found]
+            await self.faults.add(found)
 
     def _beat(self) -> None:
         self.pull()
         with self.batch_update():
             for pane in self.panes():
-                pane.tick()
+                if pane.children:  # none at the end, when the screen is taken apart
+                    pane.tick()
+            for panel in self.screen_stack[0].query(StreamPanel):
+                panel.look()
 
     def pull(self) -> None:
         """Take the newest snapshot and let the visible panes draw what is new."""
@@ -158,127 +182,77 @@ class BotConsoleApp(GuardedApp):
         if isinstance(self.screen, QuestionScreen):
             yield self.screen
 
+    def entries(self) -> Sequence[PaneEntry]:
+        """All panes that there are."""
+        return self.stage.entries()
+
+    def made(self, kind: type[P], id: str, **facts: Any) -> P:
+        """A pane of a class, for the system that is shown."""
+        return kind(self.console_of_robot, self.launcher, id=id, time_cursor=self.time_cursor, **facts)
+
     def panes(self) -> list[Pane]:
         """All panes, in the order in which they stand on the screen."""
-        self._panes = self._panes or list(self.query(Pane))
-        return self._panes
+        return self.stage.panes()
 
     def visible_panes(self) -> list[Pane]:
         """The panes that are drawn now."""
-        return [each for each in self.panes() if each.display]
+        return self.stage.visible()
 
     @property
     def current_pane(self) -> Pane | None:
         """The pane that has the keyboard, else the one chosen last."""
-        for widget in self.focused.ancestors_with_self if self.focused else ():
-            if isinstance(widget, Pane):
-                return widget
-        return next((each for each in self.panes() if each.id == self._focused_pane), None)
+        return self.stage.current()
 
     def on_resize(self, event: events.Resize) -> None:
         """Lay out for the new size."""
-        self._extent = event.size
-        self._lay_out()
-
-    def _lay_out(self) -> None:
-        width, height = self._extent
-        small = width < SMALLEST[0] or height < SMALLEST[1]
-        self.screen.set_class(small, "small")
-        if small:
-            self.query_one("#too-small", Static).update(too_small(width, height))
-        overview = self._overview_size() if self._wanted == "overview" else 0
-        self.screen.set_class(overview > 0, "overview")
-        self.screen.set_class(overview > 1, "wide")
-        single = self._focused_pane if self._wanted == "overview" else self._wanted
-        for each in PANES:
-            pane = self.query_one(f"#{each.id}", Pane)
-            before = pane.display
-            pane.display = 0 < each.overview <= overview if overview else each.id == single
-            if pane.display and not before:
-                pane.show(self._snapshot)
-        self._tabs(overview > 0, single)
-        pane = self.current_pane
-        if pane is not None and not pane.display:
-            pane = next(iter(self.visible_panes()), None)
-        if pane is not None and not self._typing():
-            pane.focus_target()
-        self.show_keys()
+        self.stage.resized(event.size)
 
     def on_descendant_focus(self) -> None:
         """Another part of the screen has the keyboard: show its keys."""
-        self.show_keys()
+        self.stage.show_keys()
 
-    def show_keys(self) -> None:
-        """Show the keys of the pane that has the keyboard."""
-        if self.screen_stack and len(self.screen_stack) == 1:
-            pane = self.current_pane
-            self.query_one(KeyBar).show(pane.id or "" if pane else "", self._typing(), DARK.primary)
+    def on_pane_area_dragged(self, event: PaneArea.Dragged) -> None:
+        """A border between panes was moved with the mouse."""
+        self.stage.arranging.dragged(event.tree, event.first)
 
-    def _overview_size(self) -> int:
-        """Which overview fits: 2 the wide one, 1 the usual one, 0 none, so that panes are shown one at a time."""
-        width, height = self._extent
-        fits = [width >= need[0] and height >= need[1] for need in (OVERVIEW, WIDE)]
-        return sum(fits) if fits[0] else 0
-
-    def _in_overview(self, pane: str) -> bool:
-        return any(each.id == pane and 0 < each.overview <= self._overview_size() for each in PANES)
-
-    def _tabs(self, overview: bool, single: str) -> None:
-        marks = [("0", "Overview", "All", overview)]
-        marks += [
-            (each.digit, each.title, each.short or each.title, not overview and each.id == single) for each in PANES
-        ]
-        self.query_one("#tabs", Static).update(tabs_text(marks, self._extent.width - 2, DARK.primary), layout=False)
-
-    def _typing(self) -> bool:
-        return isinstance(self.focused, Input)
+    def on_tabs_chosen(self, event: Tabs.Chosen) -> None:
+        """A tab was clicked."""
+        self.stage.go(event.pane)
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
         """Letters and digits belong to a text field while one has the keyboard."""
-        if self._typing() and action in ("pane", "all_stop", "zoom", "next_pane"):
+        if self.stage.typing() and action in ("pane", "all_stop", "zoom", "next_pane", "arrange"):
             return False
-        if len(self.screen_stack) > 1 and action in ("pane", "zoom", "next_pane", "help"):
+        if len(self.screen_stack) > 1 and action in ("pane", "zoom", "next_pane", "help", "arrange"):
             # What lies over the panes has keys of its own.
             return False
         return super().check_action(action, parameters)
 
     def action_pane(self, name: str) -> None:
-        """Show a pane, or the overview."""
-        self._wanted = name
-        if name != "overview":
-            self._focused_pane = name
-        elif self._overview_size() and not self._in_overview(self._focused_pane):
-            self._focused_pane = "parameters"
-        self.set_focus(None)
-        self._lay_out()
+        """Show a pane, or the layout."""
+        self.stage.go(name)
 
     def action_next_pane(self, step: int) -> None:
-        """The next pane: of those seen in the overview, else of all."""
-        panes = self.visible_panes() if len(self.visible_panes()) > 1 else self.panes()
-        now = self.current_pane
-        target = panes[(panes.index(now) + step) % len(panes)] if now in panes else panes[0]
-        self._focused_pane = target.id or ""
-        if target.display:
-            target.focus_target()
-        else:
-            self.action_pane(self._focused_pane)
+        """The next pane: of those seen together, else of all."""
+        self.stage.next(step)
 
     def action_zoom(self) -> None:
-        """One pane alone, or the overview again."""
-        pane = self.current_pane
-        self.action_pane("overview" if self._wanted != "overview" or pane is None else pane.id or "overview")
+        """One pane alone, or the layout again."""
+        self.stage.zoom()
+
+    def action_arrange(self) -> None:
+        """Arrange the panes by key."""
+        self.stage.go(OVERVIEW)
+        if self.stage.arranging.begin():
+            self.push_screen(ArrangeScreen(self.stage.arranging))
 
     def action_all_stop(self) -> None:
-        """Hold the robot still, or let it go; a stop that nobody has acknowledged is sent again."""
-        drive = self.console_of_robot.snapshot().drive
+        """Hold the robot still, or let it go."""
         if self._quitting.keep_held():
             self.notify("The robot stays held.")
-            return
-        hold = not drive.stopped or (drive.lockable and not drive.stop_confirmed)
-        self.console_of_robot.all_stop(hold)
-        self.pull()
-        if not hold:
-            self.notify("The robot may move again.")
+        else:
+            self._stopping.wanted()
+            self.pull()
 
     async def action_quit(self) -> None:
         """End, but ask first where values would be lost."""
@@ -288,28 +262,44 @@ class BotConsoleApp(GuardedApp):
         """Help for the pane that has the keyboard."""
         pane = self.current_pane
         if pane is not None:
-            self.push_screen(HelpScreen(pane.id or "", pane.TITLE, pane.HELP or ""))
+            self.push_screen(HelpScreen(pane.scopes, pane.TITLE, pane.HELP or ""))
 
     def action_palette(self) -> None:
         """Ask for a command: an action by its words, or a `ros2` line."""
-        known = all_commands(self, self.current_pane)
+        known = {**all_commands(self, self.current_pane), **self._plugin_commands()}
         self.push_screen(
             screen_for(
                 Choice(
                     "Commands",
                     lambda chosen: known[chosen].run() if chosen in known else self.run_ros2(chosen),
-                    find=partial(options_for, known),
+                    find=partial(options_for, known, lambda line: risk_of(line, self._snapshot)),
                     hint="words of a command, or a ros2 line",
                     empty="No command has these words; a line that begins with ros2 is run.",
                 )
             )
         )
 
+    def _plugin_commands(self) -> Mapping[str, Command]:
+        return {
+            each.id: Command(f"Pane: {each.title}", "", partial(self.stage.go, each.id)) for each in self.stage.plugins
+        }
+
     def action_acknowledge(self) -> None:
         """Count only the errors that come from now on."""
         bar = self.screen_stack[0].query_one(StatusBar)
         bar.acknowledge(self._snapshot)
         bar.show(self._snapshot, self.gate.held_back)
+
+    def action_theme(self) -> None:
+        """Show the next theme."""
+        names = [each.name for each in THEMES.values()]
+        self.theme = names[(names.index(self.theme) + 1) % len(names)]
+        self.notify(f"Theme: {self.theme.removeprefix('bot-')}; `bot-console config --edit` makes it last.")
+
+    def action_glyphs(self) -> None:
+        """Draw with plain letters, or with lines and braille again."""
+        self.plain = not self.plain
+        self.redraw()
 
     def action_redraw(self) -> None:
         """Draw everything anew."""
@@ -323,6 +313,17 @@ class BotConsoleApp(GuardedApp):
             plot.add(event.path)
         if not plot.display:
             self.action_pane(PLOT)
+
+    def on_pane_line_wanted(self, event: Pane.LineWanted) -> None:
+        """Run a line that a pane names."""
+        event.stop()
+        self.run_ros2(event.line)
+
+    def on_pane_pane_wanted(self, event: Pane.PaneWanted) -> None:
+        """Show another pane at what one names."""
+        event.stop()
+        self.action_pane(event.pane)
+        self.query_one(f"#{event.pane}", Pane).go_to(event.name)
 
     def open(self, opening: Opening) -> None:
         """Show a pane with the curves and the node that are asked for; both may come later."""
@@ -361,10 +362,9 @@ class BotConsoleApp(GuardedApp):
 
     def _panes_changed(self) -> None:
         """A pane stands where another was: lay out, and show all of them what there is."""
-        self._panes = []
         self._snapshot = replace(self._snapshot)
         self._keyboard.release()
-        self._lay_out()
+        self.stage.changed()
 
     def last_words(self, error: BaseException) -> str:
         """Stop the robot, keep what is known of the fault, and say so on one line."""
@@ -378,19 +378,23 @@ class BotConsoleApp(GuardedApp):
         """Run a `ros2` line and show what it prints; one that names a program of rqt opens a pane."""
         if is_rqt(line.split()):
             opening, left = rqt_opening(line.split())
-            self.open(replace(opening, notes=(*opening.notes, *(f"{each} is not taken over" for each in left))))
+            notes = [*opening.notes, *(f"{each} is not taken over" for each in left)]
+            if opening.perspective:
+                file = opening.perspective
+                notes.append(f"perspective {file} is opened at the start only: bot-console --perspective-file {file}")
+            self.open(replace(opening, notes=tuple(notes)))
             return
-        answer = self.console_of_robot.run_line(line)
+        stream = self._command_line.stream(line)
+        if stream is not None:
+            self.screen_stack[0].query_one(StreamPanel).begin(line, stream)
+            return
+        answer = self._command_line.run(line)
         answer.add_done_callback(lambda done: self.call_later(self._show_output, line, done))
+
+    def action_end_stream(self) -> None:
+        """End the line that goes on below the panes."""
+        self.screen_stack[0].query_one(StreamPanel).end()
 
     def _show_output(self, line: str, done: Future[str]) -> None:
         error = done.exception()
         self.push_screen(OutputScreen(line, str(error) if error else done.result()))
-
-
-def too_small(width: int, height: int) -> str:
-    """What is said in a terminal in which nothing fits but, if need be, four short lines."""
-    need = f"{SMALLEST[0]}x{SMALLEST[1]}"
-    if width < 40 or height < 6:
-        return f"{width}x{height} is too small\n{need} is needed\n! stops the robot\nq quits"
-    return f"{width}x{height} is too small\nthe console needs {need}\n\nthe robot goes on; ! stops it, q quits"

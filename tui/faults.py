@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from typing import Any, Protocol, TypeVar
 
-from bot_console.tui.crash import keep, reason
-from bot_console.tui.pane_table import PANES
+from bot_console.tui.files.crash import keep, reason
+from bot_console.tui.pane_table import PaneEntry
 from bot_console.tui.panes.broken import BrokenPane
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.screens.overlay import Overlay
@@ -15,12 +16,27 @@ from textual.app import App
 from textual.containers import Container
 from textual.dom import DOMNode
 
+P = TypeVar("P", bound=Pane)
+
+
+class PaneMaker(Protocol):
+    """What makes panes."""
+
+    def entries(self) -> Sequence[PaneEntry]:
+        """All panes that there are."""
+        ...
+
+    def made(self, kind: type[P], id: str, **facts: Any) -> P:
+        """A pane of a class, for the system that is shown."""
+        ...
+
 
 class Faults:
     """Ends what is at fault alone, and opens panes again."""
 
-    def __init__(self, app: App[None], changed: Callable[[], None]) -> None:
+    def __init__(self, app: App[None], maker: PaneMaker, changed: Callable[[], None]) -> None:
         self._app = app
+        self._maker = maker
         self._changed = changed
         self.seen: list[Exception] = []
         """All faults that were contained."""
@@ -47,9 +63,11 @@ class Faults:
         pane.display = False
         with contextlib.suppress(Exception):  # the fault may lie there as well
             pane.let_go()
-        title = next((each.title for each in PANES if each.id == pane.id), "")
-        new = BrokenPane(pane.console, pane.launcher, id=pane.id, title=title, why=reason(error), details=keep(error))
-        self._app.call_later(self._replace, pane, new)
+        self._app.call_later(self._replace, pane, self._broken(pane.id or "", error))
+
+    def _broken(self, id: str, error: Exception) -> BrokenPane:
+        title = next((each.title for each in self._maker.entries() if each.id == id), "")
+        return self._maker.made(BrokenPane, id, title=title, why=reason(error), details=keep(error))
 
     def _end_screens(self, error: Exception) -> None:
         while len(self._app.screen_stack) > 1:
@@ -59,8 +77,22 @@ class Faults:
 
     async def reopen(self, broken: BrokenPane) -> None:
         """Put the pane itself into its place again."""
-        entry = next(each for each in PANES if each.id == broken.id)
-        await self._replace(broken, entry.load()(broken.console, broken.launcher, id=entry.id))
+        entry = next(each for each in self._maker.entries() if each.id == broken.id)
+        await self._replace(broken, self._made(entry))
+
+    async def add(self, entries: Sequence[PaneEntry]) -> None:
+        """Put panes that others bring behind the own ones; one that cannot be made says why in its place."""
+        made = [self._made(entry) for entry in entries]
+        for pane in made:
+            pane.display = False
+        await self._app.screen_stack[0].query_one("#panes", Container).mount(*made)
+        self._changed()
+
+    def _made(self, entry: PaneEntry) -> Pane:
+        try:
+            return self._maker.made(entry.load(), entry.id)
+        except Exception as error:  # the border to the code of others, which may not even be importable
+            return self._broken(entry.id, error)
 
     async def _replace(self, old: Pane, new: Pane) -> None:
         container = self._app.screen_stack[0].query_one("#panes", Container)

@@ -7,8 +7,8 @@ import re
 import unicodedata
 from shlex import quote
 
-from bot_console.tui.console.kinds import ARRAYS
 from bot_console.tui.console.model import ConsoleSnapshot, Kind, ParameterInfo, Range, Severity, Value
+from bot_console.tui.console.parameter_types import ARRAYS
 from bot_console.tui.yaml_flow import in_quotes, is_plain, items, quoted, unquoted
 from rich.cells import cell_len, set_cell_size
 

@@ -5,29 +5,11 @@ Keys are chosen to survive SSH, tmux and browsers' terminals: letters, digits, E
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-
+from bot_console.tui.keys import Key
+from bot_console.tui.tuning_keys import TUNING
 from textual.binding import Binding, BindingType
 
-
-@dataclass(frozen=True)
-class Key:
-    """One action: its keys (any of them, separated by commas), what it does, and whether the footer names it."""
-
-    id: str
-    keys: str
-    action: str
-    text: str
-    footer: bool = False
-    shown: str = ""
-    """How the key is written; empty: as Textual writes it."""
-    priority: bool = False
-    short: str = ""
-    """What the footer says, where `text` is too long for it."""
-
-
-TABLE: Mapping[str, tuple[Key, ...]] = {
+TABLE: dict[str, tuple[Key, ...]] = {
     "app": (
         Key("app.help", "question_mark,f1", "help", "Help for this pane", footer=True, shown="?", short="Help"),
         Key(
@@ -57,8 +39,11 @@ TABLE: Mapping[str, tuple[Key, ...]] = {
         Key("app.steering", "6", "pane('steering')", "Steering"),
         Key("app.profiles", "7", "pane('profiles')", "Profiles"),
         Key("app.launch", "8", "pane('launch')", "Launch"),
+        Key("app.history", "H", "pane('history')", "History", shown="H"),
+        Key("app.topics", "9", "pane('topics')", "Topics"),
         Key("app.next", "tab", "next_pane(1)", "Next pane", priority=True),
         Key("app.previous", "shift+tab", "next_pane(-1)", "Previous pane", priority=True),
+        Key("app.arrange", "V", "arrange", "Arrange the panes: split, resize, close, layouts", shown="V"),
         Key("app.zoom", "z", "zoom", "Maximise this pane, and back"),
         Key(
             "app.quit",
@@ -70,45 +55,18 @@ TABLE: Mapping[str, tuple[Key, ...]] = {
         ),
         Key("app.quit_now", "ctrl+q,ctrl+c", "quit", "Quit from anywhere; twice: at once", priority=True),
         Key("app.acknowledge", "ctrl+e", "acknowledge", "Acknowledge the errors: count only those that come"),
+        Key("app.theme", "ctrl+y", "theme", "Next theme: dark, light, high contrast, the terminal's own colours"),
+        Key("app.glyphs", "ctrl+g", "glyphs", "Plain letters in place of lines and braille, and back"),
+        Key("app.end_stream", "ctrl+o", "end_stream", "End the ros2 line that runs below the panes"),
         Key("app.redraw", "ctrl+l", "redraw", "Draw the screen anew"),
     ),
-    "parameters": (
-        Key(
-            "parameters.edit",
-            "enter",
-            "edit",
-            "Edit the value, an array element by element; open or close a node",
-            footer=True,
-            short="Edit",
-        ),
-        Key("parameters.edit_text", "e", "edit_text", "Edit the value as text, an array on one line"),
-        Key("parameters.more", "plus,equals_sign", "nudge(1)", "One step up", footer=True, shown="+", short="More"),
-        Key("parameters.less", "minus", "nudge(-1)", "One step down", footer=True, shown="-", short="Less"),
-        Key("parameters.much_more", "greater_than_sign", "nudge(10)", "Ten steps up", shown=">"),
-        Key("parameters.much_less", "less_than_sign", "nudge(-10)", "Ten steps down", shown="<"),
-        Key("parameters.default", "d", "reset", "Back to the start value"),
-        Key("parameters.undo", "u", "undo", "Undo the last change", footer=True, short="Undo"),
-        Key("parameters.redo", "U", "redo", "Redo", shown="U"),
-        Key("parameters.filter", "slash", "filter", "Filter", footer=True, shown="/"),
-        Key("parameters.all", "escape", "clear", "Take the mark of a refused value away, or else the filter"),
-        Key("parameters.changed", "c", "toggle_changed", "Only what differs from its start value"),
-        Key("parameters.hidden", "h", "toggle_built_in", "Show built-in parameters too"),
-        Key("parameters.fold", "left", "fold(True)", "Close the node"),
-        Key("parameters.unfold", "right", "fold(False)", "Open the node"),
-        Key("parameters.fold_all", "C", "fold_all", "Close or open all nodes", shown="C"),
-        Key("parameters.dismiss", "x", "dismiss", "Take the mark of a refused value away"),
-        Key("parameters.plot", "p", "plot", "Plot this parameter"),
-        Key("parameters.copy", "y", "copy", "Copy the ros2 command of this parameter"),
-        Key("parameters.save", "s", "save", "Save to a ROS parameter file"),
-    ),
+    **TUNING,
     "logs": (
         Key("logs.follow", "f", "follow", "Follow the newest line", footer=True, short="Follow"),
         Key("logs.warnings", "w", "warnings", "Warnings and worse only", footer=True, short="Warnings"),
         Key("logs.level", "v", "level", "Next minimum severity", footer=True, short="Level"),
-        Key("logs.filter", "slash", "filter", "Filter", footer=True, shown="/"),
         Key("logs.detail", "enter", "detail", "The whole message", footer=True, short="Message"),
         Key("logs.exclude", "x", "exclude", "Hide this node's lines"),
-        Key("logs.all", "escape", "clear_filter", "Take all filters away"),
         Key("logs.next_error", "E", "next_error", "Next error", shown="E"),
         Key("logs.clear", "K", "clear", "Clear the log", shown="K"),
         Key("logs.copy", "y", "copy", "Copy the message"),
@@ -117,12 +75,12 @@ TABLE: Mapping[str, tuple[Key, ...]] = {
     "world": (
         Key("world.in", "plus,equals_sign", "zoom_map(1)", "Zoom in", footer=True, shown="+"),
         Key("world.out", "minus", "zoom_map(-1)", "Zoom out", footer=True, shown="-"),
+        Key("world.next", "n", "next_place", "Next place: the robot's, or a field of turtles", short="Place"),
         Key("world.fit", "f", "fit", "Whole map, or follow the robot", footer=True, short="Fit"),
     ),
     "graph": (
         Key("graph.detail", "enter", "detail", "All about this node or topic", footer=True, short="Details"),
         Key("graph.mode", "m", "mode", "Topics in use, all topics, or nodes only", footer=True, short="Mode"),
-        Key("graph.filter", "slash", "filter", "Filter", footer=True, shown="/"),
         Key(
             "graph.debug",
             "D",
@@ -134,34 +92,17 @@ TABLE: Mapping[str, tuple[Key, ...]] = {
         ),
         Key("graph.sinks", "d", "hide('dead_sinks')", "Hide topics that nobody listens to"),
         Key("graph.leaves", "L", "hide('leaves')", "Hide topics with a single connection", shown="L"),
+        Key("graph.services", "s", "hide('services')", "Draw services and actions, too", footer=True, short="Services"),
+        Key("graph.rates", "r", "rates", "Write the rates of topics on them, or no more", footer=True, short="Rates"),
+        Key("graph.findings", "w", "findings", "What is odd, in words", footer=True, short="Findings"),
+        Key("graph.focus", "c", "focus", "Only what is linked to the selected item; again: one hop more"),
+        Key("graph.back", "b", "journey('back')", "Where the focus was before"),
+        Key("graph.forth", "f", "journey('forth')", "Where the focus was before b"),
+        Key("graph.fold", "minus", "fold(True)", "Draw the namespace of the selected node as one box", shown="-"),
+        Key("graph.unfold", "plus,equals_sign", "fold(False)", "Unfold the selected box", shown="+"),
+        Key("graph.fold_all", "F", "fold_all", "Fold all namespaces, or unfold them", shown="F"),
         Key("graph.turn", "o", "turn_picture", "Arrows to the right, down, or as it fits"),
-        Key("graph.all", "escape", "clear_filter", "Take the filter away"),
         Key("graph.export", "e", "export", "Export as text, Mermaid or DOT"),
-    ),
-    "plot": (
-        Key("plot.add", "a", "add", "Add a curve: /topic/field or /node:parameter", footer=True, short="Add"),
-        Key("plot.remove", "x", "remove", "Remove the selected curve", footer=True, short="Remove"),
-        Key("plot.remove_all", "X", "remove_all", "Remove all curves", shown="X"),
-        Key("plot.pause", "space", "pause", "Pause the picture; data go on coming", footer=True, short="Pause"),
-        Key("plot.longer", "minus", "window(1)", "Longer time window", footer=True, shown="-", short="Longer"),
-        Key(
-            "plot.shorter",
-            "plus,equals_sign",
-            "window(-1)",
-            "Shorter time window",
-            footer=True,
-            shown="+",
-            short="Shorter",
-        ),
-        Key("plot.form", "f", "form", "Framed plot, or one strip for each curve", footer=True, short="Form"),
-        Key("plot.limits", "y", "limits", "Limits of the value axis: automatic or given"),
-        Key("plot.back", "left,h", "shift(-1)", "Back in time, while paused"),
-        Key("plot.forth", "right,l", "shift(1)", "Forth in time, while paused"),
-        Key("plot.up", "up,k", "choose(-1)", "Previous curve"),
-        Key("plot.down", "down,j", "choose(1)", "Next curve"),
-        Key("plot.clear", "K", "clear", "Forget what has been drawn so far", shown="K"),
-        Key("plot.csv", "e", "export", "Export the samples as CSV"),
-        Key("plot.picture", "S", "picture", "Save the picture as text or HTML", shown="S"),
     ),
     "steering": (
         Key("steering.arm", "enter", "arm", "Arm, or disarm", footer=True, short="Arm"),
@@ -177,31 +118,10 @@ TABLE: Mapping[str, tuple[Key, ...]] = {
         Key("steering.no_speed", "x", "zero_axis(0)", "Zero linear velocity"),
         Key("steering.no_turn", "c", "zero_axis(1)", "Zero angular velocity"),
         Key("steering.deadman", "t", "deadman", "Dead-man time: seconds without a key until the robot stops"),
+        Key("steering.robot", "r", "next_robot", "Another robot, where several listen for commands"),
+        Key("steering.limits", "v", "limits", "Limits of speed and turn, typed or the parameters'"),
         Key("steering.hand_back", "h", "hand_back", "Hand back: the robot's own program drives again"),
         Key("steering.disarm", "escape", "disarm", "Disarm: the robot stands, locked, until it is handed back"),
-    ),
-    "profiles": (
-        Key(
-            "profiles.apply",
-            "a,enter",
-            "apply(False)",
-            "Apply: set the values live",
-            footer=True,
-            shown="a",
-            short="Apply",
-        ),
-        Key(
-            "profiles.world",
-            "w",
-            "apply(True)",
-            "Apply, and reset the simulator into the profile's world",
-            footer=True,
-            short="Apply+world",
-        ),
-        Key("profiles.again", "r", "again", "Work the differences out anew", footer=True, short="Refresh"),
-        Key("profiles.undo", "u", "undo", "Undo the last change"),
-        Key("profiles.scroll_down", "right,l,space", "scroll(1)", "Scroll the differences down"),
-        Key("profiles.scroll_up", "left,h", "scroll(-1)", "Scroll the differences up"),
     ),
     "launch": (
         Key("launch.open", "o", "open", "Open a launch file", footer=True, short="Open"),
@@ -221,6 +141,33 @@ TABLE: Mapping[str, tuple[Key, ...]] = {
         Key("launch.fold", "left,h", "fold(True)", "Close the group"),
         Key("launch.unfold", "right,l", "fold(False)", "Open the group"),
     ),
+    "topics": (
+        Key(
+            "topics.open",
+            "enter",
+            "open",
+            "Open the newest message, fold a line of it; call a service, send a goal",
+            footer=True,
+            short="Open",
+        ),
+        Key(
+            "topics.fill",
+            "P",
+            "fill",
+            "Fill in a message, request or goal, and send it",
+            footer=True,
+            shown="P",
+            short="Publish",
+        ),
+        Key("topics.plot", "p", "plot", "Plot a field", footer=True, short="Plot"),
+        Key("topics.kind", "m", "kind", "Topics, services, actions", footer=True, short="Services"),
+        Key("topics.freeze", "space", "freeze", "Freeze the message, or let it go on", footer=True, short="Freeze"),
+        Key("topics.stop", "x", "stop", "Publish no more at a rate; cancel the goal"),
+        Key("topics.hidden", "D", "hidden", "Show hidden topics and built-in services too", shown="D"),
+        Key("topics.fold", "left", "fold(True)", "Close what a line of the message holds"),
+        Key("topics.unfold", "right", "fold(False)", "Open what a line of the message holds"),
+        Key("topics.copy", "y", "copy", "Copy the ros2 command"),
+    ),
     "diagram": (
         Key("diagram.up", "up,k", "select(0,-1)", "Select above"),
         Key("diagram.down", "down,j", "select(0,1)", "Select below"),
@@ -239,18 +186,60 @@ TABLE: Mapping[str, tuple[Key, ...]] = {
         Key("list.home", "g,home", "end(-1)", "First row"),
         Key("list.end", "G,end", "end(1)", "Last row", shown="G"),
     ),
+    "arrange": (
+        Key("arrange.left", "left,h", "select(-1,0)", "Select to the left", footer=True, shown="←↑↓→", short="Select"),
+        Key("arrange.right", "right,l", "select(1,0)", "Select the pane to the right"),
+        Key("arrange.up", "up,k", "select(0,-1)", "Select the pane above"),
+        Key("arrange.down", "down,j", "select(0,1)", "Select the pane below"),
+        Key("arrange.beside", "v", "split('beside')", "Put another pane beside it", footer=True, short="Beside"),
+        Key("arrange.below", "s", "split('below')", "Put another pane below it", footer=True, short="Below"),
+        Key("arrange.close", "x", "close_pane", "Take the pane away", footer=True, short="Close"),
+        Key("arrange.another", "r", "put_another", "Put another pane here instead", footer=True, short="Replace"),
+        Key("arrange.higher", "plus,equals_sign", "grow(0,1)", "Higher", footer=True, shown="+ -", short="Height"),
+        Key("arrange.lower", "minus", "grow(0,-1)", "Less high"),
+        Key(
+            "arrange.narrower",
+            "left_square_bracket,less_than_sign",
+            "grow(-1,0)",
+            "Narrower",
+            footer=True,
+            shown="[ ]",
+            short="Width",
+        ),
+        Key("arrange.wider", "right_square_bracket,greater_than_sign", "grow(1,0)", "Wider"),
+        Key("arrange.move_left", "H,shift+left", "exchange(-1,0)", "Change places to the left", shown="H"),
+        Key("arrange.move_right", "L,shift+right", "exchange(1,0)", "Change places to the right", shown="L"),
+        Key("arrange.move_up", "K,shift+up", "exchange(0,-1)", "Change places with the pane above", shown="K"),
+        Key("arrange.move_down", "J,shift+down", "exchange(0,1)", "Change places with the pane below", shown="J"),
+        Key("arrange.turn", "t", "turn", "Beside becomes below, and the other way round"),
+        Key("arrange.even", "e", "even", "Share the room equally"),
+        Key("arrange.undo", "u", "undo", "Take the last change back", footer=True, short="Undo"),
+        Key("arrange.open", "o", "open_layout", "Show a layout that has a name", footer=True, short="Open"),
+        Key("arrange.save", "w", "save_layout", "Keep what is shown under a name", footer=True, short="Save"),
+        Key("arrange.stop", "exclamation_mark", "app.all_stop", "All stop", shown="!"),
+        Key("arrange.done", "escape,enter,q,V", "done", "Back to the panes", footer=True, shown="esc", short="Done"),
+    ),
+    "find": (
+        Key("find.filter", "slash", "filter", "Filter", footer=True, shown="/"),
+        Key("find.next", "n", "find(1)", "Next match of the filter, also when it was taken away"),
+        Key("find.previous", "N", "find(-1)", "Previous match", shown="N"),
+    ),
+    "narrowed": (Key("narrowed.all", "escape", "clear_filter", "Take the filter away"),),
     "broken": (Key("broken.reopen", "enter,r", "reopen", "Open the pane again", footer=True, short="Open again"),),
     "overlay": (
         Key("overlay.close", "escape,enter,q", "dismiss", "Close"),
         Key("overlay.stop", "exclamation_mark", "app.all_stop", "All stop", shown="!"),
-        Key("overlay.up", "up,k", "scroll_box(-1)", "Up"),
-        Key("overlay.down", "down,j", "scroll_box(1)", "Down"),
-        Key("overlay.page_up", "pageup", "page_box(-1)", "Page up"),
-        Key("overlay.page_down", "pagedown", "page_box(1)", "Page down"),
-        Key("overlay.home", "g,home", "end_of_box(-1)", "To the top"),
-        Key("overlay.end", "G,end", "end_of_box(1)", "To the bottom", shown="G"),
+    ),
+    "box": (
+        Key("box.up", "up,k", "scroll_box(-1)", "Up"),
+        Key("box.down", "down,j", "scroll_box(1)", "Down"),
+        Key("box.page_up", "pageup", "page_box(-1)", "Page up"),
+        Key("box.page_down", "pagedown", "page_box(1)", "Page down"),
+        Key("box.home", "g,home", "end_of_box(-1)", "To the top"),
+        Key("box.end", "G,end", "end_of_box(1)", "To the bottom", shown="G"),
     ),
     "help": (Key("help.close", "question_mark,f1", "dismiss", "Close"),),
+    "prompt": (Key("prompt.give_up", "escape", "give_up", "Give up"),),
     "question": (Key("question.give_up", "escape", "give_up", "Close without an answer"),),
     "confirm": (
         Key("confirm.yes", "y", "yes", "Yes"),
@@ -266,14 +255,28 @@ TABLE: Mapping[str, tuple[Key, ...]] = {
         Key("elements.later", "J,shift+down", "move(1)", "Move the element down", shown="J"),
         Key("elements.undo", "u", "undo", "Undo the last change of the list"),
         Key("elements.take", "s", "take", "Set the array as it is here"),
-        Key("elements.give_up", "escape,q", "leave", "Close; what was changed is dropped"),
+        Key("elements.give_up", "q", "give_up", "Close; what was changed is dropped"),
         Key("elements.stop", "exclamation_mark", "app.all_stop", "All stop", shown="!"),
+    ),
+    "fill": (
+        Key("fill.edit", "enter,e", "edit", "Type a value into the field"),
+        Key("fill.send", "s", "send", "Publish once, call the service, send the goal"),
+        Key("fill.repeat", "r", "repeat", "Publish at a rate"),
+        Key("fill.stop", "x", "stop", "Publish no more at a rate; cancel the goal"),
+        Key("fill.earlier", "left_square_bracket", "earlier(1)", "What was sent before", shown="["),
+        Key("fill.later", "right_square_bracket", "earlier(-1)", "What was sent after that", shown="]"),
+        Key("fill.default", "d", "default", "The field's default again"),
+        Key("fill.copy", "y", "copy", "Copy the ros2 command that sends the same"),
+        Key("fill.close", "q", "give_up", "Close"),
+        Key("fill.all_stop", "exclamation_mark", "app.all_stop", "All stop", shown="!"),
     ),
     "picker": (
         Key("picker.down", "down", "move(1)", "Down", priority=True),
         Key("picker.up", "up", "move(-1)", "Up", priority=True),
-        Key("picker.page_down", "pagedown", "move(10)", "Page down", priority=True),
-        Key("picker.page_up", "pageup", "move(-10)", "Page up", priority=True),
+        Key("picker.page_down", "pagedown", "page(1)", "Page down", priority=True),
+        Key("picker.page_up", "pageup", "page(-1)", "Page up", priority=True),
+        Key("picker.home", "home", "end(-1)", "First one", priority=True),
+        Key("picker.end", "end", "end(1)", "Last one", priority=True),
     ),
     "form": (
         Key("form.next", "down,tab", "step(1)", "Next argument", priority=True),
@@ -298,32 +301,3 @@ def bindings(scope: str) -> list[BindingType]:
         )
         for key in TABLE[scope]
     ]
-
-
-NAMES = {
-    "question_mark": "?",
-    "colon": ":",
-    "exclamation_mark": "!",
-    "slash": "/",
-    "plus": "+",
-    "equals_sign": "=",
-    "minus": "-",
-    "greater_than_sign": ">",
-    "less_than_sign": "<",
-    "escape": "esc",
-    "up": "↑",
-    "down": "↓",
-    "left": "←",
-    "right": "→",
-}
-
-
-def key_text(key: Key, most: int = 9) -> str:
-    """The keys of an action, at most so many, as they are written on the keyboard."""
-    return " ".join(_written(each) for each in key.keys.split(",")[:most])
-
-
-def _written(key: str) -> str:
-    shift = "⇧" if key.startswith("shift+") else ""
-    name = key.removeprefix("shift+")
-    return shift + NAMES.get(name, name.replace("ctrl+", "^"))

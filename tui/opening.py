@@ -13,6 +13,10 @@ RQT_PANES = {
     "rqt_plot": "plot",
     "rqt_reconfigure": "parameters",
     "rqt_robot_steering": "steering",
+    "rqt_topic": "topics",
+    "rqt_publisher": "topics",
+    "rqt_service_caller": "topics",
+    "rqt_action": "topics",
     "rviz2": "world",
 }
 """Programs of rqt, as packages and as executables, and the pane that does their work."""
@@ -35,6 +39,8 @@ class Opening:
     curves: tuple[str, ...] = ()
     node: str = ""
     notes: tuple[str, ...] = ()
+    perspective: str = ""
+    """A layout file or a perspective of rqt whose panes are to stand on the screen; empty: none."""
 
 
 def is_rqt(words: Sequence[str]) -> bool:
@@ -53,7 +59,7 @@ def rqt_opening(words: Sequence[str]) -> tuple[Opening, list[str]]:
     curves: list[str] = []
     notes: list[str] = []
     left: list[str] = []
-    node = ""
+    node = perspective = ""
     at = 0
     while at < len(rest):
         option, inline, value = rest[at].partition("=")
@@ -64,7 +70,7 @@ def rqt_opening(words: Sequence[str]) -> tuple[Opening, list[str]]:
         if option in STANDALONE:
             program = value.partition(".")[0]
         elif option in PERSPECTIVE:
-            notes.append(f"perspective {value}: rqt's windows are not taken over; the overview shows all panes")
+            perspective = value
         elif takes_value or option in WITHOUT_VALUE:
             notes.append(f"{option}{f' {value}' if takes_value else ''} of {program} is not taken over")
         elif option in ("--args", "--ros-args"):
@@ -78,7 +84,7 @@ def rqt_opening(words: Sequence[str]) -> tuple[Opening, list[str]]:
         at += 1
     if program not in RQT_PANES:
         notes.append(f"there is no pane for {program}; there are: {', '.join(sorted(RQT_PANES))}")
-    return Opening(RQT_PANES.get(program, "overview"), tuple(curves), node, tuple(notes)), left
+    return Opening(RQT_PANES.get(program, "overview"), tuple(curves), node, tuple(notes), perspective), left
 
 
 def _program(words: Sequence[str]) -> tuple[str, list[str]]:

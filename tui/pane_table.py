@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PaneEntry:
-    """A pane: its id (also the name of its folder), its class, and the digit that jumps to it."""
+    """A pane: its id (also the name of its folder), its class, and the key that jumps to it, mostly a digit."""
 
     id: str
     digit: str
@@ -39,4 +39,6 @@ PANES = (
     PaneEntry("steering", "6", "Steering", "SteeringPane", short="Steer"),
     PaneEntry("profiles", "7", "Profiles", "ProfilesPane"),
     PaneEntry("launch", "8", "Launch", "LaunchPane"),
+    PaneEntry("topics", "9", "Topics", "TopicsPane"),
+    PaneEntry("history", "H", "History", "HistoryPane", short="Hist"),
 )

@@ -30,13 +30,17 @@ KEYS = {
 }  # fmt: skip
 
 
+UNREADABLE = (yaml.YAMLError, ValueError, TypeError, AttributeError, KeyError, OverflowError, RecursionError)
+"""What reading YAML may raise: besides its own errors, those of the values that tags such as `!!timestamp` make."""
+
+
 def load_world(path: Path) -> World:
     """The world of a YAML file, named after the file; raises `WorldError`."""
     try:
         data = yaml.load(path.read_text(encoding="utf-8"), getattr(yaml, "CSafeLoader", yaml.SafeLoader))
     except OSError as error:
         raise WorldError(f"{path}: cannot be read: {error.strerror}") from error
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
+    except UNREADABLE as error:
         raise WorldError(f"{path}: is not YAML: {error}") from error
     try:
         return parse_world(path.stem, data)

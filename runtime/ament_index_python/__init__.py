@@ -7,9 +7,20 @@ from ament_index_python.packages import (
     get_package_share_path,
     get_packages_with_prefixes,
 )
-from ament_index_python.resources import get_resource, get_resource_types, get_resources, get_search_paths, has_resource
+from ament_index_python.resources import (
+    InvalidResourceNameError,
+    InvalidResourceTypeNameError,
+    get_resource,
+    get_resource_types,
+    get_resources,
+    get_search_paths,
+    has_resource,
+    name_is_invalid,
+)
 
 __all__ = [
+    "InvalidResourceNameError",
+    "InvalidResourceTypeNameError",
     "PackageNotFoundError",
     "get_package_prefix",
     "get_package_share_directory",
@@ -20,4 +31,5 @@ __all__ = [
     "get_resources",
     "get_search_paths",
     "has_resource",
+    "name_is_invalid",
 ]

@@ -14,8 +14,29 @@ def get_search_paths() -> list[str]:
     return [each for each in os.environ.get(PREFIX_VARIABLE, "").split(os.pathsep) if each and os.path.isdir(each)]
 
 
+class InvalidResourceTypeNameError(Exception):
+    """A kind of resources that cannot be one: it is empty, or leads to another folder."""
+
+
+class InvalidResourceNameError(Exception):
+    """A name of a resource that cannot be one: it is empty, or leads to another folder."""
+
+
+def name_is_invalid(resource_name: str) -> bool:
+    """Whether a resource, or a kind of resources, cannot have that name."""
+    return not resource_name or "/" in resource_name or "\\" in resource_name
+
+
+def _check(resource_type: str, resource_name: str = "any") -> None:
+    if name_is_invalid(resource_type):
+        raise InvalidResourceTypeNameError(f"Resource type '{resource_type}' is invalid")
+    if name_is_invalid(resource_name):
+        raise InvalidResourceNameError(f"Resource name '{resource_name}' is invalid")
+
+
 def get_resource(resource_type: str, resource_name: str) -> tuple[str, str]:
     """Content and prefix of a resource; raises `LookupError` when it is not there."""
+    _check(resource_type, resource_name)
     for prefix in get_search_paths():
         path = Path(prefix) / INDEX / resource_type / resource_name
         if path.is_file():
@@ -25,6 +46,7 @@ def get_resource(resource_type: str, resource_name: str) -> tuple[str, str]:
 
 def get_resources(resource_type: str) -> dict[str, str]:
     """Names of the resources of a type with their prefixes; the first prefix of a name wins."""
+    _check(resource_type)
     found: dict[str, str] = {}
     for prefix in get_search_paths():
         folder = Path(prefix) / INDEX / resource_type
@@ -37,6 +59,7 @@ def get_resources(resource_type: str) -> dict[str, str]:
 
 def has_resource(resource_type: str, resource_name: str) -> str | bool:
     """The prefix of a resource, or False."""
+    _check(resource_type, resource_name)
     return get_resources(resource_type).get(resource_name, False)
 
 

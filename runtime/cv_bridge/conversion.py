@@ -101,7 +101,7 @@ def _cut(values: np.ndarray, dtype: np.dtype) -> np.ndarray:
 def open_cv(what: str) -> Any:
     """OpenCV; raises `ImportError` that says how it is installed."""
     try:
-        import cv2  # type: ignore[import-not-found]
+        import cv2  # type: ignore[import-not-found] -- an optional dependency
     except ModuleNotFoundError:
         raise ImportError(
             f"{what} need OpenCV, which is not installed: pip install 'bot-console[opencv]' "

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.condition import Condition
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.origin import origin_of_caller
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+    from launch.launch_context import LaunchContext
 
 
 class Action(LaunchDescriptionEntity):
@@ -23,12 +28,12 @@ class Action(LaunchDescriptionEntity):
         return self.__condition
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[type[Action], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
         """Class and keyword arguments of an action in XML or YAML."""
         condition = parser.parse_condition(entity) if hasattr(parser, "parse_condition") else None
         return cls, {"condition": condition} if condition is not None else {}
 
-    def visit(self, context: Any) -> list[LaunchDescriptionEntity] | None:
+    def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Execute, if the condition holds."""
         if self.__condition is not None and not self.__condition.evaluate(context):
             return None
@@ -59,6 +64,6 @@ class Action(LaunchDescriptionEntity):
             return []
         return [(f"Conditionally included by {self.describe()}", self.get_sub_entities())]
 
-    def execute(self, context: Any) -> list[LaunchDescriptionEntity] | None:
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Do it."""
         return None

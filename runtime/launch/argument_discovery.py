@@ -8,6 +8,18 @@ from typing import Any
 Includes = list[Any] | None
 
 
+class DeclaresArgument:
+    """Base of the action that declares a launch argument. The actions know this module, not it them."""
+
+
+class IncludesDescription:
+    """Base of the action that includes a launch description."""
+
+
+class ResetsConfigurations:
+    """Base of the action that resets all launch configurations."""
+
+
 def discover(entities: Iterable[Any], conditional: bool) -> list[tuple[Any, Includes]]:
     """Arguments, each with the includes that may give it a value; None for those of the description itself.
 
@@ -26,15 +38,14 @@ class _Walk:
 
     def entities(self, entities: Iterable[Any], includes: Includes, conditional: bool) -> None:
         """Walk entities in order; below the first include, all includes share one list."""
-        from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription, ResetLaunchConfigurations
-
         for entity in entities:
-            if isinstance(entity, DeclareLaunchArgument):
+            kind: type = entity.__class__
+            if issubclass(kind, DeclaresArgument):
                 self._declared(entity, includes, conditional)
-            if isinstance(entity, ResetLaunchConfigurations):
+            if issubclass(kind, ResetsConfigurations):
                 return
             below = includes
-            if isinstance(entity, IncludeLaunchDescription):
+            if issubclass(kind, IncludesDescription):
                 below = [] if includes is None else includes
                 below.append(entity)
             self.entities(entity.describe_sub_entities(), below, False)

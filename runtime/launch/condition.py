@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class Condition:
@@ -17,7 +20,7 @@ class Condition:
         """A short text for people."""
         return repr(self)
 
-    def evaluate(self, context: Any) -> bool:
+    def evaluate(self, context: LaunchContext) -> bool:
         """Whether it holds now."""
         self.__last = self._predicate(context) if self._predicate is not None else True
         return self.__last

@@ -5,17 +5,20 @@ from __future__ import annotations
 import asyncio
 import signal
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.events import matches_action
 from launch.events.process import SignalProcess
 from launch.utilities import perform_substitutions
 
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+
 
 class Escalation:
     """Timers that send a process stronger signals until it has ended."""
 
-    def __init__(self, action: Any, context: Any, logger: Any) -> None:
+    def __init__(self, action: Any, context: LaunchContext, logger: Any) -> None:
         self._action = action
         self._context = context
         self._logger = logger

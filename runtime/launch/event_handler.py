@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.some_entities_type import SomeEntitiesType, check_entities
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class BaseEventHandler:
@@ -44,7 +47,7 @@ class BaseEventHandler:
         what = f"matcher='{self.matcher_description}', handler='{self.handler_description}'"
         return f"{type(self).__name__}({what}, handle_once={self.handle_once})", []
 
-    def handle(self, event: Any, context: Any) -> SomeEntitiesType | None:
+    def handle(self, event: Any, context: LaunchContext) -> SomeEntitiesType | None:
         """Entities to visit for the event."""
         context.extend_locals({"event": event})
         if self.handle_once:
@@ -70,7 +73,7 @@ class EventHandler(BaseEventHandler):
         """A text and the entities."""
         return super().describe()[0], check_entities(self.__entities)
 
-    def handle(self, event: Any, context: Any) -> SomeEntitiesType | None:
+    def handle(self, event: Any, context: LaunchContext) -> SomeEntitiesType | None:
         """The entities."""
         super().handle(event, context)
         return self.__entities

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from traceback import format_exception_only
 
 
 class InvalidLaunchFileError(Exception):
@@ -13,6 +12,8 @@ class InvalidLaunchFileError(Exception):
         super().__init__(extension)
         self._extension = extension
         self._likely_errors = list(likely_errors)
+        if self._likely_errors:
+            self.__cause__ = self._likely_errors[0]  # what the reader for files of that ending has said
 
     def __str__(self) -> str:
         """The causes, one below the other."""
@@ -21,8 +22,3 @@ class InvalidLaunchFileError(Exception):
         lines = [f"Caught multiple exceptions when trying to load file of format [{self._extension}]:"]
         lines += [f" - {type(each).__name__}: {each}" for each in self._likely_errors]
         return "\n".join(lines)
-
-
-def error_line(error: BaseException) -> str:
-    """The line that a traceback of an error ends with."""
-    return "".join(format_exception_only(type(error), error)).strip()

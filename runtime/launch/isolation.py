@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from bot_console.runtime.process import current
 from launch.child import CAN_FORK, PythonProgram
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 CONFIGURATION = "isolation"
 """The launch configuration that decides for all: `isolation:=process` or `isolation:=thread`."""
@@ -19,7 +22,7 @@ def isolate_by_default(kind: str) -> None:
     _default[:] = [kind]
 
 
-def has_own_process(context: Any, program: PythonProgram) -> bool:
+def has_own_process(context: LaunchContext, program: PythonProgram) -> bool:
     """Whether a program is to have a process of its own; raises `RuntimeError` for a word that is none of the two.
 
     In a stepped run nothing has: exactly one thread runs at a time there.

@@ -54,8 +54,8 @@ class LaunchContext:
         self.__asyncio_loop = loop
 
     @property
-    def asyncio_loop(self) -> asyncio.AbstractEventLoop | None:
-        """The loop that the launch runs in."""
+    def asyncio_loop(self) -> Any:
+        """The loop that the launch runs in; None while it does not run, which actions need not look for."""
         return self.__asyncio_loop
 
     def add_completion_future(self, future: asyncio.Future[None]) -> None:

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import launch.logging
+from launch.argument_discovery import discover
 from launch.launch_description_entity import LaunchDescriptionEntity
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class LaunchDescription(LaunchDescriptionEntity):
@@ -41,7 +45,7 @@ class LaunchDescription(LaunchDescriptionEntity):
         """Add an action at the end."""
         self.add_entity(action)
 
-    def visit(self, context: Any) -> list[LaunchDescriptionEntity] | None:
+    def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """The entities, after a warning for a deprecated description."""
         if self.__deprecated_reason is not None:
             path = context.get_locals_as_dict().get("current_launch_file_path", "")
@@ -63,6 +67,4 @@ class LaunchDescription(LaunchDescriptionEntity):
         self, conditional_inclusion: bool = False
     ) -> list[tuple[Any, list[Any] | None]]:
         """The arguments, each with the includes through which it was found; None where there is none on the way."""
-        from launch.argument_discovery import discover
-
         return discover(self.__entities, conditional_inclusion)

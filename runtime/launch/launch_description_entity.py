@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import asyncio
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class LaunchDescriptionEntity:
@@ -21,7 +24,7 @@ class LaunchDescriptionEntity:
         """Texts with the entities that are visited when what the text says comes about."""
         return []
 
-    def visit(self, context: Any) -> list[LaunchDescriptionEntity] | None:
+    def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Do what the entity is for; gives entities to visit next."""
         return None
 

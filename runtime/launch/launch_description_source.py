@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class LaunchDescriptionSource:
@@ -44,7 +47,7 @@ class LaunchDescriptionSource:
         self.__expanded_location = location
         return self.__launch_description
 
-    def get_launch_description(self, context: Any) -> Any:
+    def get_launch_description(self, context: LaunchContext) -> Any:
         """The description; reads the file the first time."""
         location = perform_substitutions(context, self.__location)
         if self.__launch_description is None or self.__expanded_location != location:

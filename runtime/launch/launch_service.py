@@ -1,5 +1,8 @@
 """Runs launch descriptions."""
 
+# pyright: reportPrivateUsage=false
+# The service drives the context, and its users are not to: underscores as upstream.
+
 from __future__ import annotations
 
 import asyncio
@@ -8,10 +11,10 @@ import threading
 import traceback
 from collections.abc import Iterable
 from concurrent.futures import Future
-from typing import Any
+from typing import Any, cast
 
 import launch.logging
-from bot_console.runtime.process.event_loop import new_event_loop
+from bot_console.runtime.process.stepping.event_loop import new_event_loop
 from launch.event_handlers import OnIncludeLaunchDescription, OnShutdown
 from launch.events import IncludeLaunchDescription, Shutdown
 from launch.launch_context import LaunchContext
@@ -65,6 +68,11 @@ class LaunchService:
     def failure(self) -> Exception | None:
         """What was caught and has ended the launch, with its traceback; None where nothing has (not upstream)."""
         return self.__failure
+
+    @property
+    def pending(self) -> list[Any]:
+        """The entities that have begun and are not done, processes and timers among them (not upstream)."""
+        return self.__pending.entities
 
     def include_launch_description(self, launch_description: Any) -> None:
         """Let a description run; before the service runs, or while it does."""
@@ -188,15 +196,16 @@ class LaunchService:
     def __visit(self, entities: Any) -> None:
         if entities is None:
             return
-        for entity in entities if isinstance(entities, Iterable) else (entities,):
+        given = cast("Iterable[Any]", entities if isinstance(entities, Iterable) else (entities,))
+        for entity in given:
             if entity is None:
                 continue
             if not hasattr(entity, "visit"):
                 raise RuntimeError(f"expected a LaunchDescriptionEntity from event_handler, got '{entity}'")
-            for _, future in visit_all_entities_and_collect_futures(entity, self.__context):
-                self.__pending.add(future)
+            for visited, future in visit_all_entities_and_collect_futures(entity, self.__context):
+                self.__pending.add(future, visited)
 
-    def __on_shutdown(self, event: Any, context: Any) -> None:
+    def __on_shutdown(self, event: Any, context: LaunchContext) -> None:
         self.__shutting_down = True
         context._set_is_shutdown(True)
 

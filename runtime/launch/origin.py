@@ -15,7 +15,7 @@ _OWN = tuple(
 
 def origin_of_caller() -> str:
     """File and line of the code that is not launch itself, as `x.launch.py:12`; empty where there is none."""
-    frame = sys._getframe(1)
+    frame = sys._getframe(1)  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
     while frame is not None and frame.f_code.co_filename.startswith(_OWN):
         frame = frame.f_back
     return "" if frame is None else f"{frame.f_code.co_filename}:{frame.f_lineno}"

@@ -6,12 +6,14 @@ import asyncio
 from collections import deque
 from typing import Any
 
+from launch.launch_place import tell_visited
+
 
 class PendingEntities:
     """Futures of entities that are not done, and a way to wait until anything changes, at a cost that is flat."""
 
     def __init__(self) -> None:
-        self._futures: set[asyncio.Future[Any]] = set()
+        self._futures: dict[asyncio.Future[Any], Any] = {}
         self._failures: deque[BaseException] = deque()
         self._waiter: asyncio.Future[None] | None = None
         self._woken = False
@@ -19,11 +21,16 @@ class PendingEntities:
     def __bool__(self) -> bool:
         return bool(self._futures or self._failures)
 
-    def add(self, future: asyncio.Future[Any]) -> None:
-        """Wait for a future, too."""
+    @property
+    def entities(self) -> list[Any]:
+        """Those that are not done; may be read in any thread."""
+        return list(self._futures.values())
+
+    def add(self, future: asyncio.Future[Any], entity: Any) -> None:
+        """Wait for the future of an entity, too."""
         if future not in self._futures:
-            self._futures.add(future)
-            future.add_done_callback(self._done)
+            self._futures[future] = entity
+            future.add_done_callback(lambda done: self._done(done, entity))
 
     def raise_failures(self) -> None:
         """Raise the exception of a future that has failed, once."""
@@ -46,10 +53,11 @@ class PendingEntities:
                 self._waiter = None
         self._woken = False
 
-    def _done(self, future: asyncio.Future[Any]) -> None:
-        self._futures.discard(future)
+    def _done(self, future: asyncio.Future[Any], entity: Any) -> None:
+        self._futures.pop(future, None)
         if not future.cancelled():
             error = future.exception()
             if error is not None:
+                tell_visited(error, entity)
                 self._failures.append(error)
         self.wake()

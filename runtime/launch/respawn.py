@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import asyncio
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.utilities.type_utils import perform_typed_substitution
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class Respawn:
@@ -18,11 +21,11 @@ class Respawn:
         self._retries = 0
         self.is_wanted = False
 
-    def evaluate(self, context: Any) -> None:
+    def evaluate(self, context: LaunchContext) -> None:
         """Find out whether it is wanted at all."""
         self.is_wanted = bool(perform_typed_substitution(context, self._wanted, bool))
 
-    async def wanted(self, context: Any, shutdown: asyncio.Future[None] | None) -> bool:
+    async def wanted(self, context: LaunchContext, shutdown: asyncio.Future[None] | None) -> bool:
         """Wait for the delay (s), or for the end of the launch; whether to start again."""
         if not self.is_wanted or context.is_shutdown or shutdown is None or shutdown.done():
             return False

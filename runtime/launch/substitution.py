@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class Substitution:
@@ -12,6 +15,6 @@ class Substitution:
         """A short text for people."""
         return self.__repr__()
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """The text."""
         return ""

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Collection
-from typing import Any
+from typing import TYPE_CHECKING
 
 import launch.logging
 from launch.action import Action
 
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+
 ALWAYS_KNOWN = frozenset(
     (
+        "allow_missing",
         "emulate_tty",
         "isolation",
         "launch-prefix",
@@ -29,7 +33,7 @@ class WarnOfUndeclaredArguments(Action):
         super().__init__()
         self._names = names
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         """Warn of each, with a declared name that looks like it."""
         for name in self._names:
             if name in ALWAYS_KNOWN or name in context.declared_arguments or name in context.read_configurations:

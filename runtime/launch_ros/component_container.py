@@ -111,7 +111,7 @@ def _with_options(component: type[Any], options: dict[str, Any]) -> type[Any]:
 
     class Configured(base):
         def __init__(self, *args: Any, **kwargs: Any) -> None:
-            super().__init__(*args, **{**kwargs, **options})
+            super().__init__(*args, **{**kwargs, **options})  # pyright: ignore[reportUnknownMemberType] -- any component
 
     return type(component.__name__, (component, Configured), {"__module__": component.__module__})
 

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import launch.logging
 from ament_index_python.packages import PackageNotFoundError
+from bot_console.runtime.missing_packages import what_brings
 from launch.substitutions import SubstitutionFailure
-from launch.utilities import perform_substitutions
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch_ros.events.node_missing import NodeMissing
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 ALLOWED = "allow_missing"
-"""The local that says whether a launch goes on without them."""
+"""The local, or launch configuration, that says whether a launch goes on without them."""
 
 
 def allow_missing(service: Any) -> None:
@@ -18,19 +23,29 @@ def allow_missing(service: Any) -> None:
     service.context.extend_globals({ALLOWED: True})
 
 
-def may_start(context: Any, executable: list[Any], package: str | None) -> bool:
+def _allowed(context: LaunchContext) -> bool:
+    configured = context.launch_configurations.get(ALLOWED, "")
+    return configured.lower() in ("true", "1") or bool(context.get_locals_as_dict().get(ALLOWED))
+
+
+def may_start(context: LaunchContext, action: Any, package: str | None) -> bool:
     """Whether a node's executable is here; where it is not, False if it may be left out, else the look-up's error."""
     logger = launch.logging.get_logger("launch")
     try:
-        perform_substitutions(context, executable)
+        perform_substitutions(context, action.process_description.cmd[0])
     except (PackageNotFoundError, SubstitutionFailure) as error:
         what = str(error).strip().strip('"')
-        if context.get_locals_as_dict().get(ALLOWED):
-            logger.warning(f"left out a node: {what}")
+        brings = what_brings(package or "")
+        if _allowed(context):
+            logger.warning(f"left out a node: {what}. {brings}")
+            executable = perform_substitutions(context, normalize_to_list_of_substitutions(action.node_executable))
+            reason = f"{what}. {brings}"
+            event = NodeMissing(action=action, package=package or "", executable=executable, reason=reason)
+            context.emit_event_sync(event)
             return False
         logger.warning(
-            f"a node of package '{package}' cannot run here. Leave out what is missing with --allow-missing, or run "
-            "this launch file on a machine where the package is installed (ROS 2 packages in C++ need ROS 2)"
+            f"a node of package '{package}' cannot run here. {brings} Leave out what is missing with --allow-missing, "
+            "or run this launch file on a machine where the package is installed"
         )
         raise
     return True

@@ -13,6 +13,7 @@ from ament_index_python.packages import PackageNotFoundError, get_package_prefix
 from bot_console.runtime.importer import node_modules
 from bot_console.runtime.plain_file import examine, then_main
 from bot_console.runtime.process import entry_point_program, file_program
+from bot_console.runtime.workspace.demos import IMPORT_NAME
 from bot_console.runtime.workspace.discover import Workspace, use, workspace
 from bot_console.runtime.workspace.executables import Executable, executables
 from bot_console.runtime.workspace.own import ROOT, is_own
@@ -33,7 +34,7 @@ def program_of(package: str | None, path: str) -> PythonProgram | None:
     if executable is not None and executable.entry_point is not None:
         entry = executable.entry_point
         found = workspace().find(executable.package)
-        is_ours = found is not None and is_own(found)
+        is_ours = (found is not None and is_own(found)) or entry.module.startswith(f"{IMPORT_NAME}.")
         function = f"{entry.module}:{entry.function}"
         return _program("entry_point", is_ours, function, source_folders(executable.package))
     if not _is_python(path):

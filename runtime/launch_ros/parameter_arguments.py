@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
+from bot_console.runtime.process.scratch import scratch_file
 from launch_ros.descriptions.parameter_file import PREFIX
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 ParameterArgument = tuple[str, bool]
 """A file's path and True, or `name:=value` and False."""
@@ -19,7 +22,8 @@ def global_parameter_arguments(global_params: Iterable[Any]) -> list[ParameterAr
     found: list[ParameterArgument] = []
     for each in global_params:
         if isinstance(each, tuple):
-            name, value = each
+            pair = cast("tuple[Any, ...]", each)
+            name, value = pair
             found.append((f"{name}:={value}", False))
         else:
             path = os.path.abspath(each)
@@ -30,13 +34,14 @@ def global_parameter_arguments(global_params: Iterable[Any]) -> list[ParameterAr
 
 
 def own_parameter_arguments(
-    context: Any, parameters: Sequence[Any], node_name: str | None, logger: Any
+    context: LaunchContext, parameters: Sequence[Any], node_name: str | None, logger: Any
 ) -> list[ParameterArgument]:
     """A node's own parameters; a dict becomes a file for the node's full name, or for any node where that is None."""
     found: list[ParameterArgument] = []
     for each in parameters:
         if isinstance(each, Mapping):
-            found.append((write_parameters(each, node_name), True))
+            values = cast("Mapping[Any, Any]", each)
+            found.append((write_parameters(values, node_name), True))
         elif isinstance(each, Path):
             if each.is_file():
                 found.append((str(each), True))
@@ -58,6 +63,4 @@ def write_parameters(parameters: Mapping[str, Any], node_name: str | None) -> st
     import yaml
 
     content = {node_name or "/**": {"ros__parameters": dict(parameters)}}
-    with tempfile.NamedTemporaryFile(mode="w", prefix=PREFIX, delete=False, encoding="utf-8") as file:
-        yaml.dump(content, file, default_flow_style=False)
-    return file.name
+    return str(scratch_file(PREFIX, yaml.dump(content, default_flow_style=False)))

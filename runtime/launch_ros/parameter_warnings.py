@@ -5,14 +5,18 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 import launch.logging
+from bot_console.runtime.rmw.parameter_precedence import key_matches
 from bot_console.runtime.rmw.parameter_scalars import INT64_MAX, INT64_MIN, scalar_value
-from bot_console.runtime.rmw.parameter_yaml import key_matches
+from bot_console.runtime.rmw.parameter_types import word_of
 from launch.utilities import perform_substitutions
 from launch.utilities.type_utils import is_normalized_substitution
 from launch_ros.descriptions.parameter_value import ParameterValue
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 PARAMETERS_KEY = "ros__parameters"
 
@@ -33,32 +37,34 @@ def _keys_of(path: str, _changed: float) -> tuple[tuple[str, int], ...]:
 
     try:
         with open(path, encoding="utf-8") as file:
-            root = yaml.compose(file, yaml.SafeLoader)
+            untyped: Any = yaml  # the stubs say nothing of what `compose` gives
+            root = untyped.compose(file, yaml.SafeLoader)
     except (OSError, UnicodeDecodeError, yaml.YAMLError):
         return ()
     return tuple(_node_keys(root, ""))
 
 
 def _node_keys(node: Any, prefix: str) -> Iterator[tuple[str, int]]:
-    pairs = node.value if isinstance(node and node.value, list) else ()
+    pairs: Iterable[Any] = node.value if isinstance(node and node.value, list) else ()
     for pair in pairs:
         if not isinstance(pair, tuple):
             return
-        key, value = pair
+        of_node = cast("tuple[Any, ...]", pair)
+        key, value = of_node
         if key.value == PARAMETERS_KEY:
             yield prefix, node.start_mark.line
         else:
             yield from _node_keys(value, f"{prefix}/{key.value}" if prefix else str(key.value))
 
 
-def warn_of_values(context: Any, given: Mapping[Any, Any], evaluated: Mapping[str, Any], origin: str) -> None:
+def warn_of_values(context: LaunchContext, given: Mapping[Any, Any], evaluated: Mapping[str, Any], origin: str) -> None:
     """Warn of values of a dict whose type changes on the way to the node."""
     for (_, entry), (name, found) in zip(given.items(), evaluated.items(), strict=False):
         value: Any = entry.given if isinstance(entry, ParameterValue) and entry.value_type is None else entry
         if is_normalized_substitution(value):
             text = perform_substitutions(context, value)
             if changes_in_yaml(text, found):
-                _warn(origin, f"{name}: the text '{text}' is the {_kind(found)} {found!r} by YAML's rules")
+                _warn(origin, f"{name}: the text '{text}' is the {word_of(found)} {found!r} by YAML's rules")
         _warn_of_scalar(name, found, origin)
 
 
@@ -71,7 +77,7 @@ def _warn_of_scalar(name: str, value: Any, origin: str) -> None:
         arrives = scalar_value(value)
         _warn(
             origin,
-            f"{name}: the string '{value}' arrives as the {_kind(arrives)} {arrives!r}, because it is "
+            f"{name}: the string '{value}' arrives as the {word_of(arrives)} {arrives!r}, because it is "
             "written without quotes",
         )
 
@@ -82,7 +88,7 @@ def warn_of_argument(name: str, value: Any, origin: str) -> None:
         _warn(origin, f"{name}: a list set for all nodes arrives as the string '{value}'")
     elif isinstance(value, str) and not isinstance(scalar_value(value), str):
         arrives = scalar_value(value)
-        _warn(origin, f"{name}: the string '{value}' arrives as the {_kind(arrives)} {arrives!r}")
+        _warn(origin, f"{name}: the string '{value}' arrives as the {word_of(arrives)} {arrives!r}")
 
 
 def changes_in_yaml(text: str, found: Any) -> bool:
@@ -100,10 +106,6 @@ def changes_in_file(text: str) -> bool:
     import yaml
 
     return not isinstance(scalar_value(text), str) and yaml.dump(text).splitlines()[0] == text
-
-
-def _kind(value: Any) -> str:
-    return {bool: "bool", int: "integer", float: "double", str: "string"}.get(type(value), type(value).__name__)
 
 
 def _warn(origin: str, text: str) -> None:

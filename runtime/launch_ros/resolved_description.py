@@ -1,5 +1,8 @@
 """A launch file with everything evaluated and nothing started: what `--print --resolved` shows."""
 
+# pyright: reportPrivateUsage=false
+# Discovery is shared within launch, and not for its users: underscores as upstream.
+
 from __future__ import annotations
 
 import asyncio
@@ -69,7 +72,9 @@ class _Resolver:
         if not hasattr(entity, "execute") or isinstance(entity, LoadComposableNodes):
             yield f"{STEP * depth}{_kind(entity)}"
             return
-        later = [] if isinstance(entity, GroupAction) else entity.describe_conditional_sub_entities()
+        later: list[tuple[str, Any]] = (
+            [] if isinstance(entity, GroupAction) else entity.describe_conditional_sub_entities()
+        )
         below = None if later and condition is None else entity.visit(self._context)
         for line in self._own(entity):
             yield f"{STEP * depth}{line}"

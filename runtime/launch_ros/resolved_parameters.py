@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from bot_console.runtime.rmw.parameter_yaml import ALL_NODES, ParameterTable, ParameterYamlError
+from bot_console.runtime.rmw.parameter_precedence import ALL_NODES, ParameterTable, ParameterYamlError
+from bot_console.runtime.rmw.parameter_types import word_of
 from launch_ros.descriptions.parameter_file import PREFIX
 from launch_ros.parameter_arguments import ParameterArgument
 
@@ -70,5 +71,4 @@ def _source_of(given: list[tuple[str, Any]], value: Any) -> str:
 def _type_name(value: Any) -> str:
     if isinstance(value, list):
         return f"{_type_name(value[0])}_array" if value else "empty array"
-    names = {bool: "bool", int: "integer", float: "double", str: "string", type(None): "not set"}
-    return names.get(type(value), type(value).__name__)
+    return "not set" if value is None else word_of(value)

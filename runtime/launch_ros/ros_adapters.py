@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import os
 import threading
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.event_handlers import OnShutdown
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 KEY = "ros_adapter"
 
@@ -64,16 +67,21 @@ class ROSAdapter:
         return self._executor
 
 
-def get_ros_adapter(context: Any) -> ROSAdapter:
+def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
     """The adapter of a launch, made when it is first asked for."""
     found = context.get_locals_as_dict().get(KEY)
     if found is None:
         found = ROSAdapter(argv=context.argv)
         context.extend_globals({KEY: found})
-        context.register_event_handler(OnShutdown(on_shutdown=lambda event, context: found.shutdown()), append=True)
+        made = found
+
+        def launch_ends(event: Any, context: LaunchContext) -> None:
+            made.shutdown()
+
+        context.register_event_handler(OnShutdown(on_shutdown=launch_ends), append=True)
     return found
 
 
-def get_ros_node(context: Any) -> Any:
+def get_ros_node(context: LaunchContext) -> Any:
     """The node of a launch."""
     return get_ros_adapter(context).ros_node

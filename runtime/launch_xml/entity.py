@@ -18,7 +18,7 @@ class Entity(BaseEntity):
         self, element: Element, *, parent: Entity | None = None, lines: Mapping[Element, int] | None = None
     ) -> None:
         self.__element = element
-        self.__lines = {} if lines is None else lines
+        self.__lines: Mapping[Element, int] = {} if lines is None else lines
         self.__parent = parent
         self.__read_attributes: set[str] = set()
         self.__read_children: set[str] = set()

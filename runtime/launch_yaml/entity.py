@@ -13,7 +13,7 @@ class Entity(BaseEntity):
     """A map or list with the name of its kind; it remembers what of it was read."""
 
     def __init__(self, element: Any, type_name: str | None = None, *, parent: Entity | None = None) -> None:
-        self.__element = element
+        self.__element: Any = element
         self.__type_name = type_name or ""
         self.__parent = parent
         self.__read_keys: set[str] = set()
@@ -37,10 +37,10 @@ class Entity(BaseEntity):
     @property
     def children(self) -> list[BaseEntity]:
         """The elements in it; raises `ValueError` where there can be none."""
-        if not isinstance(self.__element, (dict, list)):
+        if not (_is_map(self.__element) or _is_list(self.__element)):
             raise TypeError(f"Expected list or dict, got {type(self.__element)} in Entity '{self.type_name}'")
         children = self.__element
-        if isinstance(children, dict):
+        if _is_map(self.__element):
             if "children" not in children:
                 raise ValueError(
                     f"Expected entity `{self.type_name}` to have children entities."
@@ -59,7 +59,7 @@ class Entity(BaseEntity):
 
     def assert_entity_completely_parsed(self) -> None:
         """Raise `ValueError` for keys that nobody has asked for."""
-        if isinstance(self.__element, list):
+        if _is_list(self.__element):
             if not self.__children_read:
                 raise ValueError(f"Unexpected nested entity(ies) found in `{self.type_name}`: {self.__element}")
             return
@@ -69,14 +69,15 @@ class Entity(BaseEntity):
 
     def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
         """A value of a type, or the elements of a key; raises `AttributeError` and `TypeError`."""
-        if not isinstance(self.__element, dict) or name not in self.__element:
+        element = self.__element
+        if not _is_map(self.__element) or name not in element:
             if optional:
                 return None
             raise AttributeError(f"Can not find attribute '{name}' in Entity '{self.type_name}'")
         self.__read_keys.add(name)
-        data = self.__element[name]
+        data = element[name]
         if wants_entities(data_type):
-            if isinstance(data, list) and data and isinstance(data[0], dict):
+            if _is_list(data) and data and isinstance(data[0], dict):
                 return [Entity(each, name, parent=self) for each in data]
             raise TypeError(f"Attribute '{name}' of Entity '{self.type_name}' expected to be a list of dictionaries.")
         if not is_instance_of(data, data_type, can_be_str=can_be_str):
@@ -85,3 +86,11 @@ class Entity(BaseEntity):
                 f"got '{type(data)}'"
             )
         return data
+
+
+def _is_map(value: Any) -> bool:
+    return isinstance(value, dict)
+
+
+def _is_list(value: Any) -> bool:
+    return isinstance(value, list)

@@ -40,20 +40,21 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from .clock_source import ClockSource, RealTime, Wakeup
+from .clock_source import ClockSource, Wakeup
 from .crashes import explain_with
 from .current import MAIN, NodeProcess, ProcessLocal, current, running_as
-from .node_process import ProcessState
+from .node.node_process import ProcessState
+from .node.thread_state import ProcessKilled
 from .notices import on_notice
-from .thread_state import ProcessKilled
+from .real_time import RealTime
 
 if TYPE_CHECKING:
     from .program import entry_point_program, file_program
-    from .stepping import SteppedTime, stepped
+    from .stepping.stepped_time import SteppedTime, stepped
 
 _LATE = {
-    "SteppedTime": "stepping",
-    "stepped": "stepping",
+    "SteppedTime": "stepping.stepped_time",
+    "stepped": "stepping.stepped_time",
     "entry_point_program": "program",
     "file_program": "program",
 }

@@ -6,9 +6,9 @@ from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from typing import Generic, TypeVar
 
-from .main_process import MainProcess
-from .node_process import NodeProcess
-from .thread_state import local
+from .node.main_process import MainProcess
+from .node.node_process import NodeProcess
+from .node.thread_state import local
 
 __all__ = ["MAIN", "NodeProcess", "ProcessLocal", "current", "running_as"]
 

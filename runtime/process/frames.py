@@ -8,13 +8,15 @@ from types import FrameType, TracebackType
 
 _PROCESS = os.path.dirname(os.path.abspath(__file__)) + os.sep
 _RUNTIME = os.path.dirname(_PROCESS.rstrip(os.sep)) + os.sep
+# ROS names are imported from where links lead to, which is another place in an editable installation.
+_OURS = (_RUNTIME, os.path.realpath(_RUNTIME) + os.sep)
 _STDLIB = os.path.dirname(os.path.realpath(os.__file__)) + os.sep
 _SITE = ("site-packages", "dist-packages")
 
 
 def _is_library(filename: str) -> bool:
     """Whether a file is the interpreter's, an installed library's or the runtime's: not where a user would look."""
-    if filename.startswith(("<frozen", _RUNTIME)):
+    if filename.startswith(("<frozen", *_OURS)):
         return True
     return any(part in filename for part in _SITE) or os.path.realpath(filename).startswith(_STDLIB)
 
@@ -37,6 +39,13 @@ def describe(frame: FrameType) -> str:
 def calling_line() -> str:
     """The line of the user's code that is now at work in this thread."""
     return describe(user_frame(sys._getframe(1)))  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
+
+
+def line_outside(frame: FrameType | None) -> str:
+    """`/path/file.py:12` of the innermost frame that is not the runtime's, be it a library's; empty without one."""
+    while frame is not None and frame.f_code.co_filename.startswith((*_OURS, "<frozen")):
+        frame = frame.f_back
+    return f"{frame.f_code.co_filename}:{frame.f_lineno}" if frame is not None else ""
 
 
 def thread_line(ident: int) -> str | None:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from .node_process import NodeProcess
+    from .node.node_process import NodeProcess
 
 NoticeHook = Callable[["NodeProcess", str], None]
 _hooks: list[NoticeHook] = []

@@ -10,8 +10,8 @@ from types import ModuleType
 from typing import Any
 
 from .crashes import explain_with
-from .fresh_import import FreshModules
-from .thread_state import local
+from .node.thread_state import local
+from .virtual.fresh_import import FreshModules
 
 NO_MAIN = (
     "An executable of setup.py is a function of a module, and this module has no function main(). Add def main(): "

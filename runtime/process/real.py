@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import _thread
+import atexit
 import os
 import threading
 import time
@@ -10,6 +11,7 @@ from collections.abc import Callable
 from heapq import heappop, heappush
 
 getpid = os.getpid
+at_exit = atexit.register
 sleep = time.sleep
 monotonic = time.monotonic
 start_thread = threading.Thread.start
@@ -23,8 +25,10 @@ class _Agenda:
     """Actions at wall times, in one thread that exists while there are any."""
 
     def __init__(self) -> None:
+        # Plain locks and threads: those of `threading` belong to node processes, and to stepped runs.
         self._guard = _thread.allocate_lock()
         self._news = _thread.allocate_lock()
+        # An event made of a lock: held while there is no news.
         self._news.acquire()
         self._entries: list[tuple[float, int, Callable[[], None]]] = []
         self._count = 0

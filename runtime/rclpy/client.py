@@ -1,5 +1,8 @@
 """Service clients."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
 import threading
@@ -67,7 +70,7 @@ class Client(Entity):
                 self.remove_pending_request(future)
                 return None
         if future.exception() is not None:
-            raise future.exception()  # type: ignore[misc]
+            raise future.exception()  # type: ignore[misc] -- there is one here
         return future.result()
 
     def call_async(self, request: Any) -> Future[Any]:

@@ -1,5 +1,8 @@
 """Clocks: system, steady, and ROS time, which `/clock` may drive."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
 import threading
@@ -13,6 +16,7 @@ from bot_console.runtime.process import current
 from rclpy.clock_type import ClockType
 from rclpy.duration import Duration
 from rclpy.exceptions import NotInitializedException
+from rclpy.impl.any_clock import AnyClock
 from rclpy.impl.reexports import reexporting
 from rclpy.time import Time
 from rclpy.utilities import get_default_context
@@ -58,7 +62,7 @@ class TimeJump:
     """A jump: the change of the source, and by how much time moved."""
 
     def __init__(self, clock_change: ClockChange, delta: Duration) -> None:
-        if not isinstance(clock_change, ClockChange):
+        if not isinstance(clock_change, ClockChange):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
             raise TypeError("clock_change must be an instance of rclpy.clock.ClockChange")
         self._clock_change = clock_change
         self._delta = delta
@@ -99,12 +103,12 @@ class JumpHandle:
         self.unregister()
 
 
-class Clock:
+class Clock(AnyClock):
     """A clock; one of type ROS_TIME is made as a `ROSClock`."""
 
     def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> Clock:
         """Choose the class by the type."""
-        if not isinstance(clock_type, ClockType):
+        if not isinstance(clock_type, ClockType):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
             raise TypeError("Clock type must be a ClockType enum")
         kind: Any = ROSClock if clock_type is ClockType.ROS_TIME else cls
         return super().__new__(kind)
@@ -195,7 +199,7 @@ class Clock:
 class ROSClock(Clock):
     """ROS time: system time, unless a time source drives it."""
 
-    def __new__(cls, **_: Any) -> ROSClock:
+    def __new__(cls, *, clock_type: ClockType = ClockType.ROS_TIME) -> ROSClock:
         """Always this class."""
         return object.__new__(cls)
 
@@ -231,7 +235,7 @@ class ROSClock(Clock):
 
     def set_ros_time_override(self, time: Time) -> None:
         """Set the time that the clock shows while it is driven."""
-        if not isinstance(time, Time):
+        if not isinstance(time, Time):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
             raise TypeError(f"Time must be specified as rclpy.time.Time. Received type: {type(time)}")
         before, after = self._ros_time, time.nanoseconds
 

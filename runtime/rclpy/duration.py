@@ -13,7 +13,7 @@ class Duration:
     """A length of time, negative or not, kept in ns; raises `OverflowError` beyond 64 bits."""
 
     __slots__ = ("_nanoseconds",)
-    __hash__ = None  # type: ignore[assignment]
+    __hash__ = None  # type: ignore[assignment] -- not hashable, as upstream
 
     def __init__(self, *, seconds: float = 0, nanoseconds: int = 0) -> None:
         total = int(seconds * S_TO_NS) + int(nanoseconds)

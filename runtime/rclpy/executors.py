@@ -1,5 +1,8 @@
 """Executors: they run the callbacks of their nodes' ready entities, in rclpy's order."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
 import threading
@@ -10,12 +13,12 @@ from types import TracebackType
 from typing import Any
 
 from bot_console.runtime.process import current
-from rclpy.impl.ready_callbacks import ReadyCallbacks
-from rclpy.impl.ready_callbacks import TimeoutObject as TimeoutObject
-from rclpy.impl.ready_callbacks import await_or_execute as await_or_execute
+from rclpy.executor_parts.ready_callbacks import ReadyCallbacks, begins
+from rclpy.executor_parts.ready_callbacks import TimeoutObject as TimeoutObject
+from rclpy.executor_parts.ready_callbacks import await_or_execute as await_or_execute
+from rclpy.executor_parts.timer_heap import TimerHeap
+from rclpy.executor_parts.worker_pool import WorkerPool, cpu_count
 from rclpy.impl.reexports import reexporting
-from rclpy.impl.timer_heap import TimerHeap
-from rclpy.impl.worker_pool import WorkerPool, cpu_count
 from rclpy.task import Future, Task
 from rclpy.utilities import get_default_context, timeout_sec_to_nsec
 
@@ -202,7 +205,7 @@ class Executor(ReadyCallbacks):
                 if item.__class__ is Task:
                     self._polled = timeout == 0
                     return item
-                if item.sink is self and item.pending() and _begins(item, item.callback_group):
+                if item.sink is self and item.pending() and begins(item, item.callback_group):
                     self._polled = timeout == 0
                     return item
             if self._is_shutdown:
@@ -384,14 +387,6 @@ class MultiThreadedExecutor(Executor):
         result = super().shutdown(timeout_sec)
         self._pool.close()
         return result
-
-
-def _begins(entity: Any, group: Any) -> bool:
-    """Whether a group lets an entity begin; where it does not, the entity has to wait."""
-    if (not group.own_rules or group.can_execute(entity)) and group.beginning_execution(entity):
-        return True
-    group.block(entity)
-    return False
 
 
 __getattr__ = reexporting(

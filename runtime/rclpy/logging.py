@@ -74,16 +74,6 @@ def get_logging_directory() -> Path:
     return Path(logging_directory())
 
 
-def apply_arguments(parsed: Any) -> None:
-    """Obey the log levels and switches of a context's command line."""
-    shared = state()
-    for name, level in parsed.logger_levels.items():
-        shared.set_level(name, level)
-    if parsed.default_level is not None:
-        shared.set_level("", parsed.default_level)
-    shared.stdout = parsed.stdout_enabled
-
-
 def register_rosout(name: str, say: Any) -> None:
     """Let a node's publisher carry what the logger of that name says."""
     shared = state()

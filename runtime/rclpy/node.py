@@ -13,12 +13,12 @@ from rclpy.clock import Clock, ROSClock
 from rclpy.exceptions import InvalidNamespaceException, InvalidNodeNameException, NotInitializedException
 from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.entity import DESTROYED
-from rclpy.impl.node_entities import NodeEntities
-from rclpy.impl.node_graph import NodeGraph
-from rclpy.impl.node_parameters import NodeParameters
-from rclpy.impl.node_rosout import Rosout
 from rclpy.impl.reexports import reexporting
 from rclpy.logging import get_logger
+from rclpy.node_parts.entities import NodeEntities
+from rclpy.node_parts.graph import NodeGraph
+from rclpy.node_parts.parameters import NodeParameters
+from rclpy.node_parts.rosout import Rosout
 from rclpy.parameter import Parameter
 from rclpy.parameter_service import ParameterService
 from rclpy.qos import qos_profile_parameter_events
@@ -100,7 +100,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
 
     def _ros_choose_name(self, name: str, namespace: str, arguments: list[Any]) -> None:
         """Check and remap name and namespace; rules of the node's own command line come first."""
-        if not isinstance(name, str):
+        if not isinstance(name, str):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
             raise TypeError(f"node name must be a string, not {type(name).__name__}")
         problem = names.validate_node_name(name)
         if problem:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from enum import Enum
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
-from rclpy.impl.parameter_types import FIELDS, LIST_FIELDS, infer, value_fits
+from bot_console.runtime.rmw.parameter_types import ARRAYS, BY_CLASS, BY_CODE, STRING
+from rclpy.impl.parameter_values import FIELDS, infer, value_fits
 from rclpy.impl.reexports import reexporting
 
 if TYPE_CHECKING:
@@ -46,7 +47,7 @@ class Parameter:
         if type_ is None:
             type_ = Parameter.Type.from_parameter_value(value) if exact is None else exact
         if type_ is not exact:
-            if not isinstance(type_, Parameter.Type):
+            if not isinstance(type_, Parameter.Type):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
                 raise TypeError(f"type must be an instance of '{Parameter.Type!r}'")
             if not type_.check(value):
                 raise ValueError(f"Type '{type_}' and value '{value}' do not agree")
@@ -91,12 +92,8 @@ class Parameter:
         return ParameterMsg(name=self._name, value=self.get_parameter_value())
 
 
-_EXACT: dict[type, Parameter.Type] = {
-    bool: Parameter.Type.BOOL,
-    int: Parameter.Type.INTEGER,
-    float: Parameter.Type.DOUBLE,
-    str: Parameter.Type.STRING,
-}
+_EXACT: dict[type, Parameter.Type] = {kind: Parameter.Type(each.code) for kind, each in BY_CLASS.items()}
+_YAML_ARRAYS = tuple((each.python, each.code) for each in ARRAYS if each.python is not bytes)  # YAML has no bytes
 
 
 def get_parameter_value(string_value: str) -> ParameterValue:
@@ -115,18 +112,19 @@ def get_parameter_value(string_value: str) -> ParameterValue:
     code = _yaml_type(value)
     if code is None:
         # Upstream takes what is no parameter value as a string: mixed lists by their text, the rest as it is.
-        return ParameterValue(type=4, string_value=string_value if isinstance(value, list) else value)
+        return ParameterValue(type=STRING.code, string_value=string_value if isinstance(value, list) else value)
     return ParameterValue(type=code, **{FIELDS[code]: value})
 
 
 def _yaml_type(value: Any) -> int | None:
     """The type of a value out of YAML; an empty list counts as one of booleans."""
     if isinstance(value, list):
-        for kind, code in ((bool, 6), (int, 7), (float, 8), (str, 9)):
-            if all(isinstance(each, kind) for each in value):
+        items = cast("list[Any]", value)
+        for kind, code in _YAML_ARRAYS:
+            if all(isinstance(each, kind) for each in items):
                 return code
         return None
-    exact = _EXACT.get(type(value))
+    exact = _EXACT.get(value.__class__)
     return None if exact is None else exact.value
 
 
@@ -135,11 +133,11 @@ def parameter_value_to_python(parameter_value: ParameterValue) -> Any:
     code = parameter_value.type
     if code == 0:
         return None
-    field = FIELDS.get(code)
-    if field is None:
+    kind = BY_CODE.get(code)
+    if kind is None:
         raise RuntimeError(f"unexpected parameter type {code}")
-    value = getattr(parameter_value, field)
-    return list(value) if code in LIST_FIELDS else value
+    value = getattr(parameter_value, kind.field)
+    return list(value) if kind.is_array else value
 
 
 def parameter_dict_from_yaml_file(
@@ -170,10 +168,11 @@ def parameter_dict_from_yaml_file(
         raise RuntimeError("Param file does not contain selected parameters")
     found: dict[str, Any] = {}
     for key in keys:
-        section = content[key]
-        if type(section) is not dict or "ros__parameters" not in section:
+        section: Any = content[key]
+        if not isinstance(section, dict) or "ros__parameters" not in section:
             raise RuntimeError(f"YAML file is not a valid ROS parameter file for node {key}")
-        found.update(section["ros__parameters"])
+        values = cast("dict[str, Any]", section["ros__parameters"])
+        found.update(values)
     return _unpack_parameter_dict(namespace, found)
 
 
@@ -184,8 +183,9 @@ def _unpack_parameter_dict(namespace: str, parameter_dict: dict[str, Any]) -> di
     parameters: dict[str, ParameterMsg] = {}
     for name, value in parameter_dict.items():
         full_name = namespace + name
-        if type(value) is dict:
-            parameters.update(_unpack_parameter_dict(full_name + PARAMETER_SEPARATOR_STRING, value))
+        if isinstance(value, dict):
+            below = cast("dict[str, Any]", value)
+            parameters.update(_unpack_parameter_dict(full_name + PARAMETER_SEPARATOR_STRING, below))
         else:
             parameters[full_name] = ParameterMsg(name=full_name, value=get_parameter_value(str(value)))
     return parameters

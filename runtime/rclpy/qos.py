@@ -55,7 +55,7 @@ class QoSProfile:
         "_liveliness_lease_duration",
         "_reliability",
     )
-    __hash__ = None  # type: ignore[assignment]
+    __hash__ = None  # type: ignore[assignment] -- not hashable, as upstream
 
     def __init__(self, **policies: Any) -> None:
         unknown = [name for name in policies if f"_{name}" not in self.__slots__]

@@ -3,6 +3,6 @@
 import warnings
 
 from rclpy.event_handler import *  # noqa: F403 - the same names
-from rclpy.event_handler import EventHandler as QoSEventHandler  # noqa: F401 - the class had this name
+from rclpy.event_handler import EventHandler as QoSEventHandler  # noqa: F401 # pyright: ignore[reportUnusedImport] -- the class had this name
 
 warnings.warn("importing 'qos_event' is deprecated; import 'event_handler' instead", stacklevel=2)

@@ -72,7 +72,7 @@ class QoSOverridingOptions:
         return cls(kinds, callback=callback, entity_id=entity_id)
 
 
-def _declare_qos_parameters(
+def _declare_qos_parameters(  # pyright: ignore[reportUnusedFunction] -- node_parts.entities calls it
     entity_type: type[Publisher] | type[Subscription],
     node: Any,
     topic_name: str,
@@ -83,7 +83,7 @@ def _declare_qos_parameters(
 
     Raises `RuntimeError` for a value that is no policy, `InvalidQosOverridesError`, and what declaring raises.
     """
-    if not issubclass(entity_type, (Publisher, Subscription)):
+    if not issubclass(entity_type, (Publisher, Subscription)):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
         raise TypeError("Argument `entity_type` should be a subclass of Publisher or Subscription")
     from rcl_interfaces.msg import ParameterDescriptor
 

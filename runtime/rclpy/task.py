@@ -61,7 +61,7 @@ class Future(Generic[T]):
     def result(self) -> T | None:
         """The result, None while there is none; raises the exception if there is one."""
         if self._exception:
-            raise self.exception()  # type: ignore[misc]
+            raise self.exception()  # type: ignore[misc] -- there is one here
         return self._result
 
     def exception(self) -> BaseException | None:

@@ -19,12 +19,12 @@ class Time:
     """
 
     __slots__ = ("_clock_type", "_nanoseconds")
-    __hash__ = None  # type: ignore[assignment]
+    __hash__ = None  # type: ignore[assignment] -- not hashable, as upstream
 
     def __init__(
         self, *, seconds: float = 0, nanoseconds: int = 0, clock_type: ClockType = ClockType.SYSTEM_TIME
     ) -> None:
-        if not isinstance(clock_type, ClockType):
+        if not isinstance(clock_type, ClockType):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
             raise TypeError("Clock type must be a ClockType enum")
         if seconds < 0:
             raise ValueError("Seconds value must not be negative")
@@ -85,7 +85,7 @@ class Time:
         return NotImplemented
 
     def __eq__(self, other: object) -> bool:
-        return self._comparable(other) and self._nanoseconds == other._nanoseconds  # type: ignore[attr-defined]
+        return self._comparable(other) and self._nanoseconds == other._nanoseconds  # type: ignore[attr-defined] -- what is no such thing fails, as upstream
 
     def __ne__(self, other: object) -> bool:
         return not self == other

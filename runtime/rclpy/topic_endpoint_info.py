@@ -29,7 +29,7 @@ class TopicEndpointInfo:
         "_topic_type_hash",
     )
 
-    __hash__ = None  # type: ignore[assignment]
+    __hash__ = None  # type: ignore[assignment] -- not hashable, as upstream
 
     def __init__(self, **kwargs: Any) -> None:
         unknown = [name for name in kwargs if f"_{name}" not in self.__slots__]

@@ -39,7 +39,7 @@ class TypeHash:
     def __eq__(self, other: object) -> bool:
         return isinstance(other, TypeHash) and (self.version, self.value) == (other.version, other.value)
 
-    __hash__ = None  # type: ignore[assignment]
+    __hash__ = None  # type: ignore[assignment] -- not hashable, as upstream
 
     def __str__(self) -> str:
         if self.version <= 0 or len(self.value) != SIZE:

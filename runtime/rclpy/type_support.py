@@ -18,8 +18,12 @@ def check_for_type_support(msg_or_srv_type: Any) -> None:
     if isinstance(msg_or_srv_type, ServiceType):
         return
     if not (isinstance(msg_or_srv_type, type) and issubclass(msg_or_srv_type, Message)):
-        name = type(msg_or_srv_type).__name__
+        name = _class_name(msg_or_srv_type)
         raise AttributeError(f"type object '{name}' has no attribute '_TYPE_SUPPORT'{HINT}")
+
+
+def _class_name(value: Any) -> str:
+    return type(value).__name__
 
 
 def check_is_valid_msg_type(msg_type: Any) -> None:

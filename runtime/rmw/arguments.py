@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 from bot_console.runtime.rmw.lexer import GrammarError, Lexeme, Lexer
 from bot_console.runtime.rmw.names import validate_namespace
-from bot_console.runtime.rmw.parameter_yaml import ParameterTable, ParameterYamlError
+from bot_console.runtime.rmw.parameter_precedence import ParameterTable, ParameterYamlError
 from bot_console.runtime.rmw.remapping import RemapRule, parse_rule
 
 START = "--ros-args"

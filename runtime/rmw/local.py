@@ -51,6 +51,7 @@ class LocalPublisher:
         """How many subscriptions of other processes receive."""
         self.open = True
         self._number = 0
+        # Looked up once: a publisher stays in the process, and so in the time, in which it was made.
         self._now = current().clock.system_ns
         self._lifespan = endpoint.qos.lifespan.nanoseconds
         keeps = endpoint.qos.durability.name in LATCHING
@@ -84,6 +85,7 @@ class LocalPublisher:
             history.append((message, stamp, number))
             takers += 1  # what is kept is never taken
         expires = stamp + self._lifespan if self._lifespan else None
+        # The last who takes it gets the message itself, the others a copy when they take it, if they ever do.
         given = Shared(message, takers) if takers > 1 else message
         for target in targets:
             target.queue.append((_serialize(message) if target.raw else given, stamp, number, expires))
@@ -147,6 +149,7 @@ class LocalBus:
     """The middleware of one ROS domain of this process."""
 
     def __init__(self) -> None:
+        # Callbacks about matches may create or remove endpoints.
         self._lock = threading.RLock()
         self._numbers = itertools.count(1)
         self._nodes: dict[NodeId, list[Thing]] = {}
@@ -188,6 +191,7 @@ class LocalBus:
             for each in self._subscriptions.get(endpoint.topic, ()):
                 if self._match(publisher, each):
                     matched.append(each)
+            # Replaced, never changed: `publish` goes through it without a lock.
             publisher.targets = tuple(matched)
         self.changed()
         return publisher
@@ -267,6 +271,7 @@ class LocalBus:
             _drop(self._services, thing.name, thing)
         elif isinstance(thing, ClientEndpoint):
             _drop(self._clients, thing.name, thing)
+        # Nothing there: its node has left before it.
         things = self._nodes.get(_owner(thing))
         if things and thing in things:
             things.remove(thing)
@@ -342,6 +347,7 @@ class LocalBus:
 
     def changed(self) -> None:
         """Tell those who watch the graph that it has changed."""
+        # Outside of the lock: watchers ask the bus what has changed.
         for watcher in tuple(self._watchers):
             watcher()
 

@@ -19,6 +19,11 @@ def choose_middleware(bus_of: BusOf) -> None:
     _bus_of = bus_of
 
 
+def is_chosen(bus_of: BusOf) -> bool:
+    """Whether contexts get their bus from this one."""
+    return _bus_of is bus_of
+
+
 def bus_of(domain: int) -> Bus:
     """The bus of a ROS domain, of the middleware that was chosen."""
     return _bus_of(domain)

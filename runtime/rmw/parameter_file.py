@@ -6,14 +6,14 @@ import errno
 from typing import Any
 
 from bot_console.runtime.rmw.names import validate_namespace, validate_node_name
+from bot_console.runtime.rmw.parameter_overrides import NodeOverrides, ParameterOverrides, ParameterYamlError
 from bot_console.runtime.rmw.parameter_value import ValueWriter, yaml_events
-from bot_console.runtime.rmw.parameter_yaml import NodeOverrides, ParameterTable, ParameterYamlError
 
 KEYWORD = "ros__parameters"
 _WILDCARDS = ("*", "**")
 
 
-def read_parameter_file(path: str, overrides: ParameterTable) -> None:
+def read_parameter_file(path: str, overrides: ParameterOverrides) -> None:
     """Add the values of a file to the overrides; raises `ParameterYamlError`."""
     import yaml
 
@@ -76,7 +76,7 @@ class _Levels:
 class _Reader:
     """Where the reading of a file is. rcl's rules are rules about events, with their corners, not about a tree."""
 
-    def __init__(self, overrides: ParameterTable) -> None:
+    def __init__(self, overrides: ParameterOverrides) -> None:
         self.line = 0
         self._overrides = overrides
         self._writer = ValueWriter()
@@ -94,7 +94,7 @@ class _Reader:
             self._key(event.value)
             self._is_key = False
             return
-        if not self._in_parameters or self._node is None or not self._node.names:
+        if not self._in_parameters or self._node is None or self._index >= len(self._node.names):
             raise ParameterYamlError(f"Cannot have a value before {KEYWORD} at line {self.line}")
         self._writer.scalar(event, self._node.values[self._index])
         if not self._writer.in_list:

@@ -6,8 +6,9 @@ import re
 from collections.abc import Iterator
 from typing import Any
 
+from bot_console.runtime.rmw.parameter_overrides import ParameterYamlError, Slots
 from bot_console.runtime.rmw.parameter_scalars import Scalar, scalar_value
-from bot_console.runtime.rmw.parameter_yaml import ParameterYamlError, Slots, kind_of
+from bot_console.runtime.rmw.parameter_types import word_of
 
 _WORD = re.compile(r"(?!\.\.\.\Z)[A-Za-z0-9_./+][A-Za-z0-9_./+-]*\Z|-[A-Za-z0-9_.][A-Za-z0-9_./+-]*\Z")
 _STRING_TAG = "tag:yaml.org,2002:str"
@@ -47,7 +48,7 @@ class ValueWriter:
 
     def put(self, value: Scalar, slots: Slots, line: int) -> None:
         """Take a value that stands in a line of the source."""
-        kind = kind_of(value)
+        kind = word_of(value)
         if not self.in_list:
             slots[kind, False] = value
         elif self._kind is None:

@@ -147,7 +147,7 @@ def read_fixed(data: memoryview, at: int, length: int, dtype: str, order: str) -
     """Numbers as a NumPy array."""
     import numpy
 
-    wire = numpy.dtype(dtype).newbyteorder(order)  # type: ignore[arg-type]
+    wire = numpy.dtype(dtype).newbyteorder(order)  # type: ignore[arg-type] -- one of two letters
     at += -at % wire.itemsize
     end = at + length * wire.itemsize
     return numpy.frombuffer(_taken(data, at, end - at), wire).astype(dtype), end

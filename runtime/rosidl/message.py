@@ -53,7 +53,7 @@ class Message(metaclass=MessageType):
     """A generated message; its class has `__slots__`, one for each field, and no dictionary."""
 
     __slots__ = ()
-    __hash__ = None  # type: ignore[assignment]
+    __hash__ = None  # type: ignore[assignment] -- not hashable, as upstream
     _fields_and_field_types: ClassVar[Mapping[str, str]] = {}
     SLOT_TYPES: ClassVar[SlotTypes] = SlotTypes()
     _check_fields: bool

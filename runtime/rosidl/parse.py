@@ -115,7 +115,7 @@ def _default(text: str, kind: Type) -> str:
     try:
         values = ast.literal_eval(re.sub(r"\b(true|false)\b", lambda match: match[1].title(), text))
         return "[" + ", ".join(_literal(repr(value), kind) for value in values) + "]"
-    except (SyntaxError, TypeError):
+    except (SyntaxError, TypeError, ValueError, RecursionError, MemoryError):
         raise ValueError("the default of an array is a list such as [1, 2]") from None
 
 

@@ -23,12 +23,18 @@ def _part(definition: Definition, package: str) -> str:
 
 
 def _constant(constant: Constant) -> str:
-    return f"{constant.type} {constant.name}={_value(ast.literal_eval(constant.value))}"
+    return f"{constant.type} {constant.name}={_value(_read(constant.value))}"
 
 
 def _field(field: Field, package: str) -> str:
     text = f"{_type(field.type, package)} {field.name}"
-    return text if field.default is None else f"{text} {_value(ast.literal_eval(field.default))}"
+    return text if field.default is None else f"{text} {_value(_read(field.default))}"
+
+
+def _read(literal: str) -> Any:
+    """The value of a Python literal; `float('inf')` and its like are none for Python, and the parser makes them."""
+    inner = literal.removeprefix("float('").removesuffix("')")
+    return float(inner) if inner != literal else ast.literal_eval(literal)
 
 
 def _type(kind: Type, package: str) -> str:

@@ -9,7 +9,7 @@ class AbstractType:
     """Any type; two are equal where class and attributes are."""
 
     __slots__ = ()
-    __hash__ = None  # type: ignore[assignment]
+    __hash__ = None  # type: ignore[assignment] -- not hashable, as upstream
 
     def _parts(self) -> tuple[object, ...]:
         names = (name for cls in reversed(type(self).__mro__) for name in getattr(cls, "__slots__", ()))

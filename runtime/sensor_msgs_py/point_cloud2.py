@@ -98,7 +98,7 @@ def read_points_list(
     """The points as a list of named tuples."""
     assert isinstance(cloud, PointCloud2), "Cloud is not a sensor_msgs.msg.PointCloud2"
     names = [each.name for each in cloud.fields] if field_names is None else list(field_names)
-    point: Any = NamedTuple("Point", [(name, Any) for name in names])  # type: ignore[misc]
+    point: Any = NamedTuple("Point", [(name, Any) for name in names])  # type: ignore[misc] -- fields are known at run time only
     return [point._make(each) for each in read_points(cloud, names, skip_nans, uvs).tolist()]
 
 

@@ -36,7 +36,7 @@ def _moved(place: Rigid, point: Any) -> tuple[float, float, float]:
 
 
 def _turned(place: Rigid, vector: Any) -> tuple[float, float, float]:
-    return _moved((*ORIGIN, *place[3:]), vector)  # type: ignore[arg-type]
+    return _moved((*ORIGIN, *place[3:]), vector)  # type: ignore[arg-type] -- numpy numbers count as numbers
 
 
 def do_transform_point(point: PointStamped, transform: TransformStamped) -> PointStamped:

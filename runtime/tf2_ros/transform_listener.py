@@ -65,7 +65,7 @@ class TransformListener:
 
     def callback(self, data: TFMessage) -> None:
         """Take what moves."""
-        self.buffer.take_messages(data.transforms)  # type: ignore[arg-type]
+        self.buffer.take_messages(data.transforms)  # type: ignore[arg-type] -- a sequence of messages
 
     def static_callback(self, data: TFMessage) -> None:
         """Take what stays where it is."""

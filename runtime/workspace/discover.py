@@ -10,6 +10,8 @@ from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 
+from bot_console.runtime.process.scratch import scratch
+from bot_console.runtime.workspace.demos import demo_packages, demo_share, is_demo
 from bot_console.runtime.workspace.own import NAME, PAGE_NAME, is_own, own_is_first, own_package, own_share
 from bot_console.runtime.workspace.package import Package, read_package
 from bot_console.runtime.workspace.share import share_folder
@@ -22,9 +24,9 @@ FOLDERS = 20_000
 
 
 class Workspace:
-    """The source packages below some folders, and ours; the first of a name wins.
+    """The source packages below some folders, ours, and those of the tutorials; the first of a name wins.
 
-    Ours comes last, but in a launch of our own first.
+    Ours comes behind the folders', but in a launch of our own first.
     """
 
     def __init__(self, folders: Sequence[Path]) -> None:
@@ -49,7 +51,7 @@ class Workspace:
                 package = read_package(each)
                 found.setdefault(package.name, package)
         found.setdefault(NAME, own_package())
-        return MappingProxyType(found)
+        return MappingProxyType({**demo_packages(), **found})
 
     @cached_property
     def _with_ours_first(self) -> Mapping[str, Package]:
@@ -60,20 +62,26 @@ class Workspace:
         package = self.find(name)
         if package is None:
             return None
-        if package.folder not in self._shares:
-            share = own_share(self._links) if is_own(package) else share_folder(package, self._links / "workspace")
-            self._shares[package.folder] = share
-        return self._shares[package.folder]
+        key = package.name, package.folder
+        if key not in self._shares:
+            self._shares[key] = self._new_share(package)
+        return self._shares[key]
+
+    def _new_share(self, package: Package) -> Path:
+        if is_own(package):
+            return own_share(self._links)
+        if is_demo(package):
+            return demo_share(package, self._links / "demos")
+        return share_folder(package, self._links / "workspace")
 
     @cached_property
-    def _shares(self) -> dict[Path, Path]:
+    def _shares(self) -> dict[tuple[str, Path], Path]:
         return {}
 
     @cached_property
     def _links(self) -> Path:
         """A folder of this process for share folders made of links; it goes with the process."""
-        self._links_folder = tempfile.TemporaryDirectory(prefix="bot-console-share-")
-        return Path(self._links_folder.name)
+        return Path(tempfile.mkdtemp(prefix="share-", dir=scratch()))
 
 
 def default_folders(start: Path) -> tuple[Path, ...]:

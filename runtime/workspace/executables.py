@@ -6,6 +6,7 @@ import os
 from dataclasses import dataclass
 from pathlib import Path
 
+from bot_console.runtime.workspace.demos import demo_packages, is_demo
 from bot_console.runtime.workspace.discover import workspace
 from bot_console.runtime.workspace.package import EntryPoint, Package
 
@@ -30,11 +31,13 @@ def executables(package: str) -> dict[str, Executable]:
     from ament_index_python.resources import get_resources
 
     source = workspace().find(package)
-    if source is not None and source.name != package and package in get_resources("packages"):
-        source = None  # an installed package has our second name
+    if source is not None and (source.name != package or is_demo(source)) and package in get_resources("packages"):
+        source = None  # an installed package has our second name, or is the tutorial's own
     found = {} if source is None else _of_source(source)
     if source is None or not found:
         found = {**_of_prefix(package, required=source is None), **found}
+    if not found and package in demo_packages():
+        return _of_source(demo_packages()[package])  # the workspace has it in C++, which is not built here
     return found
 
 

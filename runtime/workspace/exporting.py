@@ -26,7 +26,7 @@ def export(folder: Path) -> Path:
     place = folder.expanduser().resolve() / NAME
     if place.exists():
         raise ValueError(f"{place} exists; give another folder, or remove it")
-    shutil.copytree(ROOT / "nodes", place / NAME, ignore=shutil.ignore_patterns("__pycache__", "*.pyc"))
+    shutil.copytree(ROOT / "nodes", place / NAME, ignore=shutil.ignore_patterns("__pycache__", "*.pyc", "demos"))
     for target, (source, pattern) in FOLDERS.items():
         (place / target).mkdir()
         for path in sorted((ROOT / source).glob(pattern)):

@@ -38,6 +38,8 @@ class Package:
     """Python packages by import name."""
     data_files: tuple[tuple[str, tuple[Path, ...]], ...] = ()
     problem: str = ""
+    panes: Mapping[str, EntryPoint] = field(default_factory=lambda: MappingProxyType({}))
+    """Panes that it brings for the console."""
 
     @cached_property
     def has_interfaces(self) -> bool:
@@ -71,6 +73,7 @@ def read_package(folder: Path) -> Package:
         MappingProxyType(setup.modules),
         setup.data_files,
         problem,
+        MappingProxyType({key: _entry_point(text) for key, text in setup.panes.items()}),
     )
 
 

@@ -14,6 +14,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+PANES = "bot_console.panes"
+"""The group of entry points by which a package brings panes for the console."""
+
 
 @dataclass(frozen=True)
 class SetupFile:
@@ -23,6 +26,8 @@ class SetupFile:
     scripts: dict[str, Path] = field(default_factory=dict)
     modules: dict[str, Path] = field(default_factory=dict)
     data_files: tuple[tuple[str, tuple[Path, ...]], ...] = ()
+    panes: dict[str, str] = field(default_factory=dict)
+    """Panes of the console that a package brings, as `module:class` (entry points of the group `bot_console.panes`)."""
 
     def merged(self, other: SetupFile) -> SetupFile:
         """Both together; what stands here wins."""
@@ -31,6 +36,7 @@ class SetupFile:
             {**other.scripts, **self.scripts},
             {**other.modules, **self.modules},
             self.data_files + other.data_files,
+            {**other.panes, **self.panes},
         )
 
 
@@ -110,9 +116,10 @@ class _Reader:
 
     def result(self) -> SetupFile:
         entry_points = self._keyword("entry_points", {})
-        lines = entry_points.get("console_scripts", []) if isinstance(entry_points, dict) else []
+        groups = entry_points if isinstance(entry_points, dict) else {}
         scripts = {Path(each).name: self._folder / each for each in self._keyword("scripts", [])}
-        return SetupFile(console_scripts(lines), scripts, self._modules(), self._data_files())
+        programs, panes = (entry_lines(groups.get(group, [])) for group in ("console_scripts", PANES))
+        return SetupFile(programs, scripts, self._modules(), self._data_files(), panes)
 
     def _modules(self) -> dict[str, Path]:
         places = {str(key): str(value) for key, value in self._keyword("package_dir", {}).items()}
@@ -143,7 +150,7 @@ class _Reader:
             return None
 
 
-def console_scripts(lines: Any) -> dict[str, str]:
+def entry_lines(lines: Any) -> dict[str, str]:
     """Entry point lines `name = module:function` as a dict."""
     rows = lines.splitlines() if isinstance(lines, str) else lines
     pairs = (str(row).partition("=") for row in rows)

@@ -15,8 +15,8 @@ from _thread import allocate_lock
 from collections.abc import Callable
 
 from bot_console.runtime.process import NodeProcess, RealTime, current, real, stepped
-from bot_console.runtime.process.one_cpu import pin_thread
-from bot_console.runtime.process.thread_state import local
+from bot_console.runtime.process.node.thread_state import local
+from bot_console.runtime.process.stepping.one_cpu import pin_thread
 
 TURNS = 20_000
 Measure = Callable[[], float]

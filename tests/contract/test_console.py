@@ -96,6 +96,7 @@ def test_cleared_logs_are_gone_and_numbers_go_on(rig: Rig) -> None:
 def test_a_watched_series_is_read_by_cursor(rig: Rig) -> None:
     assert LEVEL in rig.console.plottable()
     assert rig.console.watch(LEVEL).ok
+    until(rig.heard_by_somebody, "the subscription")
     cursor = 0
     for expected in (1.5, -2.0):
         rig.publish(expected)
@@ -136,17 +137,26 @@ def test_the_time_axis_is_that_of_the_stamps(rig: Rig) -> None:
     assert rig.console.plot_time(record.stamp) <= rig.console.plot_time() + 1e-6
 
 
+def drive_until_heard(rig: Rig, linear: float, angular: float) -> None:
+    """Give a command again and again, as the pane does, until the robot has it."""
+
+    def heard() -> bool:
+        rig.console.drive(linear, angular)
+        return len(rig.received) > 0 and rig.received[-1] == (linear, angular)
+
+    until(heard, f"the command {linear}, {angular}")
+
+
 def test_commands_reach_the_robot_and_the_all_stop_holds_it(rig: Rig) -> None:
-    rig.console.drive(0.5, -0.25)
-    until(lambda: list(rig.received) == [(0.5, -0.25)], "the command")
+    drive_until_heard(rig, 0.5, -0.25)
+    assert set(rig.received) == {(0.5, -0.25)}
     rig.console.all_stop(True)
     until(lambda: rig.received[-1] == (0.0, 0.0), "the stop")
     assert until(lambda: rig.console.snapshot().drive.stopped, "the stop in the snapshot")
     rig.console.drive(1.0, 0.0)
     rig.console.all_stop(False)
     until(lambda: not rig.console.snapshot().drive.stopped, "the end of the stop")
-    rig.console.drive(0.1, 0.0)
-    until(lambda: rig.received[-1] == (0.1, 0.0), "a command after it")
+    drive_until_heard(rig, 0.1, 0.0)
     assert (1.0, 0.0) not in rig.received
 
 
@@ -172,19 +182,15 @@ def test_a_logger_level_is_set_where_the_node_offers_it(rig: Rig) -> None:
     assert not answer.ok and "/nobody" in answer.text
 
 
-def test_a_ros2_line_gives_what_it_printed(rig: Rig) -> None:
-    assert "/robot" in rig.console.run_line("ros2 node list").result(PATIENCE)
-
-
 def test_the_last_word_of_a_console_is_zero_velocity(rig: Rig) -> None:
-    rig.console.drive(1.0, 0.5)
-    until(lambda: rig.received, "the command")
+    drive_until_heard(rig, 1.0, 0.5)
     rig.console.close()
     until(lambda: rig.received[-1] == (0.0, 0.0), "the stop")
+    before = len(rig.received)
     rig.console.close()
     rig.console.drive(1.0, 0.0)
     rig.console.all_stop(False)
-    assert set(rig.received[1:]) == {(0.0, 0.0)}
+    assert set(rig.received[before:]) <= {(0.0, 0.0)}
 
 
 def test_a_closed_console_refuses_and_shows_what_it_knew(rig: Rig) -> None:
@@ -206,5 +212,6 @@ def test_a_closed_console_refuses_and_shows_what_it_knew(rig: Rig) -> None:
     assert all("closed" in each.text for each in answers)
     with pytest.raises(ValueError, match="closed"):
         console.apply_profile("slow").result(PATIENCE)
-    assert "closed" in console.run_line("ros2 node list").result(PATIENCE)
+    answer = console.save_parameters("/nowhere/x.yaml")
+    assert not answer.ok and "closed" in answer.text
     console.unwatch(LEVEL)

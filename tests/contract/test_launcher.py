@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from bot_console.tui.console.launch_host.host import LaunchHost
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
+from bot_console.tui.console.launch_host.several import SeveralLaunchers
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo, ProcessInfo, ProcessState
 from bot_console.tui.console.protocol import Answer, Launcher
 from fake_launcher import FakeLauncher
@@ -102,7 +103,26 @@ class HostedRig(RosRig):
         self._host.close()
 
 
-@pytest.fixture(params=[FakeRig, RosRig, HostedRig], ids=["fake", "ros", "hosted"])
+class AttachedRig(HostedRig):
+    """The same from an attached console, which starts a host when it first launches something."""
+
+    def __init__(self, folder: Path) -> None:
+        super().__init__(folder)
+        self.launcher = self._several = SeveralLaunchers(
+            lambda: self._proxy, self._proxy.files, tuple, lambda door: None
+        )
+
+    def info(self) -> LaunchInfo:
+        """What is known to the console."""
+        return self._several.info()
+
+    def close(self) -> None:
+        """Close the launcher."""
+        self._several.close()
+        self._host.close()
+
+
+@pytest.fixture(params=[FakeRig, RosRig, HostedRig, AttachedRig], ids=["fake", "ros", "hosted", "attached"])
 def rig(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[FakeRig | RosRig]:
     """A launcher with one launch file."""
     monkeypatch.setenv("ROS_DOMAIN_ID", str(next(_domains)))

@@ -95,6 +95,52 @@ def test_atomically_means_all_or_nothing(rig: Rig) -> None:
     assert parameter(rig, "count").value == 3
 
 
+def both(rig: Rig) -> tuple[object, object]:
+    trees = rig.console.snapshot().parameters
+    return parameter(rig, "speed").value, getattr(trees[ARM].get("reach"), "value", None)
+
+
+def test_values_of_two_nodes_are_taken_together_and_taken_back_by_one_undo(rig: Rig) -> None:
+    outcomes = rig.console.set_all({ROBOT: {"speed": 0.5, "count": 4}, ARM: {"reach": 0.2}}, by="a set").result(
+        PATIENCE
+    )
+    assert len(outcomes) == 3 and all(each.accepted for each in outcomes)
+    until(lambda: both(rig) == (0.5, 0.2), "the values of both nodes")
+    until(lambda: len(rig.console.changes()) == 3, "the journal")
+    assert {each.by for each in rig.console.changes()} == {"a set"}
+    assert rig.console.undo().result(PATIENCE).ok
+    until(lambda: both(rig) == (1.0, 1.0), "the values of both nodes")
+    assert not rig.console.snapshot().journal.can_undo
+
+
+@pytest.mark.parametrize("rule", ["descriptor", "callback"])
+def test_what_one_node_refuses_no_node_takes(rig: Rig, rule: str) -> None:
+    """The robot is asked after the arm, by the order of the request; its own rule is known to nobody before."""
+    if rule == "callback":
+        rig.forbid_speed()
+    outcomes = rig.console.set_all(
+        {ARM: {"reach": 0.2}, ROBOT: {"count": 4, "speed": 0.5 if rule == "callback" else 9.0}}
+    ).result(PATIENCE)
+    assert not any(each.accepted for each in outcomes)
+    (arm,) = (each for each in outcomes if each.node == ARM)
+    assert arm.refused_by == "console" and f"{ROBOT} refused" in arm.reason
+    refused = {each.name: each for each in outcomes if each.node == ROBOT}
+    assert (TOO_FAST in refused["speed"].reason) is (rule == "callback")
+    until(lambda: both(rig) == (1.0, 1.0), "the values before")
+    assert parameter(rig, "count").value == 3
+    snapshot = rig.console.snapshot()
+    assert not snapshot.journal.can_undo and snapshot.journal.unsaved == ()
+
+
+def test_a_profile_that_the_second_node_refuses_leaves_the_first_as_it_was(rig: Rig) -> None:
+    rig.forbid_speed()
+    outcomes = rig.console.apply_profile("careful").result(PATIENCE)
+    assert {each.node for each in outcomes} == {ARM, ROBOT} and not any(each.accepted for each in outcomes)
+    until(lambda: both(rig) == (1.0, 1.0), "the values before")
+    assert rig.console.snapshot().active_profile == ""
+    assert not rig.console.snapshot().journal.can_undo
+
+
 def test_undo_and_redo(rig: Rig) -> None:
     setting(rig, {"speed": 1.5})
     shown(rig, "speed", 1.5)
@@ -255,3 +301,31 @@ def test_they_are_saved_or_it_is_said_why_not(rig: Rig, tmp_path: Path) -> None:
     assert "speed: 1.0" in (tmp_path / "saved.yaml").read_text()
     answer = rig.console.save_parameters(str(tmp_path / "saved.yaml" / "below.yaml"))
     assert not answer.ok and answer.text
+
+
+def test_any_file_is_opened_as_a_profile_and_seen_before_it_is_applied(rig: Rig, tmp_path: Path) -> None:
+    file = tmp_path / "mine" / "any.yaml"
+    file.parent.mkdir()
+    file.write_text("# Mine.\n/**:\n  ros__parameters: {speed: 0.4}\n/robot:\n  ros__parameters: {nobody: 1}\n")
+    answer = rig.console.open_profile(str(file))
+    assert (answer.ok, answer.text) == (True, "any")
+    found = {(each.node, each.name): each for each in rig.console.profile_differences("any")}
+    assert set(found) == {(ROBOT, "speed"), (ROBOT, "nobody")}, "a wildcard asks nobody for what it has not"
+    assert found[ROBOT, "nobody"].unknown and not found[ROBOT, "speed"].refusal
+    outcomes = rig.console.apply_profile("any").result(PATIENCE)
+    assert [(each.name, each.accepted) for each in outcomes] == [("speed", True)]
+    answer = rig.console.open_profile(str(tmp_path / "nowhere.yaml"))
+    assert not answer.ok and "no file" in answer.text
+
+
+def test_what_runs_is_saved_as_a_profile_and_can_be_gone_back_to(rig: Rig) -> None:
+    setting(rig, {"speed": 1.5})
+    shown(rig, "speed", 1.5)
+    assert rig.console.save_profile("fast", "For the long hall.").ok
+    saved = next(each for each in rig.console.snapshot().profiles if each.name == "fast")
+    assert saved.title == "For the long hall." and saved.values[ROBOT, "speed"] == 1.5
+    assert rig.console.snapshot().journal.unsaved == ()
+    setting(rig, {"speed": 0.5})
+    shown(rig, "speed", 0.5)
+    found = {each.name: each.then for each in rig.console.profile_differences("fast") if not each.refusal}
+    assert found == {"speed": 1.5}

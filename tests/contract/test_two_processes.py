@@ -8,7 +8,7 @@ from rclpy.action import ActionClient
 from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.parameter import Parameter
 from rclpy.parameter_client import AsyncParameterClient
-from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, qos_profile_sensor_data
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
@@ -59,6 +59,25 @@ def test_a_service_answers_and_its_log_line_arrives(here):
     answer = here.result(client.call_async(Trigger.Request()))
     assert (answer.success, answer.message) == (True, "pulled")
     here.until(lambda: "somebody pulled" in lines)
+
+
+def test_a_flood_of_log_lines_arrives_whole_and_in_order(here):
+    heard = []
+    qos = QoSProfile(history=HistoryPolicy.KEEP_ALL, depth=0, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    subscription = here.node.create_subscription(Log, "/rosout", lambda line: heard.append(line.msg), qos)
+    client = here.node.create_client(Trigger, "/flood")
+    here.until(client.service_is_ready)
+    done = client.call_async(Trigger.Request())
+
+    def taken():
+        for _ in range(1000):  # one message each
+            here.executor.spin_once(timeout_sec=0)
+        return done.done() and "flood 19999" in heard[-5:]
+
+    here.until(taken)
+    flooded = [each for each in heard if each.startswith("flood ")]
+    here.node.destroy_subscription(subscription)
+    assert flooded == [f"flood {number}" for number in range(20_000)]
 
 
 def test_an_action_gives_feedback_and_a_result(here):

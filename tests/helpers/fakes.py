@@ -28,11 +28,13 @@ from bot_console.tui.console.parameters.file import save
 from bot_console.tui.console.parameters.journal import Journal, Move, Step
 from bot_console.tui.console.parameters.origin import origin_text
 from bot_console.tui.console.parameters.profiles import differences
-from bot_console.tui.console.protocol import Answer, LogView, Samples
+from bot_console.tui.console.protocol import Answer, LogView, Samples, Stream
+from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.console.values import refusal
+from fake_profiles import CLOSED, FakeProfiles
+from fake_traffic import FakeTraffic
 
 START = 1_700_000_000_000_000_000
-CLOSED = "the console has closed"
 
 
 def done(value: Any) -> Future[Any]:
@@ -51,13 +53,14 @@ class FakeView(SearchedView):
         return super().look()
 
 
-class FakeConsole:
+class FakeConsole(FakeProfiles):
     """A console over one snapshot; it takes what the descriptors allow, and remembers what it was asked."""
 
     def __init__(self, snapshot: ConsoleSnapshot | None = None) -> None:
         self.logs = LogStore(1000)
         self.current = snapshot or ConsoleSnapshot()
         self.asked: list[tuple[Any, ...]] = []
+        self.traffic = FakeTraffic(self.asked)
         self.sent: list[tuple[float, float]] = []
         """Velocities that have reached the robot."""
         self.refusals: dict[tuple[str, str], str] = {}
@@ -119,15 +122,15 @@ class FakeConsole:
         return done(outcomes)
 
     def _moved(
-        self, node: str, values: Mapping[str, Value], source: ChangeSource, *, atomically: bool
+        self, node: str, values: Mapping[str, Value], source: ChangeSource, *, atomically: bool, by: str = ""
     ) -> tuple[tuple[SetOutcome, ...], tuple[Move, ...]]:
         before = {name: self._value(node, name) for name in values}
-        outcomes = self.take(node, values, source, atomically=atomically)
+        outcomes = self.take(node, values, source, atomically=atomically, by=by)
         taken = {each.name: each.value for each in outcomes if each.accepted}
         return outcomes, (Move(node, {name: before[name] for name in taken}, taken),) if taken else ()
 
     def take(
-        self, node: str, values: Mapping[str, Value], source: ChangeSource, *, atomically: bool = False
+        self, node: str, values: Mapping[str, Value], source: ChangeSource, *, atomically: bool = False, by: str = ""
     ) -> tuple[SetOutcome, ...]:
         """What the node makes of values, whoever has asked for them."""
         outcomes = [self._judged(node, name, value) for name, value in values.items()]
@@ -139,8 +142,8 @@ class FakeConsole:
             ]
         for each in outcomes:
             entry = Change(
-                len(self.journal), START, node, each.name, self._value(node, each.name), each.value, source,
-                each.accepted, each.reason,
+                self._end, START, node, each.name, self._value(node, each.name), each.value, source,
+                each.accepted, each.reason, by,
             )  # fmt: skip
             self.journal.append(entry)
         taken = {each.name: each.value for each in outcomes if each.accepted}
@@ -158,6 +161,36 @@ class FakeConsole:
         self._tell_journal()
         return tuple(outcomes)
 
+    def set_all(
+        self, values: Mapping[str, Mapping[str, Value]], source: ChangeSource = ChangeSource.EDIT, by: str = ""
+    ) -> Future[tuple[SetOutcome, ...]]:
+        self.asked.append(("set_all", {node: dict(found) for node, found in values.items()}, by))
+        outcomes, moves = self._all_or_nothing(values, source, by)
+        if moves:
+            self._steps.did(Step(moves), source)
+        self._tell_journal()
+        return done(outcomes)
+
+    def _all_or_nothing(
+        self, values: Mapping[str, Mapping[str, Value]], source: ChangeSource, by: str
+    ) -> tuple[tuple[SetOutcome, ...], tuple[Move, ...]]:
+        wanted = [(node, name, value) for node, found in values.items() for name, value in found.items()]
+        if self.closed:
+            return tuple(SetOutcome(*each, False, CLOSED, "console") for each in wanted), ()
+        judged = [self._judged(*each) for each in wanted]
+        bad = next((each for each in judged if not each.accepted), None)
+        if bad is None:
+            made = [self._moved(node, found, source, atomically=True, by=by) for node, found in values.items()]
+            return tuple(one for outcomes, _ in made for one in outcomes), tuple(
+                one for _, some in made for one in some
+            )
+        self.take(bad.node, values[bad.node], source, atomically=True, by=by)
+        told = f"not set, since {bad.node} refused {bad.name}: {bad.reason}"
+        return tuple(
+            replace(each, accepted=False, reason=told, refused_by="console") if each.accepted else each
+            for each in judged
+        ), ()
+
     def _judged(self, node: str, name: str, value: Value) -> SetOutcome:
         tree = self.current.parameters.get(node)
         by, why = refusal(tree.get(name), value) if tree else ("node", f"no service {node}/set_parameters is offered")
@@ -169,11 +202,20 @@ class FakeConsole:
         known = tree.get(name) if tree else None
         return known.value if known else None
 
+    def all_saved(self) -> None:
+        self._steps.saved(())
+        self._tell_journal()
+
+    @property
+    def _end(self) -> int:
+        """The number of the next change; those of earlier runs are numbered below 0."""
+        return sum(each.seq >= 0 for each in self.journal)
+
     def _tell_journal(self) -> None:
         state = self._steps.state
         active = next((each for each in self.current.profiles if each.name == self.current.active_profile), None)
         self.change(
-            journal=replace(state, first=0, end=len(self.journal), dropped=0),
+            journal=replace(state, first=0, end=self._end, dropped=0),
             profile_changes=len(differences(active, self.current.parameters)) if active else 0,
         )
 
@@ -254,15 +296,28 @@ class FakeConsole:
 
     def all_stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
         self.asked.append(("all_stop", hold))
+        if hold:
+            self.traffic.stop()
         if not self.closed:
             self.sent.append((0.0, 0.0))
-            holder = "this console" if hold else ""
-            self.change(
-                drive=replace(
-                    self.current.drive, stopped=hold, stop_confirmed=hold, stop_holder=holder,
-                    stop_reason=reason if hold else "", lockable=True,
-                )
-            )  # fmt: skip
+            own = [each for each in self.current.drive.stops if each.here]
+            new = [RobotStop("ours", "this console", reason, here=True)] if hold and not own else []
+            self.hold([each for each in self.current.drive.stops if hold or not each.here] + new)
+
+    def release(self, others: Sequence[str]) -> None:
+        self.asked.append(("release", *others))
+        self.hold([each for each in self.current.drive.stops if not each.here and each.key not in others])
+
+    def hold(self, stops: Sequence[RobotStop]) -> None:
+        """What the robot says when these hold it."""
+        first = stops[0] if stops else RobotStop("")
+        self.change(
+            drive=replace(
+                self.current.drive, stopped=bool(stops), stop_confirmed=bool(stops), stop_holder=first.holder,
+                stop_reason=first.reason, lockable=True, stops=tuple(stops),
+                stopped_here=any(each.here for each in stops),
+            )
+        )  # fmt: skip
 
     def call(self, service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:
         self.asked.append(("call", service))
@@ -294,18 +349,14 @@ class FakeConsole:
             why = CLOSED if self.closed else profile.problem if profile else f"there is no profile {name}"
             failed.set_exception(ValueError(why))
             return failed
-        found = self.profile_differences(name)
+        found = [each for each in self.profile_differences(name) if not each.unknown]
         outcomes = tuple(SetOutcome(e.node, e.name, e.then, not e.refusal, e.refusal) for e in found)
         moves: tuple[Move, ...] = ()
         if name not in self.differences:
             by_node: dict[str, dict[str, Value]] = {}
             for each in found:
                 by_node.setdefault(each.node, {})[each.name] = each.then
-            found_moves = [
-                self._moved(node, values, ChangeSource.PROFILE, atomically=True) for node, values in by_node.items()
-            ]
-            outcomes = tuple(outcome for taken, _ in found_moves for outcome in taken)
-            moves = tuple(move for _, made in found_moves for move in made)
+            outcomes, moves = self._all_or_nothing(by_node, ChangeSource.PROFILE, name)
         before = self.current.active_profile
         if all(each.accepted for each in outcomes):
             self.change(active_profile=name)
@@ -314,24 +365,36 @@ class FakeConsole:
         self._tell_journal()
         return done(outcomes)
 
-    def save_parameters(self, path: str, nodes: Sequence[str] = ()) -> Answer:
+    def save_parameters(self, path: str, nodes: Sequence[str] = (), *, only_changed: bool = False) -> Answer:
         self.asked.append(("save", path))
+        if self.closed:
+            return Answer(False, CLOSED)
         self._steps.saved(nodes)
         self._tell_journal()
         if not Path(path).is_absolute():
             return Answer(True, f"saved to {path}")
         try:
-            saved = save(Path(path), self.current.parameters, tuple(nodes))
+            saved = save(Path(path), self.current.parameters, tuple(nodes), only_changed=only_changed)
         except (OSError, ValueError) as error:
             return Answer(False, f"not saved: {error}")
         return Answer(True, saved.text(Path(path)))
-
-    def run_line(self, line: str) -> Future[str]:
-        self.asked.append(("run", line))
-        return done(CLOSED if self.closed else "/robot_navigator\n")
 
     def close(self) -> None:
         self.asked.append(("close",))
         if not self.closed:
             self.sent.append((0.0, 0.0))
         self.closed = True
+
+
+class FakeCommandLine:
+    """Prints one node's name, whatever the line; what it was asked is kept with what the console was asked."""
+
+    def __init__(self, asked: list[tuple[Any, ...]]) -> None:
+        self._asked = asked
+
+    def stream(self, line: str) -> Stream | None:
+        return None
+
+    def run(self, line: str) -> Future[str]:
+        self._asked.append(("run", line))
+        return done("/robot_navigator\n")

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from bot_console.runtime.process import NodeProcess
-from bot_console.tui.cli.vitals import find_vitals
+from bot_console.tui.cli.live.vitals import find_vitals
 from bot_console.tui.console.launch.launcher import RosLauncher
 from bot_console.tui.console.model import LaunchInfo, ProcessInfo
 
@@ -44,8 +44,8 @@ while True:
     time.sleep(0.01)
 """
 
-HEAD = """
-from launch import LaunchDescription
+HEAD = """from launch import LaunchDescription
+from launch.event_handlers import *
 from launch.actions import *
 from launch.substitutions import *
 from launch_ros.actions import *

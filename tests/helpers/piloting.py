@@ -10,7 +10,7 @@ from typing import TypeVar
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.panes.steering.pane import SteeringPane
 from fake_launcher import FakeLauncher
-from fakes import FakeConsole
+from fakes import FakeCommandLine, FakeConsole
 from textual.pilot import Pilot
 from textual.widget import Widget
 
@@ -89,7 +89,7 @@ def run(
 
     async def main() -> None:
         console, launcher = system
-        app = BotConsoleApp(console, launcher, refresh_hz=0)
+        app = BotConsoleApp(console, launcher, FakeCommandLine(console.asked), refresh_hz=0)
         async with app.run_test(size=size, notifications=True) as pilot:
             session = Session(app, pilot, console, launcher)
             session.pane(SteeringPane).clock = Clock()

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import itertools
+import sys
 import threading
 import time
 from collections.abc import Callable, Sequence
@@ -16,6 +17,15 @@ from typing import Any, Protocol, TypeVar
 
 import pytest
 import rclpy
+from bot_console.runtime.rmw.local import LocalBus, local_bus
+from bot_console.runtime.rmw.middleware import choose_middleware
+from bot_console.runtime.rmw.zenoh.bus import ZenohBus
+from bot_console.runtime.rmw.zenoh.mesh import open_session
+from bot_console.runtime.rmw.zenoh.network import Way, open_network_session
+from bot_console.runtime.rmw.zenoh.reach import Tls
+from bot_console.runtime.rmw.zenoh.router import Router
+from bot_console.runtime.rmw.zenoh.session import Session
+from bot_console.runtime.rmw.zenoh.settings import Serving
 from bot_console.tui.console.connection import RosConsole
 from bot_console.tui.console.model import (
     ChangeSource,
@@ -32,8 +42,10 @@ from bot_console.tui.console.model import (
     Value,
 )
 from bot_console.tui.console.protocol import Console
+from certificates import make_certificates
 from fakes import FakeConsole
 from geometry_msgs.msg import Twist
+from ports import free_port
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
@@ -48,14 +60,21 @@ PATIENCE = 10.0
 TOO_FAST = "too fast for indoors"
 DESCRIPTION = "Highest speed (m/s)"
 PROFILES: dict[str, tuple[str, dict[str, dict[str, Value]] | None]] = {
-    "careful": ("# Careful: the arm too.", {"robot": {"speed": 0.5}, "arm": {"reach": 0.3}}),
+    "careful": ("# Careful: the arm too.", {"arm": {"reach": 0.3}, "robot": {"speed": 0.5}}),
     "slow": ("# Slow: for crowded rooms.", {"robot": {"speed": 0.2, "count": 1}}),
     "wild": ("# Wild: faster than this robot is.", {"robot": {"speed": 99.0, "count": 2}}),
     "broken": ("# Broken.", None),
 }
 
 T = TypeVar("T")
-_domains = itertools.count(7000)
+_domains = itertools.count(100)  # DDS has no more than 232
+
+Sides = Callable[[str], None]
+"""Called before the robot, and before the console, is connected: chooses how they are."""
+
+
+def IN_ONE(side: str) -> None:
+    """Both on the same middleware, as it is."""
 
 
 def until(condition: Callable[[], T], what: str = "it") -> T:
@@ -98,6 +117,10 @@ class Rig(Protocol):
 
     def publish(self, number: float) -> None:
         """Let the robot publish a level."""
+        ...
+
+    def heard_by_somebody(self) -> bool:
+        """Whether what `publish` says has a listener."""
         ...
 
     def close(self) -> None:
@@ -168,6 +191,10 @@ class FakeRig:
         times.append(self.console.now)
         values.append(number)
 
+    def heard_by_somebody(self) -> bool:
+        """Whether what `publish` says has a listener."""
+        return True
+
     @property
     def received(self) -> list[tuple[float, float]]:
         """The velocities that have reached the robot."""
@@ -179,10 +206,12 @@ class FakeRig:
 
 
 class RosRig:
-    """Real nodes on the embedded runtime."""
+    """Real nodes on the embedded runtime, or on whatever `rclpy` is."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, sides: Sides = IN_ONE, **options: Any) -> None:
+        """`options` are those of the console."""
         domain = next(_domains)
+        sides("robot")
         self.received: list[tuple[float, float]] = []
         self._speed_rule = ""
         self._context = Context()
@@ -201,9 +230,10 @@ class RosRig:
         self._thread = threading.Thread(target=self._spin, daemon=True)
         self._thread.start()
         write_profiles(folder)
+        sides("console")
         with pytest.MonkeyPatch.context() as patch:
             patch.setenv("ROS_DOMAIN_ID", str(domain))
-            self.console = RosConsole(profile_folders=[folder], run_line=lambda line: "/robot\n")
+            self.console = RosConsole(profile_folders=[folder], own_profiles=folder / "own", **options)
             self.console.start()
             assert self.console.wait_ready(PATIENCE)
         until(lambda: {ROBOT, ARM} <= self.console.snapshot().parameters.keys(), "the robot's parameters")
@@ -257,6 +287,10 @@ class RosRig:
         """Let the robot publish a level."""
         self._level.publish(Float64(data=number))
 
+    def heard_by_somebody(self) -> bool:
+        """Whether what `publish` says has a listener."""
+        return self._level.get_subscription_count() > 0
+
     def close(self) -> None:
         """End it."""
         self.console.close()
@@ -266,3 +300,54 @@ class RosRig:
         self._context.try_shutdown()
         self._thread.join(PATIENCE)
         set_logger_level("robot", LoggingSeverity.UNSET)  # which is one for all nodes of this process
+
+
+class LinkedRig(RosRig):
+    """Robot and console apart: what passes between them goes over sessions of their own."""
+
+    def __init__(self, folder: Path, open_session: Callable[[int], Session], closing: Callable[[], None]) -> None:
+        self._buses: list[ZenohBus] = []
+        self._closing = closing
+
+        def bus_of(domain: int) -> ZenohBus:
+            self._buses.append(ZenohBus(open_session(domain), LocalBus()))
+            return self._buses[-1]
+
+        try:
+            super().__init__(folder, lambda side: choose_middleware(bus_of))
+        finally:
+            choose_middleware(local_bus)
+
+    def close(self) -> None:
+        """End it."""
+        super().close()
+        for each in self._buses:
+            each.close()
+        self._closing()
+
+
+def mesh_rig(folder: Path) -> Rig:
+    """As two processes of one machine."""
+    return LinkedRig(folder, open_session, lambda: None)
+
+
+def network_rig(folder: Path) -> Rig:
+    """Both as clients of a router that wants certificates, over TLS."""
+    paths = make_certificates(folder)
+    tls = Tls(paths.ca, paths.certificate, paths.key)
+    endpoint = f"tls/localhost:{free_port()}"
+    router = Router(Serving((endpoint,), tls.as_listener()))
+    way = Way((endpoint,), tls)
+    return LinkedRig(folder, lambda domain: open_network_session(domain, way), router.close)
+
+
+def machine_rig(folder: Path) -> Rig:
+    """On the rclpy of the machine, with the console as `attach --ros` makes it."""
+    if is_embedded_rclpy():
+        pytest.skip("set BOT_CONSOLE_TESTS_ON=ros where a ROS 2 is sourced")
+    return RosRig(folder, foreign=True)
+
+
+def is_embedded_rclpy() -> bool:
+    """Whether the ROS names mean our runtime in this process."""
+    return any(type(each).__name__ == "RosFinder" for each in sys.meta_path)

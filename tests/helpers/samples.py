@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from types import MappingProxyType
+from typing import Any
 
 from bot_console.tui.console.model import (
     Capabilities,
@@ -29,10 +30,12 @@ from bot_console.tui.console.model import (
     Severity,
     Value,
 )
-from bot_console.tui.console.robot_model import DriveInfo, GridMap, Pose, WorldInfo
+from bot_console.tui.console.robot.robot_model import DriveInfo, GridMap, Pose, WorldInfo
+from bot_console.tui.console.traffic import Measure
 from fake_launcher import FakeLauncher
 from fakes import START, FakeConsole
 
+ODOM_TOPIC = "/odom"
 SPEED, LIMIT, NEAREST = "/odom/twist.twist.linear.x", "/robot_navigator:max_speed", "/telemetry/nearest_obstacle/data"
 BELL = "\x1b[2J\x07evil[red]\u202etxt"
 """A text that clears the screen, rings, colours and turns around, where it is let through."""
@@ -112,6 +115,30 @@ def _node(name: str) -> NodeInfo:
     subscriptions = tuple(Endpoint(topic, (kind,), qos) for _, topic, kind, ends in LINKS if name in ends)
     services = (Endpoint(f"{name}/set_parameters", ("rcl_interfaces/srv/SetParameters",)),)
     return NodeInfo(name, publishers + TOOLS, subscriptions, services)
+
+
+def figures() -> dict[str, Measure]:
+    """What is measured of the robot's topics; one is silent."""
+    found = {
+        topic: Measure(rate, rate * size, 1 / rate / 2, 0.0021 if kind in (SCAN, ODOM) else None, 1200)
+        for (_, topic, kind, _), rate, size in zip(
+            LINKS, (10, 10, 50, 10, 10, 1, 10, 2, 2), (2940, 2940, 736, 52, 52, 52, 52, 12, 12), strict=True
+        )
+    }
+    found["/cmd_vel_teleop"] = Measure(0.0, 0.0, 93.0, None, 4)
+    return found
+
+
+def odometry() -> Any:
+    """A message with a header, a quaternion, units and a long array."""
+    from nav_msgs.msg import Odometry
+
+    message = Odometry(child_frame_id="base_link")
+    message.header.stamp.sec, message.header.frame_id = 1_700_000_000, "odom"
+    message.pose.pose.position.x = 2.5
+    message.pose.pose.orientation.z = message.pose.pose.orientation.w = 0.5**0.5
+    message.twist.twist.linear.x = 0.58
+    return message
 
 
 def world() -> WorldInfo:
@@ -205,9 +232,15 @@ def live(parts: tuple[str, ...] = ()) -> tuple[FakeConsole, FakeLauncher]:
     times, values = _wave(5, 45)
     console.series[NEAREST] = (times, [3 * each for each in values])
     console.journal = [
+        Change(
+            -1, START - 90_000 * 10**9, "/robot_navigator", "turn_rate", 1.0, 1.5, ChangeSource.PROFILE, by="outdoor",
+            run=START - 90_060 * 10**9,
+        ),
         Change(0, START - 12 * 10**9, "/robot_navigator", "max_speed", 0.7, 1.0, ChangeSource.EDIT),
         Change(1, START - 5 * 10**9, "/robot_navigator", "max_speed", 1.0, 10.0, ChangeSource.EDIT, False, "too fast"),
-    ]
+    ]  # fmt: skip
+    console.traffic.figures.update(figures())
+    console.traffic.messages[ODOM_TOPIC] = (odometry(), ODOM)
     console.differences["competition"] = differences()
     console.differences["indoor"] = ()
     lines = (
@@ -227,6 +260,17 @@ def live(parts: tuple[str, ...] = ()) -> tuple[FakeConsole, FakeLauncher]:
     return console, FakeLauncher(arguments(), files)
 
 
+def with_array(kind: Kind, value: Value) -> tuple[FakeConsole, FakeLauncher]:
+    """The live system with an array `a_list` among the parameters of the navigator."""
+    console, launcher = live()
+    trees = dict(console.current.parameters)
+    tree = trees["/robot_navigator"]
+    extra = ParameterInfo("/robot_navigator", "a_list", kind, value, default=value)
+    trees["/robot_navigator"] = replace(tree, parameters=(extra, *tree.parameters))
+    console.change(parameters=MappingProxyType(trees))
+    return console, launcher
+
+
 def empty() -> tuple[FakeConsole, FakeLauncher]:
     """A system without anything in it."""
     return FakeConsole(), FakeLauncher()
@@ -242,7 +286,9 @@ def faulty() -> tuple[FakeConsole, FakeLauncher]:
         problem="the console's link to ROS has ended: Context is not valid (executors.py:120)",
         parameters=MappingProxyType(trees),
         launch=launch,
-        drive=replace(driving(), stopped=True, stop_confirmed=True, stop_holder="this console", lockable=True),
+        drive=replace(
+            driving(), stopped=True, stop_confirmed=True, stop_holder="this console", lockable=True, stopped_here=True
+        ),
         capabilities=Capabilities(world="this system has no world"),
         world=WorldInfo(),
     )

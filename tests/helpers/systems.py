@@ -69,6 +69,15 @@ class System:
         """Start `ros2 ...`."""
         return self.start("ros2", lambda: _run_ros2(words), ["ros2", *words])
 
+    def executable(self, package: str, executable: str, *words: str) -> Program:
+        """Start what `ros2 run PACKAGE EXECUTABLE ...` runs."""
+        from bot_console.runtime.workspace.executables import executables
+        from bot_console.runtime.workspace.program import program
+
+        target = program(executables(package)[executable])
+        assert target is not None
+        return self.start(executable, target, [executable, *words])
+
     def ask(self, *words: str, stop_after: float | None = None) -> Program:
         """Run `ros2 ...` to its end, or interrupt it after so many s."""
         return self.finish(self.ros2(*words), stop_after)

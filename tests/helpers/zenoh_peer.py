@@ -34,6 +34,7 @@ class Peer(Node):
         )
         self.create_timer(0.05, lambda: self.poor.publish(String(data="poor")))
         self.create_service(Trigger, "/pull", self.pull)
+        self.create_service(Trigger, "/flood", self.flood)
         self.scans = 0
         everything = QoSProfile(history=HistoryPolicy.KEEP_ALL, depth=0)
         self.create_subscription(LaserScan, "/scan", self.count_scan, everything)
@@ -44,6 +45,12 @@ class Peer(Node):
         """Answer."""
         response.success, response.message = True, "pulled"
         self.get_logger().info("somebody pulled")
+        return response
+
+    def flood(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        """Log as fast as it goes."""
+        for number in range(20_000):
+            self.get_logger().info(f"flood {number}")
         return response
 
     def count_scan(self, scan: LaserScan) -> None:

@@ -3,28 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable
-from dataclasses import replace
 from types import MappingProxyType
 
 import pytest
-from bot_console.tui.console.model import Kind, ParameterInfo, Value
+from bot_console.tui.console.model import Kind, Value
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.screens.elements import ElementsScreen
-from fake_launcher import FakeLauncher
-from fakes import FakeConsole
 from piloting import Session, run
-from samples import live
-
-
-def with_array(kind: Kind, value: Value) -> tuple[FakeConsole, FakeLauncher]:
-    console, launcher = live()
-    trees = dict(console.current.parameters)
-    tree = trees["/robot_navigator"]
-    extra = ParameterInfo("/robot_navigator", "a_list", kind, value, default=value)
-    trees["/robot_navigator"] = replace(tree, parameters=(extra, *tree.parameters))
-    console.change(parameters=MappingProxyType(trees))
-    return console, launcher
+from samples import with_array
 
 
 async def opened(session: Session) -> None:

@@ -7,8 +7,8 @@ import io
 from pathlib import Path
 
 import pytest
-from bot_console.tui import crash
 from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.files import crash
 from bot_console.tui.panes.broken import BrokenPane
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
@@ -23,8 +23,8 @@ from samples import live
 
 @pytest.fixture(autouse=True)
 def state(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
-    return tmp_path / "bot-console"
+    monkeypatch.setenv("BOT_CONSOLE_USER_DIR", str(tmp_path))
+    return tmp_path / "state"
 
 
 def boom(self: object, *_: object, **__: object) -> None:

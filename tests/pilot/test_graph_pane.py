@@ -8,7 +8,7 @@ from pathlib import Path
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.panes.graph.pane import GraphPane
 from bot_console.tui.widgets.diagram_view import DiagramView
-from piloting import Session, run
+from piloting import Clock, Session, run
 from samples import empty, graph, live
 
 
@@ -60,7 +60,7 @@ def test_a_filter_keeps_what_matches_and_its_neighbours() -> None:
         await session.type("sensor !cmd_vel")
         await session.press("enter")
         assert items(session) == {"/sensor_handler", "topic:/scan_raw", "topic:/scan"}
-        assert "hidden" in session.text()
+        assert " of " in session.text()
         await session.press("escape")
         assert items(session) == items_before == everything
 
@@ -156,3 +156,144 @@ def test_a_large_graph_is_laid_out_beside_the_event_loop() -> None:
         assert "╭" in session.text()
 
     run(live(), play)
+
+
+def fleet(count: int) -> GraphInfo:
+    """Robots in namespaces, each with a LIDAR that is best effort and a navigator that wants it reliable."""
+    kind = ("a/msg/B",)
+    nodes = []
+    for number in range(count):
+        space = f"/robot_{number}"
+        scan, odom = f"{space}/scan", f"{space}/odom"
+        nodes += [
+            NodeInfo(f"{space}/lidar", (Endpoint(scan, kind, "best effort volatile 5"),)),
+            NodeInfo(f"{space}/drive", (Endpoint(odom, kind, "reliable volatile 10"),)),
+            NodeInfo(f"{space}/nav", (), tuple(Endpoint(name, kind, "reliable volatile 10") for name in (scan, odom))),
+        ]
+    return GraphInfo(tuple(nodes))
+
+
+def test_qos_that_does_not_match_is_drawn_as_a_fault_and_said_in_words() -> None:
+    async def play(session: Session) -> None:
+        session.console.change(graph=fleet(1))
+        await session.press("3")
+        assert "✗ " in session.text()
+        assert picture(session)._faults == {("topic:/robot_0/scan", "/robot_0/nav")}
+        await session.press("w")
+        assert "/robot_0/scan best effort to reliable: nothing arrives from /robot_0/lidar" in session.text()
+        await session.press("enter")
+        assert picture(session).selected == "topic:/robot_0/scan"
+
+    run(live(), play, (120, 40))
+
+
+def test_namespaces_fold_into_boxes_and_unfold() -> None:
+    async def play(session: Session) -> None:
+        session.console.change(graph=fleet(2))
+        await session.press("3")
+        assert "/robot_0/lidar" in items(session)
+        await session.press("F")
+        assert items(session) == {"namespace:/robot_0", "namespace:/robot_1"}
+        assert "▸ /robot_0  3 nodes" in session.text()
+        picture(session).choose("namespace:/robot_1")
+        await session.press("enter")
+        assert "/robot_1/lidar" in items(session) and "/robot_0/lidar" not in items(session)
+        picture(session).choose("/robot_1/nav")
+        await session.press("minus")
+        assert "namespace:/robot_1" in items(session)
+
+    run(live(), play, (120, 40))
+
+
+def test_many_nodes_are_folded_by_themselves() -> None:
+    async def play(session: Session) -> None:
+        session.console.change(graph=fleet(20))
+        await session.press("3")
+        assert items(session) == {f"namespace:/robot_{number}" for number in range(20)}
+
+    run(live(), play, (120, 40))
+
+
+def test_the_focus_goes_back_and_forth() -> None:
+    async def play(session: Session) -> None:
+        await session.press("3")
+        everything = items(session)
+        picture(session).choose("/sensor_handler")
+        await session.press("c")
+        assert items(session) < everything and "around /sensor_handler, 1 hop" in session.text()
+        near = items(session)
+        await session.press("c")
+        assert items(session) > near
+        await session.press("b", "b")
+        assert items(session) == everything
+        await session.press("f")
+        assert items(session) == near
+
+    run(live(), play, (120, 40))
+
+
+def test_services_and_actions_are_drawn_on_request() -> None:
+    trigger = ("std_srvs/srv/Trigger",)
+    nodes = (
+        NodeInfo("/server", services=(Endpoint("/reset", trigger), Endpoint("/server/get_parameters", trigger))),
+        NodeInfo("/client", clients=(Endpoint("/reset", trigger),), action_clients=(Endpoint("/go", ("a/action/B",)),)),
+    )
+
+    async def play(session: Session) -> None:
+        session.console.change(graph=GraphInfo(nodes))
+        await session.press("3")
+        assert items(session) == {"/server", "/client"}
+        await session.press("s")
+        assert items(session) == {"/server", "/client", "service:/reset", "action:/go"}
+        assert ("/client", "service:/reset") in picture(session).drawing.edges
+        assert "ser /reset" in session.text() and "act /go" in session.text()
+
+    run(live(), play, (120, 40))
+
+
+def test_rates_stand_on_the_topics_while_they_are_wanted_and_seen() -> None:
+    async def play(session: Session) -> None:
+        pane = session.pane(GraphPane)
+        pane.clock = Clock()
+        await session.press("3")
+        assert session.console.traffic.measuring == (), "nothing is measured unasked"
+        await session.press("r")
+        assert "/odom 50 Hz" in session.text()
+        await session.press("1")
+        pane.tick()
+        assert session.console.traffic.measuring == ()
+        await session.press("3", "r")
+        assert "50 Hz" not in session.text()
+
+    run(live(), play, (170, 60))
+
+
+def test_details_are_something_to_go_to() -> None:
+    async def play(session: Session) -> None:
+        await session.press("3")
+        picture(session).choose("/robot_navigator")
+        await session.press("enter")
+        assert "parameter max_speed" in session.text() and "process robot_navigator-5" in session.text()
+        await session.type("max_speed")
+        await session.press("enter")
+        assert "[1 " in session.lines()[0], "the parameters pane is shown"
+        await session.press("3", "enter")
+        await session.type("odom")
+        await session.press("enter")
+        assert picture(session).selected == "topic:/odom"
+
+    run(live(), play, (120, 40))
+
+
+def test_a_picture_that_does_not_fit_has_a_map() -> None:
+    async def play(session: Session) -> None:
+        session.console.change(graph=fleet(8))
+        await session.press("3")
+        await session.app.workers.wait_for_complete()
+        await session.settle()
+        assert any(line.count("▏") and "●" in line for line in session.lines())
+        await session.press("F")
+        await session.settle()
+        assert not any("▏" in line for line in session.lines()), "eight boxes fit"
+
+    run(live(), play, (120, 40))

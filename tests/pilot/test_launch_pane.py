@@ -199,7 +199,10 @@ def test_an_empty_pane_says_what_to_do_and_a_process_that_comes_appears() -> Non
 def test_states_are_told_by_word_and_by_sign() -> None:
     async def play(session: Session) -> None:
         info = launched()
-        processes = tuple(replace(each, state=state) for each, state in zip(info.processes, ProcessState, strict=False))
+        first = info.processes[0]
+        processes = tuple(
+            replace(first, key=state.value, label=f"of_{at}", state=state) for at, state in enumerate(ProcessState)
+        )
         session.console.change(launch=replace(info, processes=processes))
         await session.press("8")
         for state in ProcessState:

@@ -44,7 +44,7 @@ def test_severity_words_and_nodes_filter() -> None:
         await session.press("enter")
         assert len(seqs(session)) == 2
         await session.press("x")
-        assert len(seqs(session)) == 0 and "hidden: robot_navigator" in session.text()
+        assert len(seqs(session)) == 0 and "hidden: /robot_navigator" in session.text()
         await session.press("escape")
         assert len(seqs(session)) == 5
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from bot_console.tui.widgets.key_bar import KeyBar
 from bot_console.tui.widgets.status_bar import StatusBar
+from bot_console.tui.widgets.tabs import Tabs
 from piloting import Session, run
 from samples import live
 from textual.widgets._toast import Toast
@@ -12,7 +13,7 @@ from textual.widgets._toast import Toast
 
 def important(session: Session) -> list[str]:
     """The lines of tabs, detail, status and keys as they are on the screen."""
-    regions = [session.app.screen.query_one(each).region for each in (KeyBar, StatusBar, "#parameter-detail", "#tabs")]
+    regions = [session.app.screen.query_one(each).region for each in (KeyBar, StatusBar, "#parameter-detail", Tabs)]
     return [line for region in regions for line in session.lines()[region.y : region.bottom]]
 
 

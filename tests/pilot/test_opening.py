@@ -19,7 +19,7 @@ def test_a_line_of_rqt_plot_replaces_the_curves_and_waits_for_what_is_not_there(
         assert session.pane(PlotPane).display
         assert session.pane(PlotPane).paths == [NEAREST]
         assert "waits for /none/x" in session.text()
-        assert not any(each[0] == "run_line" for each in session.console.asked)
+        assert not any(each[0] == "run" for each in session.console.asked)
 
     run(live(), play, (120, 40))
 

@@ -174,7 +174,7 @@ def test_the_command_is_shown_and_copied_and_values_are_saved() -> None:
         await session.press("1")
         await go_to(session, "max_speed")
         assert "ros2 param set /robot_navigator max_speed 1.0" in session.text()
-        await session.press("y", "s", "enter")
+        await session.press("y", "s", "enter", "enter")
         assert ("save", "parameters.yaml") in session.console.asked
 
     run(live(), play, (100, 30))

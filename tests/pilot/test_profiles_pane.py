@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
-from bot_console.tui.console.model import SetOutcome
+from bot_console.tui.console.model import Profile, SetOutcome
 from bot_console.tui.panes.profiles.pane import ProfilesPane
 from bot_console.tui.panes.profiles.rows import ProfileRows
 from bot_console.tui.screens.confirm import ConfirmScreen
@@ -167,3 +168,48 @@ def test_the_status_line_says_how_far_the_robot_is_from_its_profile() -> None:
         assert "indoor, 2 changed" in session.lines()[-2]
 
     run(live(), play, (160, 40))
+
+
+def test_a_file_is_opened_and_what_runs_is_saved_as_a_profile(tmp_path: Path) -> None:
+    file = tmp_path / "mine.yaml"
+    file.write_text("# Mine.\n/robot_navigator:\n  ros__parameters: {turn_rate: 0.5, nobody: 1}\n/gone:\n"
+                    "  ros__parameters: {x: 1}\n")  # fmt: skip
+
+    async def play(session: Session) -> None:
+        await session.press("7", "o")
+        await session.type(str(file))
+        await session.press("enter")
+        text = session.text()
+        assert "turn_rate" in text and "1.0 → 0.5" in text and "unknown to its node" in text
+        assert "1 change, 1 unknown to its node and left out, not running: /gone" in text
+        await session.press("a")
+        assert session.console.current.parameters["/robot_navigator"].get("turn_rate").value == 0.5
+        await session.press("S")
+        for _ in range(12):
+            await session.pilot.press("backspace")
+        await session.type("hall")
+        await session.press("enter")
+        await session.type("for the hall")
+        await session.press("enter")
+        assert ("save profile", "hall", "for the hall") in session.console.asked
+
+    run(live(), play, (120, 40))
+
+
+def test_a_launch_profile_asks_stops_what_runs_and_then_launches() -> None:
+    console, launcher = live()
+    two = Profile("two", "/p/two.yaml", "Two robots.", launch="/p/two.launch.py", arguments={"robots": "2"})
+    console.change(profiles=(*console.current.profiles, two))
+
+    async def play(session: Session) -> None:
+        await session.press("7", "G", "a")
+        assert "Stop them, and launch two?" in session.text() and "robots:=2" in session.text()
+        await session.press("n")
+        assert launcher.asked == []
+        await session.press("a", "y")
+        await session.settle()
+        verbs = [each[0] for each in launcher.asked]
+        assert verbs == ["stop"] * (len(verbs) - 1) + ["launch"] and len(verbs) > 2
+        assert launcher.asked[-1][1:] == ("/p/two.launch.py", {"robots": "2"})
+
+    run((console, launcher), play, (120, 40))

@@ -6,6 +6,7 @@ from dataclasses import replace
 from types import MappingProxyType
 
 import pytest
+from bot_console.tui.panes.logs.pane import LogRows
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.screens.confirm import ConfirmScreen
@@ -61,6 +62,34 @@ def test_a_value_goes_to_the_parameter_that_was_asked_about_wherever_the_cursor_
         assert asked(session) == [("/robot_navigator", {"max_speed": 2.0})]
 
     run(live(), play)
+
+
+def test_a_click_moves_the_cursor_and_leaves_the_keys_to_the_prompt() -> None:
+    async def play(session: Session) -> None:
+        await edit(session, "max_speed")
+        at = rows(session).cursor
+        await session.pilot.click(ParameterRows, offset=(20, at + 2))
+        assert rows(session).cursor == at + 2
+        await session.type("2")
+        await session.press("enter")
+        assert asked(session) == [("/robot_navigator", {"max_speed": 2.0})]
+        assert session.app.focused is rows(session)
+
+    run(live(), play)
+
+
+def test_a_click_into_another_pane_gives_the_prompt_up_and_the_next_one_opens() -> None:
+    async def play(session: Session) -> None:
+        await edit(session, "max_speed")
+        await session.press("escape", "0", "e")
+        assert prompt(session).is_open
+        await session.pilot.click(LogRows, offset=(20, 1))
+        assert not prompt(session).is_open and session.app.focused is not rows(session)
+        await session.pilot.click(ParameterRows, offset=(20, 3))
+        await session.press("e")
+        assert prompt(session).is_open
+
+    run(live(), play, (120, 40))
 
 
 @pytest.mark.parametrize("gone", ["node", "parameter"])

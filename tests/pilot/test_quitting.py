@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
+from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.screens.confirm import ConfirmScreen
 from piloting import Session, run
 from samples import live
@@ -89,12 +88,16 @@ def test_a_robot_that_was_held_before_stays_held_and_so_does_one_that_is_stopped
 
 
 def test_a_stop_by_somebody_else_is_not_released_by_no() -> None:
+    ben = RobotStop("b", "ben", "my foot")
+
     async def play(session: Session) -> None:
         await edited(session)
         await session.press("q")
-        session.console.change(drive=replace(session.console.current.drive, stop_reason="a person is in the way"))
+        session.console.hold([*session.console.current.drive.stops, ben])
         await session.press("n")
-        assert stops(session) == [True]
+        assert session.console.current.drive.stops == (ben,) and session.console.current.drive.stopped
+        await session.press("q", "n")
+        assert session.console.current.drive.stops == (ben,), "one that was there before stays, too"
 
     run(live(), play)
 

@@ -154,7 +154,7 @@ def test_a_stop_that_is_not_acknowledged_is_not_called_held() -> None:
         assert session.console.asked[-1] == ("all_stop", True), "it is sent again, not released"
         session.console.change(drive=replace(sent, stop_confirmed=True, stop_holder="anna@pc", stop_reason="the arm"))
         await session.settle()
-        assert "ALL STOP held by anna@pc: the arm (! releases)" in session.text()
+        assert "ALL STOP held by anna@pc: the arm (! holds it too, once more releases)" in session.text()
 
     run(live(), play, (140, 40))
 
@@ -231,3 +231,41 @@ def test_what_limits_the_command_is_named() -> None:
         assert "warning_distance" not in session.text()
 
     run(live(), play, (100, 30))
+
+
+def test_limits_are_typed_or_the_parameters() -> None:
+    async def play(session: Session) -> None:
+        await session.press("6", "v")
+        await session.type("0.2")
+        assert "two numbers" in session.text()
+        await session.type(" 0.4")
+        await session.press("enter", "enter", "W", "W", "W")
+        assert commands(session)[-1] == (0.2, 0.0)
+        await session.press("v")
+        session.app.focused.value = ""
+        await session.press("enter")
+        assert steering(session).state.greatest == (1.0, 1.0)
+
+    run(live(), play, (100, 30))
+
+
+def test_the_mouse_moves_sliders_and_the_pad_as_a_stick() -> None:
+    async def play(session: Session) -> None:
+        await session.press("6")
+        pane = steering(session)
+        row = next(y for y, line in enumerate(session.lines()) if "linear" in line and "├" in line)
+        right = session.lines()[row].index("┤") - 1
+        await session.pilot.click(offset=(right, row))
+        assert commands(session) == [] and "not armed" in session.text()
+        await session.press("enter")
+        await session.pilot.click(offset=(right, row))
+        assert commands(session)[-1] == (1.0, 0.0)
+        top = next(y for y, line in enumerate(session.lines()) if "forward" in line)
+        left = session.lines()[top].index("╭─", 2) + 1
+        await session.pilot.mouse_down(offset=(left, top + 1))
+        assert commands(session)[-1] == (1.0, 1.0), "the upper left corner"
+        await session.pilot.mouse_up(offset=(left, top + 1))
+        assert commands(session)[-1] == (0.0, 0.0), "let go of, it stands"
+        assert pane.state.armed
+
+    run(live(), play, (120, 50))

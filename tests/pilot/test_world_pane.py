@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from bot_console.tui.console.robot_model import Pose
+from bot_console.tui.console.robot.robot_model import Pose, Turtle, TurtleField, WorldInfo
 from piloting import Session, run
 from samples import empty, faulty, live, world
 
@@ -48,3 +48,32 @@ def test_a_system_without_a_world_says_why() -> None:
         assert "this system has no world" in session.text()
 
     run(faulty(), play, (100, 30))
+
+
+def test_a_field_of_turtles_is_a_place_beside_the_robots() -> None:
+    async def play(session: Session) -> None:
+        turtles = Turtle("turtle1", Pose(5.5, 5.5, 0.0)), Turtle("leo", Pose(2.0, 2.0, 1.57), 2.0)
+        session.console.change(world=replace(world(), fields=(TurtleField("/turtlesim", turtles),)))
+        await session.press("5")
+        assert "nearest 4.8 m" in session.text() and "n: next of 2 places" in session.text()
+        await session.press("n")
+        assert "/turtlesim: turtle1 5.5, 5.5 0.0 m/s; leo 2.0, 2.0 2.0 m/s" in session.text()
+        assert "→turtle1" in session.text() and "↑leo" in session.text()
+        await session.press("n")
+        assert "nearest 4.8 m" in session.text()
+
+    run(live(), play, (120, 30))
+
+
+def test_turtles_alone_need_no_key() -> None:
+    async def play(session: Session) -> None:
+        session.console.change(
+            world=WorldInfo(fields=(TurtleField("/turtlesim", (Turtle("turtle1", Pose(1.0, 1.0)),)),))
+        )
+        await session.press("5")
+        assert "/turtlesim: turtle1 1.0, 1.0" in session.text()
+        session.console.change(world=WorldInfo())
+        await session.settle()
+        assert "No map and no pose yet" in session.text()
+
+    run(empty(), play)

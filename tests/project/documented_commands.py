@@ -10,7 +10,7 @@ from pathlib import Path
 
 from bot_console.runtime.ros2cli.command_line import _add, _top_parser, load
 from bot_console.tui import cli
-from bot_console.tui.cli import arguments, ros2
+from bot_console.tui.cli import arguments, bag, ros2
 from bot_console.tui.cli import run as console_run
 from launch.launch_description_sources import get_launch_description_from_any_launch_file
 
@@ -77,13 +77,16 @@ def _console(words: list[str]) -> str:
         return "" if len(words) > 1 else "names nothing to run"
     if name == "export":
         return "" if len(words) == 2 else "wants one folder"
+    if name == "bag":
+        bag._parser().parse_args(words[1:])
+        return ""
     if name == "ros2":
         return _console(words[1:])
     if name == "colcon":
         return ""
     if name == "setup":
         return "" if set("|".join(words[1:]).split("|")) <= {"bash", "zsh", "fish"} else "is no shell"
-    if name in ("stop", "release", "up", "down", "status", "attach"):
+    if name in ("stop", "release", "up", "down", "status", "attach", "doctor", "router", "lint", "graph"):
         return "" if name in cli._COMMANDS else f"there is no command {name}"
     if name in ros2.VERBS or name in cli._COMMANDS:
         return _ros2(words)

@@ -45,10 +45,11 @@ def imported():
 
 
 def ros_names():
-    """What the runtime serves under ROS names: its own folders, generated interfaces, the robot's package."""
+    """What the runtime serves under ROS names: its own folders, generated interfaces, our packages."""
     runtime = ROOT / "runtime"
-    folders = {path.name for path in (*runtime.iterdir(), *(runtime / "rosidl" / "generated").iterdir())}
-    return folders | {"bot_console", "bot_console_robot", "intelligent_robot"}
+    places = runtime, runtime / "rosidl" / "generated", runtime / "rosidl" / "unverified"
+    folders = {path.name for place in places for path in place.iterdir()}
+    return folders | {"bot_console", "bot_console_robot", "bot_console_demos", "intelligent_robot"}
 
 
 def test_what_is_declared_is_imported():

@@ -107,6 +107,13 @@ def test_every_document_is_reached_from_the_readme():
     assert {f"docs/{path.name}" for path in (ROOT / "docs").glob("*.md")} <= linked
 
 
+def test_what_is_to_be_opened_first_is_there():
+    table = text_of(ROOT / "docs" / "contributing.md").partition("## Where would you change")[2].partition("\n## ")[0]
+    places = re.findall(r"`([\w./]+/[\w./]*)`", table)
+    assert len(places) >= 20
+    assert [each for each in places if not (ROOT / each).exists()] == []
+
+
 def test_pictures_are_small():
     pictures = list((ROOT / "docs" / "images").iterdir())
     assert pictures

@@ -11,7 +11,8 @@ from bot_console.tui.cli import main
 
 ROS = {
     *("rclpy", "launch", "launch_ros", "ament_index_python", "builtin_interfaces", "diagnostic_msgs", "geometry_msgs"),
-    *("nav_msgs", "rcl_interfaces", "rosgraph_msgs", "sensor_msgs", "std_msgs", "std_srvs", "visualization_msgs"),
+    *("lifecycle_msgs", "nav_msgs", "nav2_msgs", "rcl_interfaces", "rosgraph_msgs", "sensor_msgs", "std_msgs"),
+    *("std_srvs", "tf2_msgs", "visualization_msgs"),
 }
 LIBRARIES = {"numpy", "pymunk", "yaml", "setuptools"}
 
@@ -27,7 +28,16 @@ def test_the_package_is_read_like_any_other_of_a_workspace(tmp_path):
     assert package.name == NAME
     assert package.build_type == "ament_python"
     assert set(package.executables) == {
-        *("controller_node", "robot_node", "safety_node", "sensor_node", "simulator_node", "telemetry_node"),
+        *(
+            "controller_node",
+            "navigation_node",
+            "preset_node",
+            "robot_node",
+            "safety_node",
+            "sensor_node",
+            "simulator_node",
+        ),
+        "telemetry_node",
     }
 
 

@@ -1,5 +1,7 @@
 """The filter grammar against a naive model, one record at a time; the log finds the same in blobs of many records."""
 
+import pytest
+from bot_console.tui.console.logs import patterns
 from bot_console.tui.console.logs.search import matching
 from bot_console.tui.console.logs.store import LogStore
 from bot_console.tui.console.model import LogFilter, Severity
@@ -15,6 +17,8 @@ TESTS = {
     "^a": lambda text: any(line.startswith("a") for line in text.split("\n")),
     "b$": lambda text: any(line.endswith("b") for line in text.split("\n")),
     r"a\sb": lambda text: "a b" in text or "a\nb" in text,
+    "[^b]a": lambda text: any(text[i] != "b" and text[i + 1 : i + 2] == "a" for i in range(len(text))),
+    r"b\W": lambda text: "b " in text or "b\n" in text,
 }
 NODES = ["arm.left.zoo", "/arm/left/zoo", "bat", "zoo-1"]
 texts = st.text("ab \n", max_size=8).map(str.lower)
@@ -50,9 +54,24 @@ word = st.one_of(
 )
 
 
+words_and_lines = given(records, st.lists(st.tuples(word, st.booleans()), max_size=4), st.integers(1, 4))
+
+
 @settings(deadline=None, max_examples=200)
-@given(records, st.lists(st.tuples(word, st.booleans()), max_size=4), st.integers(1, 4))
+@words_and_lines
 def test_the_log_finds_what_the_words_say(lines, words, times):
+    the_log_finds(lines, words, times)
+
+
+@settings(deadline=None, max_examples=50)
+@words_and_lines
+def test_it_finds_the_same_without_re2(lines, words, times):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(patterns, "re2", None)
+        the_log_finds(lines, words, times)
+
+
+def the_log_finds(lines, words, times):
     store = LogStore(2000)
     lines = lines * times * 3
     for level, node, text in lines:

@@ -23,7 +23,7 @@ def failure(statement: str) -> BaseException:
         ("from rosbag2_py.x import y", "rosbag2_py is a library of ROS 2 around C++"),
         ("import ultralytics", "ultralytics is an ordinary Python package: pip install ultralytics"),
         ("import rqt_gui_py", "rqt_gui_py makes windows of Qt, and bot-console has none."),
-        ("import nav2_simple_commander", "nav2_simple_commander is a Python library of ROS 2"),
+        ("import image_geometry", "image_geometry is a Python library of ROS 2"),
     ],
 )
 def test_what_brings_a_package(statement: str, words: str) -> None:

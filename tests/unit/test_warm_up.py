@@ -16,7 +16,7 @@ warm_up()
 print(threading.active_count(), len(os.listdir("/proc/self/task")))
 print(sorted(os.readlink(f"/proc/self/fd/{each}") for each in set(os.listdir("/proc/self/fd")) - before
              if os.path.exists(f"/proc/self/fd/{each}")))
-print([each for each in ("zenoh", "textual", "pymunk") if each in sys.modules])
+print([each for each in ("textual", "pymunk") if each in sys.modules])
 import rclpy
 rclpy.init()
 print(rclpy.create_node("first").get_node_names_and_namespaces())

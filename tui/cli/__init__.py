@@ -8,7 +8,7 @@ from typing import NoReturn
 
 from bot_console.tui import __version__
 from bot_console.tui.cli import ros2
-from bot_console.tui.cli.domain import end_program, others_take_part
+from bot_console.tui.cli.system.domain import end_program, others_take_part
 
 Words = list[str]
 
@@ -34,10 +34,10 @@ def main(argv: Sequence[str] | None = None) -> int:
 
     options = parse(words)
     if options.headless:
-        from bot_console.tui.cli.headless import run
+        from bot_console.tui.cli.headless.run import run
 
         return run(options)
-    from bot_console.tui.cli.session import run as show
+    from bot_console.tui.cli.show import run as show
 
     return show(options)
 
@@ -50,10 +50,9 @@ def program() -> NoReturn:
 
 
 def _attach(words: Words) -> int:
-    from bot_console.tui.cli.arguments import parse_attach
-    from bot_console.tui.cli.session import run
+    from bot_console.tui.cli.attach import run
 
-    return run(parse_attach(words))
+    return run(words)
 
 
 def _run(words: Words) -> int:
@@ -63,20 +62,32 @@ def _run(words: Words) -> int:
 
 
 def _launch(words: Words) -> int:
-    from bot_console.tui.cli.workspaces import tell_whose
+    from bot_console.tui.cli.system.workspaces import tell_whose
 
     tell_whose(next((each for each in words if not each.startswith("-")), ""))
     return ros2.taking_part(["launch", *words])
 
 
 def _ros2(words: Words) -> int:
-    if words and words[0] in ("run", "launch"):
+    if words and words[0] in ("run", "launch", "bag"):
         return _COMMANDS[words[0]](words[1:])
     return ros2.taking_part(words) if words and words[0] in ros2.VERBS else ros2.main(words)
 
 
 def _export(words: Words) -> int:
     from bot_console.tui.cli.export import run
+
+    return run(words)
+
+
+def _bag(words: Words) -> int:
+    from bot_console.tui.cli.bag import run
+
+    return run(words)
+
+
+def _config(words: Words) -> int:
+    from bot_console.tui.cli.config import run
 
     return run(words)
 
@@ -111,6 +122,18 @@ def _status(words: Words) -> int:
     return status(words)
 
 
+def _doctor(words: Words) -> int:
+    from bot_console.tui.cli.doctor import run
+
+    return run(words)
+
+
+def _router(words: Words) -> int:
+    from bot_console.tui.cli.router import run
+
+    return run(words)
+
+
 def _stop(words: Words) -> int:
     from bot_console.tui.cli.stop import run
 
@@ -123,9 +146,33 @@ def _release(words: Words) -> int:
     return run("release", words)
 
 
+def _graph(words: Words) -> int:
+    from bot_console.tui.cli.graph import run
+
+    return run(words)
+
+
+def _test(words: Words) -> int:
+    from bot_console.tui.cli.testing import test
+
+    return test(words)
+
+
+def _launch_test(words: Words) -> int:
+    from bot_console.tui.cli.testing import launch_test
+
+    return launch_test(words)
+
+
 def _colcon(words: Words) -> int:
     print("Nothing has to be built: packages of the workspace are read from their sources.")
     return 0
+
+
+def _lint(words: Words) -> int:
+    from bot_console.tui.cli.lint.run import run
+
+    return run(words)
 
 
 _COMMANDS: dict[str, Callable[[Words], int]] = {
@@ -134,12 +181,20 @@ _COMMANDS: dict[str, Callable[[Words], int]] = {
     "ros2": _ros2,
     "attach": _attach,
     "export": _export,
+    "bag": _bag,
+    "config": _config,
     "setup": _setup,
     "complete": _complete,
     "up": _up,
     "down": _down,
     "status": _status,
+    "lint": _lint,
+    "doctor": _doctor,
+    "router": _router,
     "stop": _stop,
     "release": _release,
+    "graph": _graph,
+    "test": _test,
+    "launch_test": _launch_test,
     "colcon": _colcon,
 }

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 from bot_console.tui import __version__
 from bot_console.tui.opening import Opening, is_rqt, rqt_opening
 from bot_console.tui.pane_table import PANES
+from bot_console.tui.settings.names import THEME_NAMES
 
 EXAMPLES = """\
 examples:
@@ -20,10 +22,12 @@ examples:
   bot-console run --watch my_node.py       the same, with the console open on it
   bot-console launch my_package x.launch.py
   bot-console attach                       the console on what runs already, without a robot of its own
+  bot-console attach --connect tcp/robot:7447
+  bot-console doctor                       what is wrong with terminal, machine, link and graph, and how to mend it
   bot-console --headless --fast --profile warehouse --duration 600 --seed 7
 
-other commands: attach, up, down, status, run, launch, export, setup, stop, release,
-and the verbs of ros2 (bot-console interface show std_msgs/msg/String)
+other commands: attach, doctor, up, down, status, router, run, launch, lint, test, launch_test, export, setup,
+config, stop, release, and the verbs of ros2 (bot-console interface show std_msgs/msg/String)
 
 exit codes: 0 done, 1 failed (one line says why), 2 wrong usage
 """
@@ -43,25 +47,62 @@ class Options:
     duration: float | None = None
     seed: int | None = None
     world: str = ""
+    profile_folders: list[Path] = field(default_factory=list[Path])
+    """Where else profiles are looked for."""
     simulator: bool | None = None
     """Whether the simulated robot runs beside a launch file; None: when its nodes want a robot and nobody gives one."""
     log_to: Path | None = None
+    layout: str = ""
+    """The layout to begin with; empty: what the settings say."""
+    theme: str = ""
+    plain: bool | None = None
+    """Whether ASCII letters take the place of lines and braille; None: what the settings and the locale say."""
     attach: bool = False
     """Whether the console shows what runs in the domain, and starts nothing."""
+    read_only: bool = False
+    """Whether it may change nothing."""
 
 
-def parse_attach(words: Sequence[str]) -> Options:
-    """Read what follows `attach`; ends the program with exit code 2 for wrong usage."""
+def attach_parser() -> argparse.ArgumentParser:
+    """The options that every way to attach has."""
     parser = argparse.ArgumentParser(
         "bot-console attach",
-        description="The console on what runs in the ROS domain, without a robot of its own; also by rqt's names.",
+        description="The console on what runs already, without a robot of its own; also by rqt's names.",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--pane", default="overview", help="the pane to begin with")
     parser.add_argument("--workspace", action="append", type=Path, metavar="DIR", help="where packages are")
+    parser.add_argument("--read-only", action="store_true", help="look on: nothing is set, driven, started or ended")
+    _add_look(parser)
+    return parser
+
+
+def parse_attach(words: Sequence[str], parser: argparse.ArgumentParser) -> tuple[Options, argparse.Namespace]:
+    """Read what follows `attach`; ends the program with exit code 2 for wrong usage."""
     opening, words = rqt_opening(words) if is_rqt(words) else (None, words)
     given = parser.parse_args(words)
     _check_pane(parser, given.pane)
-    return Options(opening=opening or Opening(given.pane), workspace=given.workspace or [], attach=True)
+    opening = _with_perspective(opening or Opening(given.pane), given)
+    options = Options(
+        opening=opening, workspace=given.workspace or [], attach=True, read_only=given.read_only, **_look(given)
+    )
+    return options, given
+
+
+def _add_look(parser: argparse.ArgumentParser) -> None:
+    add = parser.add_argument
+    add("--layout", default="", metavar="NAME", help="the layout to begin with; overview is what a new user sees")
+    add("--perspective-file", default="", metavar="FILE", help="a layout file, or a perspective of rqt")
+    add("--theme", default="", choices=THEME_NAMES, help="colours; else what `bot-console config` says")
+    add("--plain", action=argparse.BooleanOptionalAction, help="ASCII letters in place of lines and braille")
+
+
+def _look(given: argparse.Namespace) -> dict[str, Any]:
+    return {"layout": given.layout, "theme": given.theme, "plain": given.plain}
+
+
+def _with_perspective(opening: Opening, given: argparse.Namespace) -> Opening:
+    return replace(opening, perspective=given.perspective_file) if given.perspective_file else opening
 
 
 def parse(words: Sequence[str]) -> Options:
@@ -73,6 +114,10 @@ def parse(words: Sequence[str]) -> Options:
     profile, pairs = _profile_and_pairs(parser, given)
     if given.simulator is not None and not given.launch:
         parser.error("--simulator and --no-simulator go with --launch: the robot system brings its own robot")
+    if given.allow_missing:
+        if not given.launch:
+            parser.error("--allow-missing goes with --launch: of the robot system nothing is missing")
+        pairs["allow_missing"] = "true"
     if given.fast and not given.headless:
         parser.error("--fast goes with --headless: a screen shows real time")
     if given.duration is not None and not given.duration > 0:
@@ -81,14 +126,16 @@ def parse(words: Sequence[str]) -> Options:
         profile=profile,
         launch=given.launch or "",
         launch_arguments=pairs,
-        opening=opening or Opening(given.pane),
+        opening=_with_perspective(opening or Opening(given.pane), given),
         workspace=given.workspace or [],
         headless=given.headless,
         fast=given.fast,
         duration=given.duration,
         seed=given.seed,
         world=given.world or "",
+        profile_folders=given.profiles or [],
         simulator=given.simulator,
+        **_look(given),
     )
 
 
@@ -140,10 +187,15 @@ def _parser() -> argparse.ArgumentParser:
     add("--workspace", action="append", type=Path, metavar="DIR", help="where packages are; may be repeated")
     add("--headless", action="store_true", help="no screen: logs on stderr, a JSON report on stdout at the end")
     add("--fast", action="store_true", help="with --headless: simulated time, as fast as it goes, repeatable")
+    add("--profiles", action="append", type=Path, metavar="DIR", help="where else profiles are; may be repeated")
     add("--profile", metavar="NAME", help="the same as PROFILE")
     add("--duration", type=float, metavar="S", help="with --headless: seconds to run")
     add("--seed", type=int, metavar="N", help="seed of the world")
     add("--world", metavar="NAME", help="world of the simulated robot")
     add("--simulator", action=argparse.BooleanOptionalAction, help=SIMULATOR_HELP)
+    add(
+        "--allow-missing", action="store_true", help="with --launch: go on without nodes whose executables are not here"
+    )
+    _add_look(parser)
     add("--version", action="version", version=f"bot-console {__version__}")
     return parser

@@ -12,19 +12,19 @@ import sys
 import time
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
+from functools import partial
 from pathlib import Path
 
-from bot_console.tui.cli.domain import domain, others_take_part, robot_there, take_part
-from bot_console.tui.crash import state_folder
+from bot_console.tui.cli.system.background_system import SWITCH
+from bot_console.tui.cli.system.domain import domain, robot_there, take_part
+from bot_console.tui.cli.system.system_log import new_log
+from bot_console.tui.console.launch_host.door import DOOR
+from bot_console.tui.files.save_file import save_file
 
-FOR_EVER = "1e9"
-"""Seconds that a system in the background may run."""
 STARTING = 60.0
 """Seconds that it may take until its nodes are seen, on a busy machine."""
 ENDING = 15.0
 """Seconds that it gets to bring the robot to rest and end its nodes, before it is killed."""
-KEPT_LOGS = 5
-"""Log files of earlier systems that are kept."""
 
 
 @dataclass(frozen=True)
@@ -34,17 +34,17 @@ class Background:
     pid: int
     words: tuple[str, ...]
     log: str
+    way_in: int = 0
+    """The process that lets other machines in; 0 where none does."""
 
     def runs(self) -> bool:
         """Whether it is still that program which has the process id."""
-        try:
-            command = Path(f"/proc/{self.pid}/cmdline").read_bytes()
-        except OSError:
-            with contextlib.suppress(OSError):
-                os.kill(self.pid, 0)
-                return not Path("/proc/self").exists()
-            return False
-        return b"--headless" in command
+        return _is_program(self.pid, SWITCH.encode())
+
+    def close_way_in(self) -> None:
+        """Let other machines in no more."""
+        if self.way_in and _is_program(self.way_in, b"router"):
+            os.kill(self.way_in, signal.SIGTERM)
 
     def told(self) -> str:
         """It on one line."""
@@ -55,6 +55,7 @@ def up(words: Sequence[str]) -> int:
     """Start a system in the background and wait until its robot is there."""
     from bot_console.tui.cli.arguments import parse
 
+    serving, words = _serving(words)
     options = parse(["--headless", *words])
     if options.fast:
         print("a system in the background runs in real time: leave --fast out", file=sys.stderr)
@@ -66,29 +67,74 @@ def up(words: Sequence[str]) -> int:
         print(problem, file=sys.stderr)
         return 1
     there = _known()
-    if there or (robot_there() and not options.launch):
-        who = there.told() if there else ", ".join(robot_there())
+    robot = [] if there or options.launch else robot_there()
+    if there or robot:
+        who = there.told() if there else ", ".join(robot)
         print(f"a robot runs already in ROS domain {domain()}: {who}; bot-console attach shows it", file=sys.stderr)
         return 1
-    log = _new_log()
-    line = [sys.executable, "-m", "bot_console.tui", "--headless", "--duration", FOR_EVER, *words]
-    with log.open("wb") as output:
+    log = new_log(os.getpid())
+    line = [sys.executable, "-m", SWITCH, str(log), *words]
+    with log.open("ab") as output:
         process = subprocess.Popen(
             line, stdin=subprocess.DEVNULL, stdout=output, stderr=output, start_new_session=True, close_fds=True
         )
-    started = Background(process.pid, tuple(words), str(log))
-    _file().write_text(json.dumps(asdict(started)), encoding="utf-8")
+    started = Background(process.pid, tuple(words), str(log), _open_way_in(serving, log) if serving else 0)
+    save_file(_file(), json.dumps(asdict(started)))
     deadline = time.monotonic() + STARTING
-    is_up = others_take_part if options.launch else robot_there
+    is_up = partial(_runs, process.pid) if options.launch else robot_there
     while process.poll() is None and not is_up() and time.monotonic() < deadline:
         time.sleep(0.1)
     if process.poll() is not None:
         _file().unlink(missing_ok=True)
+        started.close_way_in()
         print(f"it has ended with exit code {process.returncode}; its log is {log}", file=sys.stderr)
         return 1
     print(f"running in ROS domain {domain()}: {started.told()}")
     print("bot-console attach shows it, bot-console down ends it")
+    if serving and not _is_program(started.way_in, b"router"):
+        print(f"other machines are not let in; why is at the end of {log}", file=sys.stderr)
+        return 1
     return 0
+
+
+def _serving(words: Sequence[str]) -> tuple[list[str], list[str]]:
+    """The words for `bot-console router` where others are to be let in, and the rest."""
+    from bot_console.tui.cli.router import add_serving_options, serving_of, warning_of
+
+    parser = argparse.ArgumentParser("bot-console up", add_help=False)
+    parser.add_argument("--serve", action="append", metavar="ENDPOINT", default=[])
+    add_serving_options(parser)
+    given, rest = parser.parse_known_args(words)
+    if not given.serve:
+        return [], list(words)
+    warning = warning_of(serving_of(parser, given.serve, given))
+    if warning:
+        print(warning, file=sys.stderr)
+    routed = [word for each in given.serve for word in ("--listen", each)]
+    for option in ("tls_ca", "tls_certificate", "tls_key"):
+        if value := getattr(given, option):
+            routed += [f"--{option.replace('_', '-')}", value]
+    return routed, rest
+
+
+def _open_way_in(words: Sequence[str], log: Path) -> int:
+    """Start the process that lets other machines in."""
+    line = [sys.executable, "-m", "bot_console.tui", "router", "--mesh", *words]
+    with log.open("ab") as output:
+        return subprocess.Popen(
+            line, stdin=subprocess.DEVNULL, stdout=output, stderr=output, start_new_session=True, close_fds=True
+        ).pid
+
+
+def _is_program(pid: int, word: bytes) -> bool:
+    """Whether a process has that word in its command line, so that its number was not given to another."""
+    try:
+        return word in Path(f"/proc/{pid}/cmdline").read_bytes()
+    except OSError:
+        with contextlib.suppress(OSError):
+            os.kill(pid, 0)
+            return not Path("/proc/self").exists()
+        return False
 
 
 def down(words: Sequence[str]) -> int:
@@ -102,7 +148,9 @@ def down(words: Sequence[str]) -> int:
     if there is None:
         print(f"nothing runs in the background of ROS domain {domain()}", file=sys.stderr)
         return 1
-    for number in (signal.SIGTERM, signal.SIGKILL):
+    if robot_there():
+        _bring_to_rest()
+    for number in (signal.SIGTERM, getattr(signal, "SIGKILL", signal.SIGTERM)):
         with contextlib.suppress(ProcessLookupError):
             os.kill(there.pid, number)
         deadline = time.monotonic() + ENDING
@@ -110,9 +158,19 @@ def down(words: Sequence[str]) -> int:
             time.sleep(0.05)
         if not there.runs():
             break
+    there.close_way_in()
     _file().unlink(missing_ok=True)
     print(f"ended: {there.told()}")
     return 0
+
+
+def _bring_to_rest() -> None:
+    """A robot that can be held is, until its system has ended; one without an emergency stop ends with its nodes."""
+    from bot_console.runtime.importer import install
+    from bot_console.tui.cli import stop
+
+    install()
+    stop.ask("stop", "its system is being ended")
 
 
 def status(words: Sequence[str]) -> int:
@@ -144,21 +202,16 @@ def _file() -> Path:
     return Path(domain_folder(domain())) / "background.json"
 
 
+def _runs(pid: int) -> bool:
+    """Whether a system lets consoles in, which it does as soon as its first process runs."""
+    return (_file().parent / f"{pid}{DOOR}").exists()
+
+
 def _known() -> Background | None:
     """The system in the background, if it still runs."""
     try:
         found = json.loads(_file().read_text(encoding="utf-8"))
-        known = Background(int(found["pid"]), tuple(found["words"]), str(found["log"]))
+        known = Background(int(found["pid"]), tuple(found["words"]), str(found["log"]), int(found.get("way_in", 0)))
     except (OSError, ValueError, KeyError, TypeError):
         return None
     return known if known.runs() else None
-
-
-def _new_log() -> Path:
-    """A fresh log file; those of all but the newest systems go."""
-    folder = state_folder() / "systems"
-    folder.mkdir(parents=True, exist_ok=True)
-    old = sorted(folder.glob("*.log"), key=lambda each: each.stat().st_mtime)
-    for each in old[: max(0, len(old) - KEPT_LOGS + 1)]:
-        each.unlink(missing_ok=True)
-    return folder / f"{time.strftime('%Y%m%d-%H%M%S')}-{os.getpid()}.log"

@@ -11,6 +11,8 @@ import io
 import os
 from collections.abc import Callable, Iterable, Sequence
 
+from bot_console.tui.cli.arguments import profile_names
+
 Source = Callable[[Sequence[str]], Iterable[str]]
 """Gives the candidates for a place, from the words before it."""
 
@@ -40,7 +42,7 @@ def _offered(before: list[str], begun: str) -> Iterable[str]:
         return [*COMMANDS, *_OURS]
     command = load(before[0])
     if command is None:
-        return _OURS.get(before[0], ())
+        return _OUR_SOURCES[before[0]](before[1:]) if before[0] in _OUR_SOURCES else _OURS.get(before[0], ())
     verb = next((each for each in command.verbs if len(before) > 1 and each.name == before[1]), None)
     if command.verbs and verb is None:
         return [each.name for each in command.verbs] if len(before) == 1 else ()
@@ -55,7 +57,7 @@ def _offered(before: list[str], begun: str) -> Iterable[str]:
 def _options(arguments: Callable[[argparse.ArgumentParser], None]) -> list[str]:
     parser = argparse.ArgumentParser()
     arguments(parser)
-    return [option for action in parser._actions for option in action.option_strings]  # pyright: ignore[reportPrivateUsage]
+    return [option for action in parser._actions for option in action.option_strings]  # pyright: ignore[reportPrivateUsage] -- argparse offers no other way
 
 
 def _asked(*words: str) -> list[str]:
@@ -72,8 +74,19 @@ def _names(*words: str) -> Source:
     return lambda given: _asked(*words)
 
 
+def _live(*words: str) -> list[str]:
+    """The same of what runs in the domain; at once nothing where nobody is there."""
+    from bot_console.tui.cli.system.domain import others_take_part, take_part
+
+    return _asked(*words) if others_take_part() and not take_part() else []
+
+
+def _running(*words: str) -> Source:
+    return lambda given: _live(*words)
+
+
 def _parameters(given: Sequence[str]) -> Iterable[str]:
-    return _asked("param", "list", given[0])
+    return _live("param", "list", given[0])
 
 
 def _executables(given: Sequence[str]) -> Iterable[str]:
@@ -99,17 +112,25 @@ def _launch_files(given: Sequence[str]) -> Iterable[str]:
     return [name for _, _, names in os.walk(share) for name in names if name.endswith(endings)]
 
 
-_NODE = _names("node", "list")
-_TOPIC = _names("topic", "list")
-_SERVICE = _names("service", "list")
-_ACTION = _names("action", "list")
+_NODE = _running("node", "list")
+_TOPIC = _running("topic", "list")
+_SERVICE = _running("service", "list")
+_ACTION = _running("action", "list")
 _PACKAGE = _names("pkg", "list")
 _TYPE = _names("interface", "list")
 
 _OURS: dict[str, Sequence[str]] = {
+    "attach": (),
+    "config": (),
+    "down": (),
     "export": (),
+    "graph": ("--check", "--findings", "--rates"),
+    "release": (),
     "ros2": (),
     "setup": ("bash", "zsh", "fish"),
+    "status": (),
+    "stop": (),
+    "up": (),
     "rqt": (),
     "rqt_console": (),
     "rqt_graph": (),
@@ -119,13 +140,16 @@ _OURS: dict[str, Sequence[str]] = {
 }
 """The commands that are not `ros2`'s, and what may follow them."""
 
+_OUR_SOURCES: dict[str, Source] = {"rqt_plot": _TOPIC, "rqt_reconfigure": _NODE, "up": lambda given: profile_names()}
+"""Those of them after which names of what is there may follow."""
+
 _PLACES: dict[tuple[str, str], Sequence[Source]] = {
     ("action", "*"): (_ACTION,),
     ("interface", "package"): (_names("interface", "packages"),),
     ("interface", "*"): (_TYPE,),
     ("interface", "list"): (),
     ("launch", ""): (_packages_and_files, _launch_files),
-    ("lifecycle", "*"): (_names("lifecycle", "nodes"),),
+    ("lifecycle", "*"): (_running("lifecycle", "nodes"),),
     ("node", "info"): (_NODE,),
     ("param", "dump"): (_NODE,),
     ("param", "list"): (_NODE,),

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from bot_console.tui.save_file import NotSaved, save_file, typed_path
+from bot_console.tui.files.save_file import NotSaved, save_file, typed_path
 
 
 def run(words: list[str]) -> int:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-from bot_console.tui.cli.domain import take_part
+from bot_console.tui.cli.system.domain import take_part
+from bot_console.tui.cli.system.reaching import reach_system
 
 VERBS = ("action", "interface", "lifecycle", "node", "param", "pkg", "service", "topic")
 ALONE = ("interface", "pkg")
@@ -24,8 +25,14 @@ def main(words: Sequence[str]) -> int:
 
 def taking_part(words: Sequence[str]) -> int:
     """Run a command line in the domain that the environment names; what answers from files needs none."""
-    problem = "" if words[0] in ALONE else take_part()
+    problem = "" if words[0] in ALONE else take_part() if words[0] == "launch" else reach_system()
     if problem:
         print(problem, file=sys.stderr)
         return 1
+    if words[0] == "launch":
+        from bot_console.runtime.importer import install
+        from bot_console.tui.cli.system.own_processes import isolate
+
+        install()
+        isolate()
     return main(words)

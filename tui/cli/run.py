@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import shlex
 import sys
-from pathlib import Path
 
-from bot_console.runtime.workspace.choices import executable_names, package_names
-from bot_console.runtime.workspace.not_found import no_executable, no_package
-from bot_console.runtime.workspace.own import PAGE_NAME
 from bot_console.tui.cli.arguments import SIMULATOR_HELP, Options
-from bot_console.tui.cli.workspaces import PROGRAM_LAUNCH, tell_whose
+from bot_console.tui.cli.programs import program
+from bot_console.tui.cli.system.workspaces import PROGRAM_LAUNCH, tell_whose
 
 
 def run(words: list[str]) -> int:
@@ -22,7 +18,7 @@ def run(words: list[str]) -> int:
     tell_whose(rest[0] if rest else "")
     if not (given.watch or given.headless):
         from bot_console.runtime.run import main
-        from bot_console.tui.cli.domain import take_part
+        from bot_console.tui.cli.system.domain import take_part
 
         problem = take_part()
         if problem:
@@ -31,46 +27,22 @@ def run(words: list[str]) -> int:
         return main(rest)
     if not rest:
         parser.error("name a file or a package: bot-console run --watch FILE.py, or PACKAGE EXECUTABLE")
-    program, problem = _program(rest)
+    arguments, problem = program(rest, _hint)
     if problem:
         print(problem, file=sys.stderr)
         return 1
-    options = _options(given, program)
+    options = _options(given, arguments)
     if given.headless:
-        from bot_console.tui.cli.headless import run as run_headless
+        from bot_console.tui.cli.headless.run import run as run_headless
 
         return run_headless(options)
-    from bot_console.tui.cli.session import run as show
+    from bot_console.tui.cli.show import run as show
 
     return show(options)
 
 
-def _program(words: list[str]) -> tuple[dict[str, str], str]:
-    """What `program.launch.py` is launched with, and why that cannot be; the words are as `run` takes them."""
-    from bot_console.runtime.importer import install
-
-    install()
-    if words[0].endswith(".py") or Path(words[0]).is_file():
-        return {"program": str(Path(words[0]).resolve()), "words": shlex.join(words[1:])}, _fault(Path(words[0]))
-    package, executable, *rest = [*words, ""]
-    names = executable_names(package)
-    if package not in (*package_names(), PAGE_NAME):
-        return {}, no_package(package)
-    if not executable or executable.startswith("-"):
-        return {}, f"name an executable of package '{package}' as well; it has: {', '.join(names) or 'none'}"
-    arguments = {"package": package, "program": executable, "words": shlex.join(rest[:-1])}
-    return arguments, "" if executable in names else no_executable(package, executable)
-
-
-def _fault(file: Path) -> str:
-    from bot_console.runtime.plain_file import examine
-
-    if not file.is_file():
-        return f"{file} does not exist"
-    found = examine(file)
-    if found.hint:
-        print(f"[WARN] [bot-console]: {found.hint}", file=sys.stderr)
-    return found.problem
+def _hint(text: str) -> None:
+    print(f"[WARN] [bot-console]: {text}", file=sys.stderr)
 
 
 def _options(given: argparse.Namespace, program: dict[str, str]) -> Options:

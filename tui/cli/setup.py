@@ -2,18 +2,11 @@
 
 from __future__ import annotations
 
-import os
 import shlex
-import shutil
 import sys
 from collections.abc import Sequence
-from pathlib import Path
 
-EXECUTABLES = Path(__file__).resolve().parent / "executables"
-"""Executables named as those of ROS; scripts, `timeout` and `watch` find these, and would not find functions."""
-
-COMMAND_VARIABLE = "BOT_CONSOLE_COMMAND"
-"""Tells the executables which `bot-console` they are, whatever environment is active where they are called."""
+from bot_console.runtime.commands import BIN, COMMAND_VARIABLE, command
 
 HINT = "# For each new shell, put this line into {}: {}"
 
@@ -87,22 +80,14 @@ def code(shell: str) -> str:
     places = {
         "variable": COMMAND_VARIABLE,
         "command": shlex.quote(command()),
-        "rqt": shlex.quote(str(EXECUTABLES / "rqt")),
-        "ros2": shlex.quote(str(EXECUTABLES / "ros2")),
+        "rqt": shlex.quote(str(BIN / "rqt")),
+        "ros2": shlex.quote(str(BIN / "ros2")),
     }
     if shell == "fish":
         return _filled(_FISH, places)
     return _filled(_POSIX.replace("{{", "{").replace("}}", "}"), places) + _filled(
         _BASH if shell == "bash" else _ZSH, places
     )
-
-
-def command() -> str:
-    """The path of the `bot-console` that is running."""
-    called = sys.argv[0] if os.path.basename(sys.argv[0]) == "bot-console" else ""
-    beside = os.path.join(os.path.dirname(sys.executable), "bot-console")
-    found = shutil.which(called) if called else beside if os.access(beside, os.X_OK) else shutil.which("bot-console")
-    return os.path.abspath(found or beside)
 
 
 def evaluation(shell: str) -> str:

@@ -5,9 +5,15 @@ from __future__ import annotations
 import argparse
 import sys
 import time
+from typing import TYPE_CHECKING
 
 from bot_console.runtime.importer import install
-from bot_console.tui.cli.domain import take_part
+from bot_console.tui.cli.system.reaching import reach_system
+from bot_console.tui.console.robot.robot_model import RobotStop
+from bot_console.tui.format import harmless
+
+if TYPE_CHECKING:
+    from bot_console.tui.console.robot.stop_link import StopInfo
 
 PATIENCE = 3.0
 """Seconds to find the robot and hear its answer."""
@@ -19,41 +25,59 @@ def run(verb: str, words: list[str]) -> int:
     parser = argparse.ArgumentParser(f"bot-console {verb}", description=what)
     if verb == "stop":
         parser.add_argument("reason", nargs="?", default="ALL STOP", help="why, for others to read")
+    else:
+        parser.add_argument("--all", action="store_true", help="release what others have stopped, too")
     given = parser.parse_args(words)
-    alone = take_part()
+    alone = reach_system()
     if alone:
         print(alone, file=sys.stderr)
         return 1
     install()
+    done, info = ask(verb, getattr(given, "reason", ""), everybody=getattr(given, "all", False))
+    return _tell(verb, done, info)
+
+
+def ask(verb: str, reason: str, *, everybody: bool = False) -> tuple[bool, StopInfo]:
+    """Ask every robot that is found to lock or release, everybody's stops if so; whether all did, and what is known."""
     import rclpy
-    from bot_console.tui.console.stop_link import STATUS, StopLink
+    from bot_console.tui.console.robot.stop_link import STATUS, StopLink, user
 
     rclpy.init(args=[])
     node = rclpy.create_node("_bot_console_stop", enable_rosout=False, start_parameter_services=False)
-    link = StopLink(node)
+    # One key for all that this person types, so that one line takes back what another has stopped.
+    link = StopLink(node, f"bot-console {verb} of {user()}", f"bot-console stop of {user()}")
     if verb == "stop":
-        link.stop(given.reason)
+        link.stop(reason)
     deadline, done = time.monotonic() + PATIENCE, False
     while not done and time.monotonic() < deadline:
         names = node.get_topic_names_and_types()
         link.follow(name for name, types in names if STATUS in types and node.count_publishers(name))
-        if verb == "release" and link.info.stopped and not link.releasing:
-            link.release()
+        if verb == "release" and not link.releasing and (wanted := _to_release(link.info, everybody)):
+            link.release([each.key for each in wanted])
         link.repeat()
         for _ in range(10):
             rclpy.spin_once(node, timeout_sec=0.01)
-        known = link.info.locks > 0 and link.heard
-        done = known and (link.info.confirmed if verb == "stop" else not link.info.stopped)
+        left = not link.info.confirmed if verb == "stop" else _to_release(link.info, everybody)
+        done = link.info.locks > 0 and link.heard and not left
     node.destroy_node()
     rclpy.try_shutdown()
-    return _tell(verb, done, link.info.locks)
+    return done, link.info
 
 
-def _tell(verb: str, done: bool, locks: int) -> int:
+def _to_release(info: StopInfo, everybody: bool) -> list[RobotStop]:
+    """The stops that a release is to let go of: those of this person and of the nodes, or everybody's."""
+    return [each for each in info.stops if each.here or each.by_node or everybody]
+
+
+def _tell(verb: str, done: bool, info: StopInfo) -> int:
+    if done and verb == "release" and info.stopped:
+        others = "; ".join(f"{each.holder}: {each.reason}" for each in info.stops)
+        print(f"still held by {harmless(others)} (`bot-console release --all` releases this, too)", file=sys.stderr)
+        return 1
     if done:
         print("held: the robot is locked until a person releases it" if verb == "stop" else "released")
         return 0
-    why = "it has not answered" if locks else "no robot with an emergency stop was found (see docs/safety.md)"
+    why = "it has not answered" if info.locks else "no robot with an emergency stop was found (see docs/safety.md)"
     sent = "stop sent, not confirmed" if verb == "stop" else "not released"
     print(f"{sent}: {why}", file=sys.stderr)
     return 1

@@ -10,6 +10,7 @@ from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
+from rclpy.exceptions import InvalidHandle
 from rclpy.executors import Executor
 from rclpy.node import Node
 from rclpy.task import Future as RosFuture
@@ -21,6 +22,13 @@ PATIENCE = 5.0
 LOOKS = 5
 """How often the clock is looked at meanwhile. Each look counts once, however late it comes: while this program itself
 got no processor, nobody's answer could be taken, and none is overdue."""
+
+
+READY = 2.0
+"""Seconds that a new client has to find a server that is in the graph: on a network that takes its time."""
+
+READY_LOOK = 0.02
+"""Seconds between two looks whether it has."""
 
 
 class NoAnswer(Exception):
@@ -105,7 +113,7 @@ class Calls:
     async def ask(self, kind: Any, service: str, request: Any, patience: float = PATIENCE) -> Any:
         """Call a service; raises `NoAnswer` when no server is there or none answers in time."""
         client = self._client(kind, service)
-        if not client.service_is_ready():
+        if not (client.service_is_ready() or await self._gets_ready(client, service)):
             raise NoAnswer(f"no service {service} is offered; has its node ended?")
         answer: RosFuture[Any] = client.call_async(request)
         looks = itertools.count(1)
@@ -117,6 +125,28 @@ class Calls:
         timer = self._node.create_timer(patience / LOOKS, look)
         try:
             return await answer
+        finally:
+            self._node.destroy_timer(timer)
+
+    async def _gets_ready(self, client: Any, service: str) -> bool:
+        """Wait for a server that the graph has: a client that was just made has to find it first."""
+        if all(name != service for name, _ in self._node.get_service_names_and_types()):
+            return False
+        found: RosFuture[bool] = RosFuture()
+        looks = itertools.count(1)
+
+        def look() -> None:
+            try:
+                ready = client.service_is_ready()
+                over = ready or next(looks) * READY_LOOK >= READY
+            except InvalidHandle:  # its node has left meanwhile, see `forget`
+                ready, over = False, True
+            if over and not found.done():
+                found.set_result(ready)
+
+        timer = self._node.create_timer(READY_LOOK, look)
+        try:
+            return bool(await found)
         finally:
             self._node.destroy_timer(timer)
 

@@ -1,18 +1,20 @@
 """`RosConsole`: the `Console` protocol over a `ConsoleNode` in a thread of its own.
 
-Making one is cheap: rclpy and numpy are imported by the thread, so that the first frame need not wait for them.
+Making one is cheap: rclpy and numpy are imported by the thread, so that the first frame need not wait for them. Until
+then, and after it was closed, a `NoConsole` stands in the place of the `LinkedConsole`.
 """
 
 from __future__ import annotations
 
+import os
 import threading
 import time
 import traceback
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from bot_console.tui.console.model import (
     Capabilities,
@@ -20,51 +22,29 @@ from bot_console.tui.console.model import (
     ChangeSource,
     ConsoleSnapshot,
     LaunchInfo,
+    LinkInfo,
     LogFilter,
     LogRecord,
-    LogState,
-    Profile,
     ProfileDifference,
     SetOutcome,
     Severity,
     Value,
 )
-from bot_console.tui.console.protocol import Answer, LogFindings, LogView, Samples
+from bot_console.tui.console.no_console import CLOSED, STARTING, NoConsole, NothingKnown
+from bot_console.tui.console.parameters.provenance import Learn, Provenance
+from bot_console.tui.console.protocol import Answer, Console, LogView, Samples
+from bot_console.tui.console.traffic import Traffic
 
 if TYPE_CHECKING:
     from bot_console.tui.console.graph.watch import GraphEvents
-    from bot_console.tui.console.logs.store import LogStore
+    from bot_console.tui.console.launch.output import Add
     from bot_console.tui.console.logs.view import LogViews
     from bot_console.tui.console.node import ConsoleNode
+    from bot_console.tui.console.parameters.history import History
 
-T = TypeVar("T")
-STARTING = "the console is still connecting to the ROS system"
-CLOSED = "the console has closed"
 NOWHERE = ("", "", 0)
 NOTHING_LAUNCHED = LaunchInfo()
-LAST_WORD = 0.15
-"""Seconds that the final zero Twist has to reach the robot before anything is shut down."""
-
-
-class _EarlyView:
-    """A view that was asked for before there was a log: it has found nothing until it can be opened."""
-
-    def __init__(self, open_view: Callable[[], LogView | None]) -> None:
-        self._open_view = open_view
-        self._view: LogView | None = None
-
-    def look(self) -> LogFindings:
-        if self._view is None:
-            self._view = self._open_view()
-        return self._view.look() if self._view else NOTHING_FOUND
-
-
-class _NoNumbers(tuple[int, ...]):
-    def place(self, number: int) -> int:
-        return 0
-
-
-NOTHING_FOUND = LogFindings(_NoNumbers())
+NO_LINK = LinkInfo()
 
 
 class RosConsole:
@@ -75,127 +55,148 @@ class RosConsole:
         *,
         launch_info: Callable[[], LaunchInfo] = lambda: NOTHING_LAUNCHED,
         profile_folders: Sequence[Path] = (),
+        own_profiles: Path | None = None,
+        workspace_profiles: Callable[[], Sequence[Path]] = lambda: (),
         active_profile: str = "",
         capabilities: Capabilities | None = None,
-        run_line: Callable[[str], str] | None = None,
         graph_events: GraphEvents | None = None,
+        history: Path | None = None,
+        link: Callable[[], LinkInfo] = lambda: NO_LINK,
+        foreign: bool = False,
     ) -> None:
+        """`own_profiles` is where profiles are saved, `workspace_profiles` finds more folders that may hold some.
+
+        `history` is the file that keeps parameter changes for later runs; None: they are not kept.
+
+        `link` tells how a network is; `foreign` that the system is not ours, see `ConsoleNode`.
+        """
+        self._own_profiles = own_profiles
+        self._workspace_profiles = workspace_profiles
         self._launch_info = launch_info
         self._profile_folders = profile_folders
-        self._profiles: tuple[Profile, ...] = ()
         self._active_profile = active_profile
         self._capabilities = capabilities or Capabilities()
-        self._run_line = run_line
         self._graph_events = graph_events
-        self._node: ConsoleNode | None = None
-        self._logs: LogStore | None = None
-        self._views: LogViews | None = None
+        self._history_file = history
+        self._link = link
+        self._foreign = foreign
+        self._zeroed = False
         self._problem = ""
         self._ready = threading.Event()
+        self._connected = False
         self._thread = threading.Thread(target=self._serve, name="bot-console", daemon=True)
         self._closed = False
         self._snapshot = ConsoleSnapshot(capabilities=self._capabilities)
+        self._views: LogViews | None = None
+        self._add: Add = _nobody_reads
+        self._heard: Container[str] = ()
+        self._profile_names: dict[str, str] = {}
+        self._provenance = Provenance(lambda path: self._profile_names.get(os.path.realpath(path), ""))
+        self._learn: Learn = self._provenance.learn  # what is told before there is a node counts for it, too
+        self._nothing = NothingKnown(self._snapshot, lambda which: self._views.open(which) if self._views else None)
+        self._now: Console = NoConsole(STARTING, self._nothing)
 
     def start(self) -> None:
         """Connect to the ROS system, in the background."""
         self._thread.start()
 
     def _serve(self) -> None:
+        node: ConsoleNode | None = None
         try:
+            from bot_console.tui.console.linked_console import LinkedConsole
             from bot_console.tui.console.logs.store import LogStore
             from bot_console.tui.console.logs.view import LogViews
             from bot_console.tui.console.node import ConsoleNode
-            from bot_console.tui.console.parameters.profiles import find
+            from bot_console.tui.console.parameters.shelf import Shelf
 
-            self._logs = LogStore()
-            self._views = LogViews(self._logs)
-            self._node = ConsoleNode(self._logs.add, self._graph_events)
-            self._node.setter.profile = self._active_profile
-            self._profiles = find(self._profile_folders)
-            self._ready.set()
+            logs = LogStore()
+            self._add = logs.add
+            self._views = LogViews(logs)
+            shelf = Shelf(self._profile_folders, self._own_profiles, self._workspace_profiles())
+            self._profile_names = {os.path.realpath(each.path): each.name for each in shelf.profiles}
+            node = ConsoleNode(logs.add, self._graph_events, self._provenance, self._history(), foreign=self._foreign)
+            self._learn = node.learn
+            node.setter.profile = self._active_profile
+            self._heard = node.loggers
+            linked = LinkedConsole(node, logs, self._views, shelf, self._capabilities)
+            self._connected = True
             if self._closed:
-                self._node.close(CLOSED)
-            else:
-                self._node.spin()
+                self._now = NoConsole(CLOSED, linked)
+                node.close(CLOSED)
+                return
+            self._now = linked
+            self._ready.set()
+            node.spin()
         except Exception as error:  # the border of the thread: the panes show what ended it
             place = traceback.extract_tb(error.__traceback__)[-1]
             self._problem = f"the console's link to ROS has ended: {error} ({place.filename}:{place.lineno})"
-            if self._node:
-                self._node.calls.close(self._problem)
+            if node is None:
+                self._now = NoConsole(self._problem, self._nothing)
+            else:
+                node.calls.close(self._problem)  # the robot can still be stopped: that needs nobody who spins
         finally:
             self._ready.set()
 
+    def _history(self) -> History | None:
+        if self._history_file is None:
+            return None
+        from bot_console.tui.console.parameters.history import History
+
+        return History(self._history_file, time.time_ns())
+
     def wait_ready(self, timeout: float) -> bool:
         """Wait until connected, or the connection failed; whether it is connected."""
-        return self._ready.wait(timeout) and self._node is not None
+        return self._ready.wait(timeout) and self._connected
 
     def record(self, stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:
         """Take a log record that a process wrote to its console and that `/rosout` does not bring."""
-        if self._logs:
-            self._logs.add(stamp, severity, name, text, site)
+        self._add(stamp, severity, name, text, site)
 
     def heard(self, name: str) -> bool:
         """Whether `/rosout` has brought a line of the logger of that name."""
-        return self._node is not None and name in self._node.loggers
+        return name in self._heard
+
+    def learn(self, kind: str, facts: Mapping[str, Any]) -> None:
+        """Take in what a program or a launch tells of where parameters come from."""
+        self._learn(kind, facts)
 
     def printed(self, severity: int, label: str, text: str) -> None:
         """Take a line that a process printed."""
-        if self._logs:
-            self._logs.add(time.time_ns(), severity, label, text, NOWHERE)
+        self._add(time.time_ns(), severity, label, text, NOWHERE)
 
     def snapshot(self) -> ConsoleSnapshot:
         """The newest snapshot; the same object when nothing changed."""
-        old, node = self._snapshot, self._node
-        launch = self._launch_info()
-        if node is None:
-            new = replace(old, launch=launch, problem=self._problem)
-        else:
-            world = node.world.info
-            new = ConsoleSnapshot(
-                seq=old.seq,
-                graph=node.graph.info,
-                parameters=node.parameters.trees,
-                logs=self._logs.state if self._logs else LogState(),
-                journal=node.journal.state,
-                world=world,
-                drive=node.drive.info((world.speed, world.turn) if world.pose else None),
-                launch=launch,
-                profiles=self._profiles,
-                active_profile=node.setter.profile,
-                profile_changes=node.profile_changes(self._profile(node.setter.profile)),
-                capabilities=self._capabilities,
-                problem=self._problem,
-            )
+        old = self._snapshot
+        launch, link = self._launch_info(), self._link()
+        new = replace(self._now.snapshot(), seq=old.seq, launch=launch, link=link, problem=self._problem)
         if not _same(old, new):
             self._snapshot = replace(new, seq=old.seq + 1)
         return self._snapshot
 
+    @property
+    def traffic(self) -> Traffic:
+        """Topics, services and actions."""
+        return self._now.traffic
+
     def log(self, seq: int) -> LogRecord | None:
         """The log record of that number."""
-        return self._logs.record(seq) if self._logs else None
+        return self._now.log(seq)
 
     def matching_logs(self, which: LogFilter, after: int, limit: int | None = None) -> Sequence[int]:
         """Numbers of the records that pass a filter."""
-        if not self._logs:
-            return ()
-        from bot_console.tui.console.logs.search import matching
-
-        return matching(self._logs, which, after, limit)
+        return self._now.matching_logs(which, after, limit)
 
     def view_logs(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
         """Search for what passes a filter."""
-        if self._views:
-            return self._views.open(which, instead_of)
-        return _EarlyView(lambda: self._views.open(which) if self._views else None)
+        return self._now.view_logs(which, instead_of)
 
     def clear_logs(self) -> None:
         """Forget all log records."""
-        if self._logs:
-            self._logs.clear()
+        self._now.clear_logs()
 
     def changes(self, after: int = 0) -> Sequence[Change]:
         """Journal entries from a number on."""
-        return self._node.journal.after(after) if self._node else ()
+        return self._now.changes(after)
 
     def set_parameters(
         self,
@@ -206,125 +207,109 @@ class RosConsole:
         atomically: bool = False,
     ) -> Future[tuple[SetOutcome, ...]]:
         """Ask a node to take values."""
-        if self._node is None:
-            refused = (SetOutcome(node, name, value, False, self._why_not, "console") for name, value in values.items())
-            return _done(tuple(refused))
-        return self._node.set(node, values, source, atomically=atomically)
+        return self._now.set_parameters(node, values, source, atomically=atomically)
+
+    def set_all(
+        self, values: Mapping[str, Mapping[str, Value]], source: ChangeSource = ChangeSource.EDIT, by: str = ""
+    ) -> Future[tuple[SetOutcome, ...]]:
+        """Ask nodes to take values, all of them or none."""
+        return self._now.set_all(values, source, by)
 
     def undo(self) -> Future[Answer]:
         """Take the last change of this console back."""
-        return self._node.undo() if self._node else _done(Answer(False, self._why_not))
+        return self._now.undo()
 
     def redo(self) -> Future[Answer]:
         """Make the last undone change again."""
-        return self._node.redo() if self._node else _done(Answer(False, self._why_not))
+        return self._now.redo()
 
     def watch(self, path: str) -> Answer:
         """Collect a series."""
-        node = self._node
-        if node is None or self._closed:
-            return Answer(False, self._why_not)
-        return node.plots.watch(path, node.graph.info, node.parameters.trees)
+        return self._now.watch(path)
 
     def unwatch(self, path: str) -> None:
         """Stop collecting a series."""
-        if self._node and not self._closed:
-            self._node.plots.unwatch(path)
+        self._now.unwatch(path)
 
     def samples(self, path: str, after: int = 0) -> Samples:
         """New samples of a series."""
-        return self._node.plots.samples(path, after) if self._node else Samples((), (), after)
+        return self._now.samples(path, after)
 
     def plot_time(self, stamp: int | None = None) -> float:
         """Where a moment lies on the time axis of all series."""
-        return self._node.plots.axis_time(stamp) if self._node else 0.0
+        return self._now.plot_time(stamp)
 
     def plottable(self) -> Sequence[str]:
         """Paths that can be plotted."""
-        node = self._node
-        return node.plots.plottable(node.graph.info, node.parameters.trees) if node else ()
+        return self._now.plottable()
 
     def drive(self, linear: float, angular: float) -> None:
         """Send a velocity command."""
-        if self._node and not self._closed:
-            self._node.drive.drive(linear, angular)
+        if not self._link().silent_s:
+            self._zeroed = False
+            self._now.drive(linear, angular)
+        elif not self._zeroed:
+            # What waits in a link that is cut comes late: a zero is to be the last of it.
+            self._zeroed = True
+            self._now.drive(0.0, 0.0)
 
     def all_stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
-        """Lock the robot's emergency stop, or release it, and zero velocity now."""
-        if self._node and not self._closed:
-            self._node.drive.stop(hold, reason)
+        """Lock the robot's emergency stop, or take this console's stop back, and zero velocity now."""
+        self._now.all_stop(hold, reason)
+
+    def release(self, others: Sequence[str]) -> None:
+        """Take back this console's stop and the stops of others."""
+        self._now.release(others)
+
+    def choose_robot(self, robot: str) -> None:
+        """Steer another robot."""
+        self._now.choose_robot(robot)
 
     def steer(self, hold: bool) -> None:
         """Hold the steering, or hand it back."""
-        if self._node and not self._closed:
-            self._node.drive.steer(hold)
+        self._now.steer(hold)
 
     def call(self, service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:
         """Call any service."""
-        return self._node.call(service, type_name, fields) if self._node else _done(Answer(False, self._why_not))
+        return self._now.call(service, type_name, fields)
 
     def set_logger_level(self, node: str, severity: Severity) -> Future[Answer]:
         """Set a node's logger level."""
-        return self._node.set_logger_level(node, severity) if self._node else _done(Answer(False, self._why_not))
+        return self._now.set_logger_level(node, severity)
 
     def profile_differences(self, name: str) -> Sequence[ProfileDifference]:
         """What a profile would change."""
-        profile = self._profile(name)
-        return self._node.differences(profile) if self._node and profile else ()
+        return self._now.profile_differences(name)
 
     def apply_profile(self, name: str, *, reset_world: bool = False) -> Future[tuple[SetOutcome, ...]]:
         """Set a profile's values live."""
-        profile = self._profile(name)
-        why_not = self._why_not if self._node is None or self._closed else ""
-        if not why_not:
-            why_not = profile.problem if profile else f"there is no profile {name}"
-        if self._node is None or profile is None or why_not:
-            failed: Future[tuple[SetOutcome, ...]] = Future()
-            failed.set_exception(ValueError(why_not))
-            return failed
-        return self._node.apply(profile, reset_world)
+        return self._now.apply_profile(name, reset_world=reset_world)
 
-    def _profile(self, name: str) -> Profile | None:
-        return next((each for each in self._profiles if each.name == name), None)
+    def open_profile(self, path: str) -> Answer:
+        """Take a file in as a profile."""
+        return self._now.open_profile(path)
 
-    def save_parameters(self, path: str, nodes: Sequence[str] = ()) -> Answer:
+    def save_profile(self, name: str, description: str = "") -> Answer:
+        """Save what runs as a profile."""
+        return self._now.save_profile(name, description)
+
+    def save_parameters(self, path: str, nodes: Sequence[str] = (), *, only_changed: bool = False) -> Answer:
         """Write parameters to a file."""
-        return self._node.save(path, nodes) if self._node else Answer(False, self._why_not)
-
-    def run_line(self, line: str) -> Future[str]:
-        """Run a `ros2 ...` command line in a thread of its own."""
-        outcome: Future[str] = Future()
-        run = self._run_line
-        if run is None or self._closed:
-            return _done(CLOSED if self._closed else "no ros2 command line is available here")
-
-        def work() -> None:
-            try:
-                outcome.set_result(run(line))
-            except Exception as error:  # the border of the thread
-                outcome.set_exception(error)
-
-        threading.Thread(target=work, name="ros2", daemon=True).start()
-        return outcome
-
-    @property
-    def _why_not(self) -> str:
-        """Why nothing can be asked."""
-        return CLOSED if self._closed else self._problem or STARTING
+        return self._now.save_parameters(path, nodes, only_changed=only_changed)
 
     def close(self) -> None:
         """Zero velocity, then leave the ROS system; a second call does nothing."""
         if self._closed:
             return
         self._closed = True
-        if self._views:
-            self._views.close()
-        if self._node:
-            self._node.drive.close()
-            threading.Event().wait(LAST_WORD)
-            self._node.close(CLOSED)
+        before, self._now = self._now, NoConsole(CLOSED, self._now)
+        before.close()
         if self._thread.is_alive():
             self._thread.join(2.0)
+
+
+def _nobody_reads(stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:
+    """What is said before there is a log."""
 
 
 def _parts(snapshot: ConsoleSnapshot) -> dict[str, object]:
@@ -336,9 +321,3 @@ def _same(old: ConsoleSnapshot, new: ConsoleSnapshot) -> bool:
     parts = _parts(new)
     return all(value is getattr(old, name) or (isinstance(value, (str, int)) and value == getattr(old, name))
                for name, value in parts.items() if name not in ("seq", "stamp"))  # fmt: skip
-
-
-def _done(value: T) -> Future[T]:
-    future: Future[T] = Future()
-    future.set_result(value)
-    return future

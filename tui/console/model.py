@@ -12,7 +12,7 @@ from enum import Enum, IntEnum
 from types import MappingProxyType
 from typing import TypeAlias
 
-from bot_console.tui.console.robot_model import DriveInfo, WorldInfo
+from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
 
 Value: TypeAlias = "bool | int | float | str | tuple[bool | int | float | str | bytes, ...] | None"
 """A parameter's value; arrays are tuples, None is NOT_SET."""
@@ -74,6 +74,9 @@ class ParameterInfo:
     default: Value = None
     origin: str = ""
     """Where the value came from, in words; empty when unknown."""
+
+    declared_at: str = ""
+    """`file:line` of the declaration, whose value `default` then is; empty when unknown."""
 
     @property
     def unit(self) -> str:
@@ -137,6 +140,8 @@ class GraphInfo:
     nodes: tuple[NodeInfo, ...] = ()
     topics: tuple[Endpoint, ...] = ()
     services: tuple[Endpoint, ...] = ()
+    unheard: tuple[str, ...] = ()
+    """What keeps messages from passing though both ends are there, each with what to do."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,6 +189,8 @@ class ChangeSource(str, Enum):
     REDO = "redo"
     PROFILE = "profile"
     FILE = "file"
+    HISTORY = "history"
+    ROLLBACK = "taken back"
     OTHER = "elsewhere"
 
 
@@ -216,11 +223,18 @@ class Change:
     source: ChangeSource
     accepted: bool = True
     reason: str = ""
+    by: str = ""
+    """What it was a part of: the name of a profile, of a file."""
+    run: int = 0
+    """The run that saw it, by its start (ns since the epoch); 0 is this one."""
 
 
 @dataclass(frozen=True, slots=True)
 class JournalState:
-    """The change journal as a whole, numbered as the log is, and whether undo and redo have something to do."""
+    """The change journal as a whole, numbered as the log is, and whether undo and redo have something to do.
+
+    Changes of earlier runs are numbered below 0.
+    """
 
     first: int = 0
     end: int = 0
@@ -229,6 +243,8 @@ class JournalState:
     can_redo: bool = False
     unsaved: tuple[tuple[str, str], ...] = ()
     """Node and name of each value that was set from this console and is in no file, so that it would be lost."""
+    problem: str = ""
+    """Why changes are not kept for later runs; empty when they are, or when that was not asked for."""
 
 
 class ProcessState(str, Enum):
@@ -239,6 +255,8 @@ class ProcessState(str, Enum):
     STOPPING = "stopping"
     EXITED = "exited"
     CRASHED = "crashed"
+    MISSING = "missing"
+    """Its executable is not here, and the launch goes on without it."""
     ABANDONED = "abandoned"
 
 
@@ -273,12 +291,13 @@ class LaunchEvent:
 
 @dataclass(frozen=True, slots=True)
 class LaunchInfo:
-    """What the launcher knows; `problem` says why a launch file could not be run."""
+    """What the launcher knows; `problem` says why a launch file could not be run, `delayed` counts starts put off."""
 
     files: tuple[str, ...] = ()
     processes: tuple[ProcessInfo, ...] = ()
     timeline: tuple[LaunchEvent, ...] = ()
     problem: str = ""
+    delayed: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -301,6 +320,10 @@ class Profile:
     values: Mapping[tuple[str, str], Value] = field(default_factory=lambda: MappingProxyType({}))
     world: str = ""
     problem: str = ""
+    launch: str = ""
+    """The launch file that takes the place of the running system; empty for a parameter file."""
+    arguments: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
+    """The arguments of that launch file."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -317,6 +340,21 @@ class ProfileDifference:
     refusal: str = ""
     needs_reset: bool = False
     unsafe: str = ""
+    unknown: bool = False
+    """Whether the node has no such parameter, so that the value is left out."""
+
+
+@dataclass(frozen=True, slots=True)
+class LinkInfo:
+    """The link to a robot on a network: its other end (empty where there is none), and how it is."""
+
+    to: str = ""
+    delay_ms: int | None = None
+    """How long an answer takes."""
+    silent_s: int = 0
+    """Whole seconds for which nothing was answered; what is shown is that old."""
+    lost: int = 0
+    """Messages that did not arrive, as far as their numbers tell."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -324,6 +362,7 @@ class Capabilities:
     """What this system can tell or do; each text is empty when it can, else says why it cannot."""
 
     launch: str = ""
+    launched_elsewhere: str = ""
     world: str = ""
     pause_time: str = ""
     logger_levels: str = ""
@@ -343,6 +382,7 @@ class ConsoleSnapshot:
     world: WorldInfo = field(default_factory=WorldInfo)
     drive: DriveInfo = field(default_factory=DriveInfo)
     launch: LaunchInfo = field(default_factory=LaunchInfo)
+    link: LinkInfo = field(default_factory=LinkInfo)
     profiles: tuple[Profile, ...] = ()
     active_profile: str = ""
     """The profile that was applied last and not undone; empty where there was none."""

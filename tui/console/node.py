@@ -12,28 +12,33 @@ from typing import Any
 
 import rclpy
 from bot_console.tui.console.calls import Calls, NoAnswer
-from bot_console.tui.console.drive_link import DriveLink
 from bot_console.tui.console.graph.watch import GraphEvents, GraphWatch
 from bot_console.tui.console.launch.output import Add
 from bot_console.tui.console.model import (
     ChangeSource,
     GraphInfo,
+    ParameterTree,
     Profile,
     ProfileDifference,
     SetOutcome,
     Severity,
     Value,
 )
+from bot_console.tui.console.offered import OfferedSubscription
 from bot_console.tui.console.parameters.file import save
+from bot_console.tui.console.parameters.history import History
 from bot_console.tui.console.parameters.journal import Journal
 from bot_console.tui.console.parameters.mirror import ParameterMirror
 from bot_console.tui.console.parameters.profiles import differences
+from bot_console.tui.console.parameters.provenance import Provenance
 from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.console.parameters.setter import ParameterSetter
 from bot_console.tui.console.plot.watch import PlotWatch
 from bot_console.tui.console.protocol import Answer
-from bot_console.tui.console.world_watch import WorldWatch
-from bot_console.tui.save_file import NotSaved, typed_path
+from bot_console.tui.console.robot.drive_link import DriveLink
+from bot_console.tui.console.robot.world_watch import WorldWatch
+from bot_console.tui.console.topics.room import NodeTraffic
+from bot_console.tui.files.save_file import NotSaved, typed_path
 from rcl_interfaces.msg import Log, LoggerLevel
 from rcl_interfaces.srv import SetLoggerLevels
 from rclpy.context import Context
@@ -52,7 +57,16 @@ ROSOUT = QoSProfile(
 class ConsoleNode:
     """Watches a ROS system and acts on it for the panes; its methods may be called from any thread."""
 
-    def __init__(self, log: Add, graph_events: GraphEvents | None = None) -> None:
+    def __init__(
+        self,
+        log: Add,
+        graph_events: GraphEvents | None = None,
+        provenance: Provenance | None = None,
+        history: History | None = None,
+        *,
+        foreign: bool = False,
+    ) -> None:
+        """In a `foreign` system nothing is asked for before it is offered: its nodes would warn of us."""
         self.context = Context()
         rclpy.init(args=[], context=self.context)
         self.node = rclpy.create_node(
@@ -67,16 +81,20 @@ class ConsoleNode:
         self._log = log
         self.loggers: set[str] = set()
         """Names of the loggers that `/rosout` has brought lines of."""
-        self.journal = Journal()
+        self.journal = Journal(history=history)
         self.calls = Calls(self.node, self.executor)
         self.plots = PlotWatch(self.node)
         self.world = WorldWatch(self.node)
         self.drive = DriveLink(self.node)
-        self.parameters = ParameterMirror(self.node, self.calls, self._parameter_changed)
+        self.provenance = provenance or Provenance()
+        self.parameters = ParameterMirror(self.node, self.calls, self._parameter_changed, self.provenance)
         self._compared: tuple[Profile | None, object, int] = (None, None, 0)
         self.setter = ParameterSetter(self.calls, self.parameters, self.journal)
+        self.traffic = NodeTraffic(self.node, self.calls, lambda: self.graph.info)
+        self._rosout = OfferedSubscription(
+            self.node, Log, "/rosout", self._on_log, ROSOUT, eager=not foreign, once_weak=True
+        )
         self.graph = GraphWatch(self.node, self._graph_changed, graph_events)
-        self.node.create_subscription(Log, "/rosout", self._on_log, ROSOUT)
 
     def spin(self) -> None:
         """Serve until `close`; in the console's own thread."""
@@ -87,15 +105,19 @@ class ConsoleNode:
     def close(self, why: str) -> None:
         """End `spin` and leave the graph; what is or will be asked is answered with the reason."""
         self.graph.close()
+        self.traffic.close()
         self.calls.close(why)
         self.executor.shutdown(timeout_sec=1.0)
         self.node.destroy_node()
         self.context.try_shutdown()
+        self.journal.close()
 
     def _graph_changed(self, graph: GraphInfo) -> None:
+        self._rosout.follow()
         self.parameters.follow(graph)
         self.world.follow(graph)
         self.drive.follow(graph)
+        self.traffic.follow(graph)
 
     def _parameter_changed(self, node: str, name: str, old: Value, new: Value) -> ChangeSource:
         self.plots.parameter_is(node, name, new)
@@ -106,6 +128,12 @@ class ConsoleNode:
             text = f"{node} {name} {old} -> {new} {why}"
             self._log(time.time_ns(), Severity.WARN, "bot-console", text, ("", "", 0))
         return source
+
+    def learn(self, kind: str, facts: Mapping[str, Any]) -> None:
+        """Take in what a program or a launch tells of itself; from any thread."""
+        node = self.provenance.learn(kind, facts)
+        if node in self.parameters.trees:
+            self.calls.run(self.parameters.refresh(node), lambda why: None)
 
     def _on_log(self, message: Log) -> None:
         stamp = message.stamp.sec * 1_000_000_000 + message.stamp.nanosec
@@ -154,6 +182,13 @@ class ConsoleNode:
         wanted = [(node, name, value) for name, value in values.items()]
         return self.calls.run(self.setter.set(node, values, source, atomically=atomically), partial(refused, wanted))
 
+    def set_all(
+        self, values: Mapping[str, Mapping[str, Value]], source: ChangeSource, by: str
+    ) -> Future[tuple[SetOutcome, ...]]:
+        """Ask nodes to take values, all of them or none."""
+        wanted = [(node, name, value) for node, found in values.items() for name, value in found.items()]
+        return self.calls.run(self.setter.set_all(values, source, by), partial(refused, wanted))
+
     def undo(self) -> Future[Answer]:
         """Take the last change of this console back."""
         return self.calls.run(self.setter.undo(), _not_done)
@@ -170,12 +205,12 @@ class ConsoleNode:
         """How many values of a profile the running nodes do not have; worked out anew when a parameter changed."""
         trees = self.parameters.trees
         if self._compared[0] is not profile or self._compared[1] is not trees:
-            self._compared = (profile, trees, len(differences(profile, trees)) if profile else 0)
+            self._compared = (profile, trees, _count(profile, trees))
         return self._compared[2]
 
     def apply(self, profile: Profile, reset_world: bool) -> Future[tuple[SetOutcome, ...]]:
-        """Set what a profile changes, all or nothing per node, then reset the simulator when asked to."""
-        found = self.differences(profile)
+        """Set what a profile changes, all or nothing, then reset the simulator when asked to."""
+        found = [each for each in self.differences(profile) if not each.unknown]
         wanted = [(each.node, each.name, each.then) for each in found]
         return self.calls.run(self._apply(profile.name, found, reset_world), partial(refused, wanted))
 
@@ -184,15 +219,15 @@ class ConsoleNode:
         for each in found:
             by_node.setdefault(each.node, {})[each.name] = each.then
         outcomes = await self.setter.apply(name, by_node)
-        if reset_world:
+        if reset_world and all(each.accepted for each in outcomes):
             await self._call("/reset", "std_srvs/srv/Trigger", {})
         return outcomes
 
-    def save(self, path: str, nodes: Sequence[str]) -> Answer:
+    def save(self, path: str, nodes: Sequence[str], only_changed: bool = False) -> Answer:
         """Write parameters to a file."""
         try:
             place = typed_path(path)
-            saved = save(place, self.parameters.trees, tuple(nodes))
+            saved = save(place, self.parameters.trees, tuple(nodes), only_changed=only_changed)
         except NotSaved as error:
             return Answer(False, f"not saved: {error}")
         self.journal.saved(nodes)
@@ -202,6 +237,11 @@ class ConsoleNode:
 def refused(wanted: Iterable[tuple[str, str, Value]], why: str) -> tuple[SetOutcome, ...]:
     """Outcomes of values (node, name, value) that could not even be sent."""
     return tuple(SetOutcome(node, name, value, False, why, "console") for node, name, value in wanted)
+
+
+def _count(profile: Profile | None, trees: Mapping[str, ParameterTree]) -> int:
+    """How many values of a profile nodes do not have that could have them."""
+    return sum(not each.unknown for each in differences(profile, trees)) if profile else 0
 
 
 def _not_done(why: str) -> Answer:

@@ -1,4 +1,4 @@
-"""The two protocols between the panes and a ROS system. Standard library only.
+"""The protocols between the panes and a ROS system. Standard library only.
 
 `Console` is everything of the ROS graph, `Launcher` everything of processes. Both are read by pulling: nothing here
 blocks, and no method may be called from another thread than the one that draws, except `close`.
@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from bot_console.tui.console.model import (
     Change,
@@ -23,6 +23,9 @@ from bot_console.tui.console.model import (
     Severity,
     Value,
 )
+
+if TYPE_CHECKING:
+    from bot_console.tui.console.traffic import Traffic
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,8 +85,8 @@ class Answer:
     text: str = ""
 
 
-class Console(Protocol):
-    """A ROS system as the panes see it."""
+class ConsoleReading(Protocol):
+    """What is known of a ROS system."""
 
     def snapshot(self) -> ConsoleSnapshot:
         """The newest snapshot; unchanged parts are the same objects as before."""
@@ -104,12 +107,37 @@ class Console(Protocol):
         """Search for what passes a filter, and go on as records come; ends the search whose place it takes."""
         ...
 
-    def clear_logs(self) -> None:
-        """Forget all records; numbers go on."""
+    def changes(self, after: int = 0) -> Sequence[Change]:
+        """Journal entries numbered `after` and up, oldest first; those of earlier runs are numbered below 0."""
         ...
 
-    def changes(self, after: int = 0) -> Sequence[Change]:
-        """Journal entries numbered `after` and up, oldest first."""
+    def samples(self, path: str, after: int = 0) -> Samples:
+        """Samples of a watched series from cursor `after` on."""
+        ...
+
+    def plot_time(self, stamp: int | None = None) -> float:
+        """Where a moment (ns since the epoch; None is now) lies on the time axis of all series, in s."""
+        ...
+
+    def plottable(self) -> Sequence[str]:
+        """Paths that `watch` takes, for completion."""
+        ...
+
+    def profile_differences(self, name: str) -> Sequence[ProfileDifference]:
+        """What applying a profile would change now."""
+        ...
+
+
+class Console(ConsoleReading, Protocol):
+    """A ROS system as the panes see it: what is known of it, and what can be asked of it."""
+
+    @property
+    def traffic(self) -> Traffic:
+        """Its topics, services and actions, as a person uses them."""
+        ...
+
+    def clear_logs(self) -> None:
+        """Forget all records; numbers go on."""
         ...
 
     def set_parameters(
@@ -121,6 +149,16 @@ class Console(Protocol):
         atomically: bool = False,
     ) -> Future[tuple[SetOutcome, ...]]:
         """Ask a node to take values, as `SetParameters` (or `SetParametersAtomically`) does."""
+        ...
+
+    def set_all(
+        self, values: Mapping[str, Mapping[str, Value]], source: ChangeSource = ChangeSource.EDIT, by: str = ""
+    ) -> Future[tuple[SetOutcome, ...]]:
+        """Ask nodes to take values (by node and name), all of them or none; one undo takes all back.
+
+        `by` names what they are a part of. Where one is refused, nodes that had taken theirs are put back, and each
+        outcome says why; a value that could not be put back has `accepted` and a reason.
+        """
         ...
 
     def undo(self) -> Future[Answer]:
@@ -139,18 +177,6 @@ class Console(Protocol):
         """Stop collecting and forget the series."""
         ...
 
-    def samples(self, path: str, after: int = 0) -> Samples:
-        """Samples of a watched series from cursor `after` on."""
-        ...
-
-    def plot_time(self, stamp: int | None = None) -> float:
-        """Where a moment (ns since the epoch; None is now) lies on the time axis of all series, in s."""
-        ...
-
-    def plottable(self) -> Sequence[str]:
-        """Paths that `watch` takes, for completion."""
-        ...
-
     def drive(self, linear: float, angular: float) -> None:
         """Send a velocity command (m/s, rad/s) now; the pane repeats it. Refused silently while all-stop holds.
 
@@ -159,11 +185,20 @@ class Console(Protocol):
         ...
 
     def all_stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
-        """Lock the robot's emergency stop, or release it, and send zero velocity now.
+        """Lock the robot's emergency stop, or take this console's stop back, and send zero velocity now.
 
+        A robot that others have stopped as well stays locked until their stops are released.
         `DriveInfo.stop_confirmed` tells when it has been acknowledged. A robot that has none gets zeros while held.
         May be called from any thread.
         """
+        ...
+
+    def release(self, others: Sequence[str]) -> None:
+        """Take back this console's stop, and those of others by the keys in `DriveInfo.stops`."""
+        ...
+
+    def choose_robot(self, robot: str) -> None:
+        """Steer another one of `DriveInfo.robots`; an all-stop is for all of them."""
         ...
 
     def steer(self, hold: bool) -> None:
@@ -181,23 +216,26 @@ class Console(Protocol):
         """Set a node's logger level live."""
         ...
 
-    def profile_differences(self, name: str) -> Sequence[ProfileDifference]:
-        """What applying a profile would change now."""
-        ...
-
     def apply_profile(self, name: str, *, reset_world: bool = False) -> Future[tuple[SetOutcome, ...]]:
-        """Set a profile's values live; all or nothing per node. It is the active one when nothing was refused.
+        """Set a profile's values live, all or nothing. It is the active one when nothing was refused.
 
         The future raises `ValueError`, with the reason, for a profile that is not there or cannot be used.
         """
         ...
 
-    def save_parameters(self, path: str, nodes: Sequence[str] = ()) -> Answer:
-        """Write a true ROS parameter file; an existing file keeps its comments."""
+    def open_profile(self, path: str) -> Answer:
+        """Take a file in as a profile, so that it is seen what it would change; the text is its name, or why not."""
         ...
 
-    def run_line(self, line: str) -> Future[str]:
-        """Run a `ros2 ...` command line and give what it printed."""
+    def save_profile(self, name: str, description: str = "") -> Answer:
+        """Save all that runs as a profile of the user's, under a name and with a line on what it is for."""
+        ...
+
+    def save_parameters(self, path: str, nodes: Sequence[str] = (), *, only_changed: bool = False) -> Answer:
+        """Write a true ROS parameter file; an existing file keeps its comments.
+
+        With `only_changed` it holds what differs from the declared values, else from the start values.
+        """
         ...
 
     def close(self) -> None:
@@ -205,6 +243,35 @@ class Console(Protocol):
 
         What is known stays readable. Whatever is or was asked for is refused, so no future is left without an answer.
         """
+        ...
+
+
+class Stream(Protocol):
+    """A line that goes on until it is stopped."""
+
+    def lines(self) -> Sequence[str]:
+        """The last lines it has printed; the same object until there are more."""
+        ...
+
+    @property
+    def ended(self) -> bool:
+        """Whether nothing more comes."""
+        ...
+
+    def stop(self) -> None:
+        """Interrupt it, as Ctrl-C does."""
+        ...
+
+
+class CommandLine(Protocol):
+    """Runs `ros2 ...` lines."""
+
+    def run(self, line: str) -> Future[str]:
+        """Run a line and give what it printed."""
+        ...
+
+    def stream(self, line: str) -> Stream | None:
+        """Begin a line that goes on by itself, as `ros2 topic hz /odom` does; None for any other, which is not run."""
         ...
 
 

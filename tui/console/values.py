@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from bot_console.tui.console.kinds import ARRAYS, TYPES, field_of
 from bot_console.tui.console.model import Kind, ParameterInfo, Range, Value
+from bot_console.tui.console.parameter_types import ARRAYS, TYPES, field_of
 from bot_console.tui.console.parameters.origin import START
 from rcl_interfaces.msg import Parameter, ParameterDescriptor, ParameterValue
 
@@ -42,7 +42,7 @@ def to_message(name: str, value: Value, declared: Kind = Kind.NOT_SET) -> Parame
     """A `rcl_interfaces/msg/Parameter`; raises `ValueError` for a value that no parameter can hold."""
     kind = kind_of(value, declared)
     message = ParameterValue(type=int(kind))
-    if kind is Kind.INTEGER and not -(2**63) <= int(value) < 2**63:  # type: ignore[arg-type]
+    if kind is Kind.INTEGER and not -(2**63) <= int(value) < 2**63:  # type: ignore[arg-type] -- an integer, as its kind says
         raise ValueError(f"{value} does not fit into 64 bits")
     if kind is not Kind.NOT_SET:
         setattr(message, field_of(kind), list(value) if isinstance(value, tuple) else value)

@@ -4,21 +4,24 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from concurrent.futures import Future
 from pathlib import Path
 from typing import Any, ClassVar
 
 from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.console.protocol import Console, Launcher
+from bot_console.tui.console.protocol import Answer, Console, Launcher
+from bot_console.tui.files.save_file import NotSaved, typed_path
 from bot_console.tui.format import counted, harmless
-from bot_console.tui.save_file import NotSaved, typed_path
 from bot_console.tui.screens.door import screen_for
+from bot_console.tui.time_cursor import TimeCursor
 from bot_console.tui.widgets.prompt.common import file_line
-from bot_console.tui.widgets.prompt.line import Prompt
+from bot_console.tui.widgets.prompt.line import Prompt, asks
 from bot_console.tui.widgets.prompt.question import Confirmation, Line, Question
 from rich.text import Text
 from textual.app import App
 from textual.containers import Container
 from textual.message import Message
+from textual.widget import Widget
 
 
 class Pane(Container):
@@ -33,6 +36,9 @@ class Pane(Container):
     HELP: ClassVar[str | None] = ""
     """What the pane is for, in a few lines; the keys are listed from the key table."""
 
+    SCOPES: ClassVar[tuple[str, ...]] = ("list",)
+    """Scopes of the key table that act in the pane, beside the one of its own."""
+
     class PlotWanted(Message):
         """Somebody wants to see a path over time."""
 
@@ -40,17 +46,45 @@ class Pane(Container):
             super().__init__()
             self.path = path
 
-    def __init__(self, console: Console, launcher: Launcher | None = None, *, id: str | None = None) -> None:
+    class LineWanted(Message):
+        """Somebody wants to see what a `ros2` line prints."""
+
+        def __init__(self, line: str) -> None:
+            super().__init__()
+            self.line = line
+
+    class PaneWanted(Message):
+        """Somebody wants to see something in another pane."""
+
+        def __init__(self, pane: str, name: str) -> None:
+            super().__init__()
+            self.pane = pane
+            self.name = name
+
+    def __init__(
+        self,
+        console: Console,
+        launcher: Launcher | None = None,
+        *,
+        id: str | None = None,
+        time_cursor: TimeCursor | None = None,
+    ) -> None:
         super().__init__(id=id)
         self.console = console
         self.launcher = launcher
+        self.time_cursor = time_cursor or TimeCursor()
         self.border_title = self.TITLE
         self._caption = ""
 
     @property
+    def scopes(self) -> tuple[str, ...]:
+        """The scopes of the key table that act in the pane, its own first."""
+        return (self.id or "", *self.SCOPES)
+
+    @property
     def host(self) -> App[object]:
         """The app; what Textual's own property leaves unsaid of its type is said here once."""
-        return self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
+        return self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic, and its type is not told
 
     def caption(self, text: str) -> None:
         """Write into the lower edge of the frame; setting the same text again would draw the whole pane."""
@@ -72,21 +106,21 @@ class Pane(Container):
         else:
             self.host.push_screen(screen_for(question))
 
-    def ask_file(self, label: str, name: str, write: Callable[[Path], str]) -> None:
-        """Ask for a file to write, and again where it would replace one.
+    def ask_file(self, label: str, name: str, write: Callable[[Path], Answer], *, replaces: bool = True) -> None:
+        """Ask for a file to write, and again where it would replace one; then tell what came of it.
 
-        `write` gives what to tell then, or raises `NotSaved`.
+        `write` gives what to tell, or raises `NotSaved`; with `replaces` false it changes parts of a file only.
         """
 
         def save(path: Path) -> None:
             try:
-                self.notify(write(path), markup=False)
+                self.tell(write(path))
             except NotSaved as error:
-                self.notify(f"not saved: {error}", severity="error", markup=False)
+                self.tell(Answer(False, f"not saved: {error}"))
 
         def named(text: str) -> None:
             path = typed_path(text)
-            if os.path.isfile(path):
+            if replaces and os.path.isfile(path):
                 size = counted(path.stat().st_size, "byte")
                 self.ask(Confirmation(f"Replace {path}?", lambda _: save(path), reasons=f"There is a file of {size}."))
             else:
@@ -94,9 +128,42 @@ class Pane(Container):
 
         self.ask(file_line(label, name, named))
 
+    def tell(self, answer: Answer) -> None:
+        """Say what came of something that was asked for."""
+        if answer.text:
+            self.notify(answer.text, severity="information" if answer.ok else "error", markup=False)
+
+    def tell_later(self, answer: Future[Answer]) -> None:
+        """Say what came of it, as soon as that is known."""
+        answer.add_done_callback(lambda done: self.host.call_later(self.tell, answer_of(done)))
+
+    def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
+        """No key of the pane acts while something is typed in it."""
+        return not asks(self) and super().check_action(action, parameters)
+
+    def on_mount(self) -> None:
+        """Follow the moment that is looked at."""
+        self.time_cursor.follow(self)
+
+    def on_unmount(self) -> None:
+        """Follow it no more."""
+        self.time_cursor.leave(self)
+
+    def time_moved(self, stamp: int | None) -> None:
+        """Somebody chose another moment (ns since the epoch; None: now) to look at; also told while hidden."""
+
+    def go_to(self, name: str) -> None:
+        """Go to a node or a topic, as soon as it is there; the pane has just been shown."""
+
     def let_go(self) -> None:
         """Stop whatever must not go on without the pane; called when it ends by a fault."""
 
     def focus_target(self) -> None:
         """Take the keyboard: focus the part of the pane that the keys are for."""
-        self.query("*").filter(":can-focus").first().focus()
+        next((each for each in self.query(Widget) if each.focusable), self).focus()
+
+
+def answer_of(done: Future[Answer]) -> Answer:
+    """The answer of a call that has ended, be it by a fault."""
+    error = done.exception()
+    return Answer(False, str(error)) if error else done.result()

@@ -6,6 +6,7 @@ from typing import ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.format import harmless
+from bot_console.tui.screens.box import Boxed
 from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.widgets.prompt.question import Confirmation
 from rich.text import Text
@@ -15,7 +16,7 @@ from textual.containers import VerticalScroll
 from textual.widgets import Static
 
 
-class ConfirmScreen(QuestionScreen[None]):
+class ConfirmScreen(QuestionScreen[None], Boxed):  # pyright: ignore[reportIncompatibleMethodOverride] # of Textual
     """What is about to happen, and whether it shall."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("confirm")]
@@ -32,16 +33,12 @@ class ConfirmScreen(QuestionScreen[None]):
     def compose(self) -> ComposeResult:
         """The question and why it is asked."""
         reasons = self._confirmation.reasons
-        with VerticalScroll() as box:
+        with VerticalScroll(can_focus=False) as box:
             box.border_title = "Really?"
             box.border_subtitle = "y yes · n no"
             text = Text("\n".join(harmless(line) for line in reasons.splitlines()))
             text.append(("\n\n" if reasons else "") + harmless(self._confirmation.label), "bold")
             yield Static(text)
-
-    def on_mount(self) -> None:
-        """A long list of reasons is scrolled with the arrow keys."""
-        self.set_focus(self.query_one(VerticalScroll))
 
     def action_yes(self) -> None:
         """Do it."""

@@ -6,10 +6,11 @@ from typing import Any
 
 from bot_console.tui.screens.confirm import ConfirmScreen
 from bot_console.tui.screens.elements import ElementsScreen
+from bot_console.tui.screens.fill import FillScreen
 from bot_console.tui.screens.launch_arguments import ArgumentsScreen
 from bot_console.tui.screens.picker import PickerScreen
 from bot_console.tui.screens.question import QuestionScreen
-from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Elements, Form, Question
+from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Elements, Fill, Form, Question
 
 
 def screen_for(question: Question[Any]) -> QuestionScreen[Any]:
@@ -22,4 +23,6 @@ def screen_for(question: Question[Any]) -> QuestionScreen[Any]:
         return ElementsScreen(question)
     if isinstance(question, Form):
         return ArgumentsScreen(question)
+    if isinstance(question, Fill):
+        return FillScreen(question)
     raise TypeError(f"no screen asks a {type(question).__name__}")

@@ -7,11 +7,13 @@ from functools import partial
 from typing import ClassVar, TypeAlias
 
 from bot_console.tui import keymap
-from bot_console.tui.console.kinds import ARRAYS
 from bot_console.tui.console.model import Kind, Value
+from bot_console.tui.console.parameter_types import ARRAYS
+from bot_console.tui.console.query import Query, parse
 from bot_console.tui.format import counted, element_text, harmless, parse_element
 from bot_console.tui.screens.question import QuestionScreen
-from bot_console.tui.widgets.prompt.line import Prompt
+from bot_console.tui.widgets.prompt.filtered import Findable
+from bot_console.tui.widgets.prompt.line import Prompt, asks
 from bot_console.tui.widgets.prompt.question import Elements, Line
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.words import Words
@@ -36,6 +38,10 @@ class ElementRows(RowList):
         """How many elements there are."""
         return len(self.elements)
 
+    def matches(self, index: int, query: Query) -> bool:
+        """Whether an element, without its index, matches."""
+        return query.matches(element_text(self.elements[index]))
+
     def row(self, index: int, width: int) -> list[Segment]:
         """Index and value."""
         digits = len(str(max(0, len(self.elements) - 1)))
@@ -43,7 +49,7 @@ class ElementRows(RowList):
         return [Segment(f" {index:>{digits}}  ", dim), Segment(harmless(element_text(self.elements[index])))]
 
 
-class ElementsScreen(QuestionScreen[Value]):
+class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[reportIncompatibleMethodOverride] # of Textual
     """Asks for the elements of an array; nothing is set before the person says so."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("elements")]
@@ -79,6 +85,10 @@ class ElementsScreen(QuestionScreen[Value]):
         self._list.focus()
         self._tell()
 
+    def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
+        """No key of the list acts while an element is typed."""
+        return not asks(self) and super().check_action(action, parameters)
+
     def _tell(self, what: str = "") -> None:
         count = len(self._list.elements)
         state = counted(count, "element") if count else "empty: i inserts the first element"
@@ -98,6 +108,21 @@ class ElementsScreen(QuestionScreen[Value]):
             self._tell()
 
         self.query_one(Prompt).ask(Line(label, answered, text=text, check=partial(_wrong, self._asked.kind)))
+
+    def ask_words(self, line: Line) -> None:
+        """Ask below the list."""
+        self.query_one(Prompt).ask(line)
+
+    def filter_is(self, words: str) -> None:
+        """Nothing is hidden: an element is known by its index."""
+
+    def find(self, words: str, step: int) -> bool:
+        """The next element that matches."""
+        return self._list.find(parse(words), step)
+
+    def stands_on_match(self, words: str) -> bool:
+        """Whether the element at the cursor matches."""
+        return self._list.cursor < len(self._list.elements) and self._list.matches(self._list.cursor, parse(words))
 
     def _change(self) -> None:
         """Remember how the list was."""
@@ -157,7 +182,7 @@ class ElementsScreen(QuestionScreen[Value]):
         else:
             self.give_up()
 
-    def action_leave(self) -> None:
+    def action_give_up(self) -> None:
         """Give up; what was changed is dropped only when that is said twice."""
         if not self._changed or self._leaving:
             self.give_up()

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import ClassVar
 
 from bot_console.tui import keymap
-from bot_console.tui.keymap import TABLE, Key, key_text
+from bot_console.tui.keymap import TABLE
+from bot_console.tui.keys import Key, key_text
 from bot_console.tui.screens.overlay import Overlay
 from rich.console import RenderableType
 from rich.table import Table
@@ -19,19 +20,20 @@ class HelpScreen(Overlay):
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("help")]
 
-    def __init__(self, scope: str, title: str, text: str) -> None:
+    def __init__(self, scopes: Sequence[str], title: str, text: str) -> None:
         super().__init__(title or "Help")
-        self._scope = scope
+        self._scopes = scopes
         self._text = text
 
     def content(self) -> Iterable[RenderableType]:
         """The text, then two tables of keys."""
         if self._text:
             yield Text(self._text + "\n", "dim")
-        if self._scope in TABLE:
-            yield _keys(TABLE[self._scope])
+        own, *shared = (TABLE.get(each, ()) for each in self._scopes)
+        if own:
+            yield _keys(own)
         yield Text("\nEverywhere", "bold")
-        yield _keys((*TABLE["app"], *TABLE["diagram" if self._scope == "graph" else "list"]))
+        yield _keys((*TABLE["app"], *(key for keys in shared for key in keys)))
 
 
 def _keys(rows: tuple[Key, ...]) -> Table:

@@ -7,6 +7,7 @@ from typing import ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.format import harmless
+from bot_console.tui.screens.box import Boxed
 from rich.console import RenderableType
 from rich.text import Text
 from textual.app import ComposeResult
@@ -16,7 +17,7 @@ from textual.screen import ModalScreen
 from textual.widgets import Static
 
 
-class Overlay(ModalScreen[None]):
+class Overlay(ModalScreen[None], Boxed):  # pyright: ignore[reportIncompatibleMethodOverride] # of Textual
     """A title and what is to be read below it."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("overlay")]
@@ -36,24 +37,8 @@ class Overlay(ModalScreen[None]):
 
     def compose(self) -> ComposeResult:
         """The box."""
-        with VerticalScroll() as box:
+        with VerticalScroll(can_focus=False) as box:
             box.border_title = Text(harmless(self._heading))
             box.border_subtitle = "esc closes"
             for each in self.content():
                 yield Static(each)
-
-    @property
-    def _box(self) -> VerticalScroll:
-        return self.query_one(VerticalScroll)
-
-    def action_scroll_box(self, step: int) -> None:
-        """Scroll by a line."""
-        self._box.scroll_relative(y=step, animate=False)
-
-    def action_page_box(self, step: int) -> None:
-        """Scroll by a page."""
-        self._box.scroll_relative(y=step * max(1, self._box.size.height - 1), animate=False)
-
-    def action_end_of_box(self, end: int) -> None:
-        """To the top, or to the bottom."""
-        self._box.scroll_to(y=0 if end < 0 else self._box.max_scroll_y, animate=False)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.format import harmless
 from bot_console.tui.screens.question import QuestionScreen
+from bot_console.tui.widgets.item_list import ItemList
 from bot_console.tui.widgets.prompt.question import Choice, Option
-from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.words import Words
 from rich.segment import Segment
 from rich.text import Text
@@ -19,22 +18,14 @@ from textual.containers import Vertical
 from textual.widgets import Input
 
 
-class OptionRows(RowList):
+class OptionRows(ItemList[Option]):
     """Options: the title first, what is said about it after that."""
 
     can_focus = False
 
-    def __init__(self) -> None:
-        super().__init__()
-        self.options: Sequence[Option] = ()
-
-    def row_count(self) -> int:
-        """How many options there are."""
-        return len(self.options)
-
     def row(self, index: int, width: int) -> list[Segment]:
         """One option."""
-        option = self.options[index]
+        option = self.rows[index]
         chosen = index == self.cursor
         style = self.get_component_rich_style("row-list--strong" if chosen else "row-list--plain", partial=True)
         dim = self.get_component_rich_style("row-list--dim", partial=True)
@@ -71,6 +62,10 @@ class PickerScreen(QuestionScreen[str]):
             yield OptionRows()
             yield Words()
 
+    @property
+    def _list(self) -> OptionRows:
+        return self.query_one(OptionRows)
+
     def on_mount(self) -> None:
         """Typing narrows."""
         self.set_focus(self.query_one(Input))
@@ -82,24 +77,27 @@ class PickerScreen(QuestionScreen[str]):
         self._show(event.value)
 
     def _show(self, typed: str) -> None:
-        rows = self.query_one(OptionRows)
-        rows.options = self._choice.find(typed)
-        self.query_one(Vertical).border_subtitle = f"{len(rows.options)} of {self._every} · enter takes it · esc closes"
-        rows.set_reactive(RowList.cursor, 0)
-        rows.rows_changed()
-        rows.show_cursor()
-        self.query_one(Words).say("" if rows.options else self._choice.empty)
+        found, shown = self._choice.find(typed), self._list
+        self.query_one(Vertical).border_subtitle = f"{len(found)} of {self._every} · enter takes it · esc closes"
+        shown.cursor = 0
+        shown.exchange(found, stay=False)
+        self.query_one(Words).say("" if found else self._choice.empty)
 
     def on_input_submitted(self, event: Input.Submitted) -> None:
         """Take the option at the cursor."""
         event.stop()
-        rows = self.query_one(OptionRows)
-        if rows.cursor < len(rows.options):
-            option = rows.options[rows.cursor]
+        option = self._list.current
+        if option is not None:
             self.answer(option.value or option.title)
 
     def action_move(self, step: int) -> None:
         """Another option."""
-        rows = self.query_one(OptionRows)
-        rows.action_cursor(step)
-        rows.refresh()
+        self._list.action_cursor(step)
+
+    def action_page(self, step: int) -> None:
+        """Another page of options."""
+        self._list.action_page(step)
+
+    def action_end(self, end: int) -> None:
+        """The first option, or the last."""
+        self._list.action_end(end)

@@ -6,6 +6,7 @@ from typing import ClassVar, TypeVar
 
 from bot_console.tui import keymap
 from bot_console.tui.widgets.prompt.question import Asker, Question
+from textual.app import App
 from textual.binding import BindingType
 from textual.screen import ModalScreen
 
@@ -21,6 +22,11 @@ class QuestionScreen(Asker[A], ModalScreen[None]):
     def __init__(self, question: Question[A]) -> None:
         super().__init__()
         self._question = question
+
+    @property
+    def host(self) -> App[object]:
+        """The app; what Textual's own property leaves unsaid of its type is said here once."""
+        return self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic, and its type is not told
 
     def close(self) -> None:
         """Leave the screen."""

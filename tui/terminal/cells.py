@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from functools import lru_cache
 from typing import NamedTuple
 
+from bot_console.tui.terminal.plain import plain_text
 from rich.cells import get_character_cell_size
 from rich.color import ColorSystem
 from rich.segment import Segment
@@ -25,15 +26,19 @@ class Cells(NamedTuple):
     uneven: bool = False
 
 
-def cells_of(segments: Iterable[Segment], colours: ColorSystem) -> Cells:
-    """The cells of a piece of a line. A wide letter stands in its first cell, the other one is empty."""
+def cells_of(segments: Iterable[Segment], colours: ColorSystem, plain: bool = False) -> Cells:
+    """The cells of a piece of a line. A wide letter stands in its first cell, the other one is empty.
+
+    `plain` is for terminals that show ASCII alone: what the console draws with gets letters that look alike.
+    """
     letters: list[str] = []
     styles: list[str] = []
     uneven = False
-    for text, style, control in segments:
+    for given, style, control in segments:
         if control:
             continue
         before = len(letters)
+        text = plain_text(given) if plain else given
         if NARROW.fullmatch(text):
             letters += text
         else:
@@ -50,6 +55,7 @@ def _spread(text: str, letters: list[str]) -> None:
             letters.append(letter)
             letters += [""] * (width - 1)
         elif letters:
+            # A letter without width joins the one before it, which is two cells back if it is a wide one.
             letters[-1 if letters[-1] or len(letters) == 1 else -2] += letter
 
 

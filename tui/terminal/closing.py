@@ -11,14 +11,10 @@ from collections.abc import Generator
 from types import FrameType
 from typing import Any, cast
 
+from bot_console.tui.terminal.guardian import LAST_WORDS
+
 GRACE = 1.0
 """Seconds that a terminal has to take what is still to be written."""
-
-LAST_WORDS = (
-    "\x18\x1b[m\x1b[?2026l\x1b[?1000l\x1b[?1002l\x1b[?1003l\x1b[?1006l\x1b[?1015l\x1b[?1004l\x1b[?2004l\x1b[?7h\x1b[<u"
-    "\x1b[?1049l\x1b[?25h"
-)
-"""Ends a sequence that was cut off, then every mode that Textual has set, for when the terminal wakes up."""
 
 
 @contextlib.contextmanager
@@ -46,6 +42,7 @@ def _watch(writer: threading.Thread, done: threading.Event) -> None:
     if done.wait(GRACE) or not writer.is_alive() or writer.ident is None:
         return
     descriptor: int = cast(Any, writer)._file.fileno()  # of Textual's WriterThread
+    # Kept for the last words, and to be put back: the descriptor itself leads nowhere in a moment.
     terminal = os.dup(descriptor)
     sink = os.open(os.devnull, os.O_WRONLY)
     # A write that is interrupted is tried again on the same descriptor, which leads nowhere now.
@@ -61,11 +58,13 @@ def _watch(writer: threading.Thread, done: threading.Event) -> None:
 
 def _last_words(terminal: int) -> None:
     with contextlib.suppress(OSError, termios.error):
+        # What waits in the terminal's queue would come first, and it takes nothing.
         termios.tcflush(terminal, termios.TCOFLUSH)
         os.set_blocking(terminal, False)
         try:
             os.write(terminal, LAST_WORDS.encode())
         finally:
+            # The flag belongs to the terminal, not to this process: the shell would inherit it.
             os.set_blocking(terminal, True)
 
 

@@ -20,7 +20,9 @@ JUMP = 4
 class ShownScreen:
     """The cells of the terminal as they were written last."""
 
-    def __init__(self) -> None:
+    def __init__(self, plain: bool = False) -> None:
+        """`plain`: as `cells_of` has it."""
+        self._plain = plain
         self._letters: list[list[str]] = []
         self._styles: list[list[str]] = []
         self._strips: list[dict[int, list[Segment]]] = []
@@ -57,7 +59,7 @@ class ShownScreen:
             segments = list(strip)
             if segments != known[x]:
                 known[x] = segments
-                yield x, cells_of(segments, colours)
+                yield x, cells_of(segments, colours, self._plain)
 
     def _write(self, writer: Writer, y: int, x: int, new: Cells) -> None:
         letters, styles = self._letters[y], self._styles[y]
@@ -72,6 +74,7 @@ class ShownScreen:
         if uneven:
             # Terminals do not agree on how wide such letters are, so nothing after the first change is relied on.
             begin = differing[0]
+            # The second half of a wide letter cannot be written without the first.
             while begin > x and not letters[begin]:
                 begin -= 1
             differing = list(range(begin, end))

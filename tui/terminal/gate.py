@@ -47,6 +47,7 @@ class AnswerGate:
         while self._asked and now >= self._asked[0][1]:
             self._asked.popleft()
             self._disappointed += 1
+        # Held back only where it has ever answered: many terminals and recorders never do.
         if self._answers and len(self._asked) >= self._allowed:
             return self._asked[0][1] - now
         if now - self._pressed < EAGER:

@@ -22,6 +22,7 @@ class LastingFile:
             try:
                 return self._file.write(text)
             except OSError:
+                # The app learns of it otherwise: by the hang-up signal, or by the end of its input.
                 self.gone = True
         return len(text)
 

@@ -57,7 +57,7 @@ class GuardedScreen(HoldingScreen):
         try:
             await super()._dispatch_message(message)
         except Exception as error:  # the border of what is drawn
-            app = self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
+            app = self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic, and its type is not told
             if not (isinstance(app, GuardedApp) and app.contained(error)):
                 raise
 

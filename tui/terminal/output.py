@@ -40,7 +40,9 @@ class SparingApp(App[None]):
     def __init__(self) -> None:
         super().__init__()
         self.gate = AnswerGate()
-        self._shown = ShownScreen()
+        self.plain = False
+        """Whether letters take the place of lines and braille; `redraw` shows it."""
+        self._shown = ShownScreen(self.plain)
         self._writer: object = None
         self._held = False
 
@@ -66,12 +68,12 @@ class SparingApp(App[None]):
         ):
             self.gate.pressed()
         elif isinstance(event, events.Resize):
-            self._shown = ShownScreen()
+            self._shown = ShownScreen(self.plain)
         await super().on_event(event)
 
     def redraw(self) -> None:
         """Send every cell again: others have written to the terminal."""
-        self._shown = ShownScreen()
+        self._shown = ShownScreen(self.plain)
         self.refresh(repaint=True, layout=True)
 
     def may_draw(self) -> bool:
@@ -86,6 +88,7 @@ class SparingApp(App[None]):
 
     def _build_driver(self, *args: Any, **kwargs: Any) -> Driver:
         driver: Any = super()._build_driver(*args, **kwargs)
+        # Drivers without a terminal, as for tests, have none.
         if hasattr(driver, "_file"):
             driver._file = LastingFile(driver._file)
         return driver
@@ -105,6 +108,7 @@ class SparingApp(App[None]):
         return max(BUSY if busy else 0.0, self.gate.wait())
 
     def _look_again(self) -> None:
+        # Never 0: a batch that is held open would make the event loop spin.
         self.set_timer(max(0.005, min(self._waiting(), 0.5) if not self._batch_count else BUSY), self._draw_held)
 
     def _draw_held(self) -> None:
@@ -162,7 +166,7 @@ class HoldingScreen(Screen[None]):
     def _compositor_refresh(self) -> None:
         # Textual forgets here which widgets are dirty, though those that came after its last look are not drawn.
         self._compositor.update_widgets(self._dirty_widgets)
-        app = self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
+        app = self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic, and its type is not told
         if isinstance(app, SparingApp) and self is app.screen and not app.may_draw():
             self._dirty_widgets.clear()
             return

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Callable
 from typing import ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.widgets.diagram.drawing import Drawing, Place, Run, draw
 from bot_console.tui.widgets.diagram.flow import DOWN, RIGHT, Flow
 from bot_console.tui.widgets.diagram.graph import Digraph
+from bot_console.tui.widgets.diagram.overview_map import Window, map_lines, map_size, seen
 from rich.cells import cell_len
 from rich.segment import Segment
 from rich.style import Style
@@ -19,7 +21,7 @@ from textual.reactive import reactive
 from textual.scroll_view import ScrollView
 from textual.strip import Strip
 
-LARGE = 120
+LARGE = 60
 """Items from which on a graph is laid out beside the event loop."""
 
 MARGIN = 2
@@ -40,10 +42,14 @@ class DiagramView(ScrollView, can_focus=True):
     .diagram--linked { color: $primary; }
     .diagram--linked-chip { color: $primary; background: $panel; }
     .diagram--selected { color: $block-cursor-foreground; background: $block-cursor-background; text-style: bold; }
+    .diagram--fault { color: $error; text-style: bold; }
+    .diagram--map { color: $secondary; background: $panel; }
+    .diagram--seen { color: $foreground; background: $boost; text-style: bold; }
     .diagram--warn { color: $warning; background: $panel; }
     """
     COMPONENT_CLASSES: ClassVar[set[str]] = {
-        f"diagram--{each}" for each in ("box", "chip", "line", "linked", "linked-chip", "selected", "warn")
+        f"diagram--{each}"
+        for each in ("box", "chip", "line", "linked", "linked-chip", "selected", "warn", "fault", "map", "seen")
     }
 
     EMPTY: ClassVar[Digraph] = Digraph()
@@ -66,14 +72,21 @@ class DiagramView(ScrollView, can_focus=True):
         self._links: frozenset[tuple[str, str]] = frozenset()
         self._graph = Digraph()
         self._warned: frozenset[str] = frozenset()
+        self._faults: frozenset[tuple[str, str]] = frozenset()
+        self._map: tuple[object, list[str]] | None = None
         self._drawings: dict[Flow, Drawing] = {}
         self._flow: Flow | None = None
         self._selecting = False
         self._downward = False
 
-    def show(self, graph: Digraph, warned: frozenset[str] = frozenset()) -> None:
-        """Draw a graph; items in `warned` stand out. Selection and scroll position stay where they can."""
-        self._warned = warned
+    def show(
+        self,
+        graph: Digraph,
+        warned: frozenset[str] = frozenset(),
+        faults: frozenset[tuple[str, str]] = frozenset(),
+    ) -> None:
+        """Draw a graph; items in `warned` and edges in `faults` stand out. Selection and scrolling stay if they can."""
+        self._warned, self._faults = warned, faults
         if graph != self._graph:
             self._graph = graph
             self._drawings.clear()
@@ -122,6 +135,12 @@ class DiagramView(ScrollView, can_focus=True):
         drawing = self._drawings[flow]
         return max(1.0, drawing.width / width) * max(1.0, len(drawing.rows) / height)
 
+    def choose(self, item: str) -> None:
+        """Select an item that is drawn; it stays selected while it is."""
+        if item in self.places:
+            self._selecting = True
+            self.selected = item
+
     def action_turn(self) -> None:
         """Arrows to the right, down, or as it fits."""
         order: tuple[Flow | None, ...] = (None, RIGHT, DOWN)
@@ -157,7 +176,32 @@ class DiagramView(ScrollView, can_focus=True):
         if left < 0:
             segments.insert(0, Segment(" " * -left, base))
             left = 0
-        return Strip(segments).crop_extend(left, left + width, base)
+        strip = Strip(segments).crop_extend(left, left + width, base)
+        return self._with_map(strip, y, width)
+
+    def _with_map(self, strip: Strip, y: int, width: int) -> Strip:
+        """Lay the map of the whole picture over the lower right corner, where not all of it is seen."""
+        window = Window(self.scroll_offset.x, self.scroll_offset.y, width, self.size.height)
+        extent = (self.drawing.width, len(self.drawing.rows))
+        size = map_size(*extent, window)
+        line = y - (window.height - size[1])
+        if not size[0] or line < 0:
+            return strip
+        key = (id(self.drawing), size, self.selected)
+        if self._map is None or self._map[0] != key:
+            self._map = key, map_lines(self.places, extent, size, self.selected)
+        letters = self._map[1][line]
+        columns, lines = seen(extent, size, window)
+        inside = line in lines
+        first, last = (columns.start, columns.stop) if inside else (0, 0)
+        parts = ((letters[:first], "map"), (letters[first:last], "seen"), (letters[last:], "map"))
+        styles = {name: self.get_component_rich_style(f"diagram--{name}") for name in ("map", "seen")}
+        return Strip.join(
+            [
+                strip.crop(0, width - size[0] - 1),
+                Strip([Segment("▏", styles["map"]), *(Segment(text, styles[name]) for text, name in parts if text)]),
+            ]
+        )
 
     @property
     def _indent(self) -> int:
@@ -170,6 +214,8 @@ class DiagramView(ScrollView, can_focus=True):
     def _class(self, run: Run) -> str:
         selected = self.selected
         if not run.item:
+            if run.edges & self._faults:
+                return "fault"
             return "linked" if any(selected in edge for edge in run.edges) else "line"
         if run.item == selected:
             return "selected"
@@ -202,6 +248,18 @@ class DiagramView(ScrollView, can_focus=True):
             return
         beyond = [each for each, place in self.places.items() if _beyond(here, place, across, down)]
         self.selected = min(beyond, key=lambda each: self._distance(here, each, across, down), default=self.selected)
+
+    def find(self, wanted: Callable[[str], bool], step: int) -> bool:
+        """Select the next item that is wanted (`step` 1) or the one before (-1), by line, around the end."""
+        order = sorted(self.places, key=lambda each: (self.places[each].y, self.places[each].x))
+        at = order.index(self.selected) if self.selected in order else -1
+        found = next(
+            (each for away in range(1, len(order) + 1) if wanted(each := order[(at + step * away) % len(order)])), ""
+        )
+        if found:
+            self._selecting = True
+            self.selected = found
+        return bool(found)
 
     def _distance(self, here: Place, item: str, across: int, down: int) -> tuple[int, str]:
         place = self.places[item]

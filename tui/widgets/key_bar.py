@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import TypeAlias
 
-from bot_console.tui.keymap import TABLE, Key, key_text
+from bot_console.tui.keymap import TABLE
+from bot_console.tui.keys import Key, key_text
 from rich.style import Style
 from rich.text import Text
 from textual.events import Click
@@ -28,20 +29,21 @@ class KeyBar(Static):
         super().__init__("", markup=False)
         self._shown: object = None
         self._keys: list[Shown] = []
-        self._asked: tuple[str, bool, str] | None = None
+        self._asked: tuple[Sequence[str], bool, str] | None = None
 
-    def show(self, scope: str, typing: bool, colour: str) -> None:
-        """Show the keys of a scope of the key table; while typing, those of a text field."""
-        self._asked = (scope, typing, colour)
+    def show(self, scopes: Sequence[str], typing: bool, colour: str) -> None:
+        """Show the keys of scopes of the key table; while typing, those of a text field."""
+        self._asked = (scopes, typing, colour)
         width = self.size.width - 2
-        now = (scope, typing, colour, width)
+        now = (scopes, typing, colour, width)
         if now == self._shown or width < 1:
             return
         self._shown = now
         if typing:
             own, everywhere = [("enter", "take it", "enter"), ("esc", "give up", "escape")], []
         else:
-            own, everywhere = list(_named(TABLE.get(scope, ()))), list(_named(TABLE["app"]))
+            own = [key for scope in scopes for key in _named(TABLE.get(scope, ()))]
+            everywhere = list(_named(TABLE["app"]))
         while own and _line([*own, *everywhere], colour).cell_len > width:
             own.pop(next((at for at in reversed(range(len(own))) if own[at][2] != FILTER), 0))
         while everywhere and _line([*own, *everywhere], colour).cell_len > width:
@@ -60,7 +62,7 @@ class KeyBar(Static):
         for key in self._keys:
             begin, end = end, end + _line([key], "").cell_len + len(GAP)
             if begin <= event.x - 1 < end:
-                self.app.simulate_key(key[2])  # pyright: ignore[reportUnknownMemberType]
+                self.app.simulate_key(key[2])  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic, and its type is not told
 
 
 def _named(keys: Iterable[Key]) -> Iterable[Shown]:

@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import ClassVar, TypeAlias
 
 from rich.cells import cell_len
 from rich.segment import Segment
+from rich.style import Style
 from textual.geometry import Region
 from textual.message import Message
 from textual.strip import Strip
 from textual.widget import Widget
 
 Piece: TypeAlias = "tuple[str, str]"
-"""Text and the name of its style, one of `Picture.STYLES`; empty for the plain one."""
+"""Text and the name of its style, one of `Picture.STYLES`; empty for the plain one.
+
+Where the colours are data, as in a drawing, the name says them: `#b3b8ff on #4556ff`.
+"""
 
 Line: TypeAlias = "tuple[Piece, ...]"
 
@@ -37,12 +42,12 @@ class Picture(Widget):
     .picture--error { color: $error; }
     .picture--accent { color: $primary; }
     .picture--robot { color: $background; background: $success; text-style: bold; }
-    .picture--curve-0 { color: #6cb6ff; }
-    .picture--curve-1 { color: #e0a458; }
-    .picture--curve-2 { color: #57ab9a; }
-    .picture--curve-3 { color: #dcbdfb; }
-    .picture--curve-4 { color: #f47067; }
-    .picture--curve-5 { color: #c6d166; }
+    .picture--curve-0 { color: $curve-0; }
+    .picture--curve-1 { color: $curve-1; }
+    .picture--curve-2 { color: $curve-2; }
+    .picture--curve-3 { color: $curve-3; }
+    .picture--curve-4 { color: $curve-4; }
+    .picture--curve-5 { color: $curve-5; }
     """
     COMPONENT_CLASSES: ClassVar[set[str]] = {f"picture--{each}" for each in STYLES}
 
@@ -72,15 +77,20 @@ class Picture(Widget):
         """One line."""
         base = self.rich_style
         pieces = self.lines[y] if y < len(self.lines) else ()
-        segments = [
-            Segment(text, base + self.get_component_rich_style(f"picture--{name}", partial=True) if name else base)
-            for text, name in pieces
-        ]
+        segments = [Segment(text, base + self._style(name) if name else base) for text, name in pieces]
         return Strip(segments).adjust_cell_length(self.size.width, base)
+
+    def _style(self, name: str) -> Style:
+        return _colors(name) if "#" in name else self.get_component_rich_style(f"picture--{name}", partial=True)
 
     def on_resize(self) -> None:
         """Tell, so that lines for this size are made."""
         self.post_message(self.Resized())
+
+
+@lru_cache(maxsize=1024)
+def _colors(name: str) -> Style:
+    return Style.parse(name)
 
 
 def changes(before: Line, after: Line, width: int) -> list[tuple[int, int]]:

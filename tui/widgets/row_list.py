@@ -5,8 +5,10 @@ from __future__ import annotations
 from typing import ClassVar
 
 from bot_console.tui import keymap
+from bot_console.tui.console.query import Query
 from rich.segment import Segment
 from rich.style import Style
+from textual.events import Click
 from textual.geometry import Region, Size
 from textual.message import Message
 from textual.reactive import reactive
@@ -15,6 +17,8 @@ from textual.strip import Strip
 
 LOUD = ("warn", "error", "good")
 """Styles whose colour says something."""
+UNCUT = 1000
+"""Cells in which a row that is searched has room for all it says."""
 
 
 class RowList(ScrollView, can_focus=True):
@@ -54,6 +58,11 @@ class RowList(ScrollView, can_focus=True):
         """The segments of a row; they are padded to the width (cells), or end there in an ellipsis."""
         raise NotImplementedError
 
+    @property
+    def across(self) -> int:
+        """The cells that a row has: those beside the scroll bar."""
+        return self.scrollable_content_region.width
+
     def rows_changed(self) -> None:
         """Rows came, went or moved: draw anew."""
         count = self.row_count()
@@ -73,7 +82,7 @@ class RowList(ScrollView, can_focus=True):
     def render_line(self, y: int) -> Strip:
         """One line of what is seen."""
         index = y + self.scroll_offset.y
-        width = self.size.width
+        width = self.across
         base = self.rich_style
         if index >= self.row_count():
             return Strip.blank(width, base)
@@ -118,9 +127,22 @@ class RowList(ScrollView, can_focus=True):
         if self.cursor == before:
             self.post_message(self.Moved(self, before))
 
-    def on_click(self, event: object) -> None:
+    def matches(self, index: int, query: Query) -> bool:
+        """Whether a row matches a filter; here by what is drawn."""
+        return query.matches("".join(each.text for each in self.row(index, UNCUT)))
+
+    def find(self, query: Query, step: int) -> bool:
+        """Move the cursor to the next match (`step` 1) or the previous (-1), around the end; whether there is any."""
+        count = self.row_count()
+        places = ((self.cursor + step * away) % count for away in range(1, count + 1))
+        place = next((each for each in places if self.matches(each, query)), None)
+        if place is not None:
+            self.cursor = place
+        return place is not None
+
+    def on_click(self, event: Click) -> None:
         """A click moves the cursor."""
-        y = getattr(event, "y", 0) + self.scroll_offset.y
+        y = event.y + self.scroll_offset.y
         if y < self.row_count():
             self.cursor = y
 

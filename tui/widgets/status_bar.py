@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from bot_console.tui.console.model import ConsoleSnapshot, ProcessState, Severity
-from bot_console.tui.console.robot_model import DriveInfo
+from bot_console.tui.console.model import ConsoleSnapshot, LinkInfo, ProcessState, Severity
+from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.format import counted, harmless, profile_text
+from bot_console.tui.safety.stop_words import stop_text
 from bot_console.tui.widgets.words import Words
 
 
@@ -22,7 +23,7 @@ class StatusBar(Words):
         """Say how things are."""
         self._acknowledged = min(self._acknowledged, errors_of(snapshot))  # a log that was emptied counts anew
         self.say(status_text(snapshot, held_back, self._acknowledged))
-        self.set_class(snapshot.drive.stopped, "stopped")
+        self.set_class(snapshot.drive.stopped or bool(snapshot.link.silent_s), "stopped")
 
     def acknowledge(self, snapshot: ConsoleSnapshot) -> None:
         """Count only the errors that come from now on."""
@@ -38,7 +39,8 @@ def status_text(snapshot: ConsoleSnapshot, held_back: int = 0, acknowledged: int
     """The line; `acknowledged` errors are not told any more."""
     if snapshot.problem:
         return harmless(snapshot.problem)
-    parts = [stop_text(snapshot.drive)] if snapshot.drive.stopped else []
+    parts = [link_text(snapshot.link)] if snapshot.link.silent_s else []
+    parts += [stop_text(snapshot.drive)] if snapshot.drive.stopped else []
     dead = [each.label for each in snapshot.launch.processes if each.state is ProcessState.CRASHED]
     if dead:
         parts.append(f"✗ ended: {harmless(', '.join(dead))}")
@@ -50,26 +52,25 @@ def status_text(snapshot: ConsoleSnapshot, held_back: int = 0, acknowledged: int
     parts.append(drive_text(snapshot.drive))
     if snapshot.active_profile:
         parts.append(profile_text(snapshot))
+    if snapshot.link.to and not snapshot.link.silent_s:
+        parts.append(link_text(snapshot.link))
     if held_back:
         parts.append(f"slow link: {held_back} frames merged in 5 s")
     return "  ".join(each for each in parts if each)
+
+
+def link_text(link: LinkInfo) -> str:
+    """How the link to a robot is: silent, or how long an answer takes, and what was lost on it."""
+    if link.silent_s:
+        return f"✗ NO ANSWER from {harmless(link.to)} for {link.silent_s} s: all that is shown is that old"
+    delay = "" if link.delay_ms is None else f" {link.delay_ms} ms"
+    return f"{harmless(link.to)}{delay}" + (f", {counted(link.lost, 'message')} lost" if link.lost else "")
 
 
 def reason_first(problem: str) -> str:
     """A problem that begins with the path of a file, as its reason with the file's name behind it."""
     path, colon, why = problem.partition(": ")
     return f"{why} ({path.rpartition('/')[2]})" if colon and path.startswith("/") else problem
-
-
-def stop_text(drive: DriveInfo) -> str:
-    """What is known of a stop: held is said only when the robot has acknowledged it."""
-    if not drive.lockable:
-        return "STOP SENT, NOT CONFIRMED: zeros only, this robot has no emergency stop (! ends them)"
-    if not drive.stop_confirmed:
-        return "STOP SENT, NOT CONFIRMED (! sends it again)"
-    who = "" if drive.stop_holder in ("", "this console") else f" by {harmless(drive.stop_holder)}"
-    why = f": {harmless(drive.stop_reason)}" if drive.stop_reason not in ("", "ALL STOP") else ""
-    return f"ALL STOP held{who}{why} (! releases)"
 
 
 def drive_text(drive: DriveInfo) -> str:

@@ -3,21 +3,60 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TypeAlias
 
+from bot_console.tui.format import harmless
 from rich.style import Style
 from rich.text import Text
+from textual.events import Click
+from textual.message import Message
+from textual.widgets import Static
+
+Mark: TypeAlias = "tuple[str, str, str, str, bool]"
+"""A pane's digit, title, short title and id, and whether it is shown."""
 
 
-def tabs_text(marks: Sequence[tuple[str, str, str, bool]], width: int, colour: str) -> Text:
+class Tabs(Static):
+    """Digits and titles; a click shows the pane."""
+
+    class Chosen(Message):
+        """A tab was clicked."""
+
+        def __init__(self, pane: str) -> None:
+            super().__init__()
+            self.pane = pane
+
+    def __init__(self) -> None:
+        super().__init__("", markup=False)
+        self._ends: list[tuple[int, str]] = []
+
+    def show(self, marks: Sequence[Mark], width: int, colour: str) -> None:
+        """Show the tabs as wide as there is room."""
+        parts = tab_texts(marks, width, colour)
+        end = 0
+        self._ends = []
+        for part, mark in zip(parts, marks, strict=False):  # none where there is no room at all
+            end += part.cell_len + 1
+            self._ends.append((end, mark[3]))
+        self.update(Text(" ", no_wrap=True).join(parts), layout=False)
+
+    def on_click(self, event: Click) -> None:
+        """Choose the tab under the mouse."""
+        for end, pane in self._ends:
+            if event.x - 1 < end:
+                self.post_message(self.Chosen(pane))
+                return
+
+
+def tab_texts(marks: Sequence[Mark], width: int, colour: str) -> list[Text]:
     """Digits and titles of the panes; short titles, then none but the shown one's, where there is little room."""
     for form in ("long", "short", "digits"):
         parts: list[Text] = []
-        for digit, title, brief, shown in marks:
+        for digit, title, brief, _, shown in marks:
             word = title if form == "long" else (brief if form == "short" or shown else "")
-            label = f"{digit} {word}".strip()
+            label = harmless(f"{digit} {word}".strip())
             padded = f"[{label}]" if shown else (label if form == "short" else f" {label} ")
             parts.append(Text(padded, Style(color=colour, bold=True, reverse=True) if shown else ""))
-        text = Text(" ", no_wrap=True).join(parts)
-        if text.cell_len <= width:
-            return text
-    return Text()
+        if sum(part.cell_len + 1 for part in parts) - 1 <= width:
+            return parts
+    return []

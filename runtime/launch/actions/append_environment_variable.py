@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import os
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
-from launch.frontend import expose_action
+from launch.frontend.expose import expose_action
 from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+    from launch.launch_context import LaunchContext
 
 
 @expose_action("append_env")
@@ -24,7 +29,7 @@ class AppendEnvironmentVariable(Action):
         self.__separator = normalize_to_list_of_substitutions(separator)
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[type[AppendEnvironmentVariable], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[AppendEnvironmentVariable], dict[str, Any]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
@@ -57,7 +62,7 @@ class AppendEnvironmentVariable(Action):
         """What goes between."""
         return self.__separator
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         """Add it."""
         name = perform_substitutions(context, self.__name)
         value = perform_substitutions(context, self.__value)

@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import launch.logging
 from launch.action import Action
-from launch.frontend import expose_action
+from launch.argument_discovery import DeclaresArgument
+from launch.frontend.expose import expose_action
 from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+    from launch.launch_context import LaunchContext
+
 
 @expose_action("arg")
-class DeclareLaunchArgument(Action):
+class DeclareLaunchArgument(Action, DeclaresArgument):
     """Declares an argument: sets the configuration of its name to a default where nobody has set it."""
 
     def __init__(
@@ -36,7 +42,7 @@ class DeclareLaunchArgument(Action):
         self._conditionally_included = False
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[type[DeclareLaunchArgument], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[DeclareLaunchArgument], dict[str, Any]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["name"] = parser.escape_characters(entity.get_attr("name"))
@@ -91,7 +97,7 @@ class DeclareLaunchArgument(Action):
         """The values that it may have; None: any."""
         return self.__choices
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         """Set the default where it is needed; raises `RuntimeError` for a missing or wrong value."""
         context.declared_arguments.add(self.name)
         if self.name not in context.launch_configurations:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
 from launch.event import Event
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class EmitEvent(Action):
@@ -13,7 +16,7 @@ class EmitEvent(Action):
 
     def __init__(self, *, event: Event, **kwargs: Any) -> None:
         super().__init__(**kwargs)
-        if not isinstance(event, Event):
+        if not isinstance(event, Event):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
             raise RuntimeError(f"EmitEvent() expected an event instance, got '{event}'.")
         self.__event = event
 
@@ -22,6 +25,6 @@ class EmitEvent(Action):
         """The event."""
         return self.__event
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         """Emit it."""
         context.emit_event_sync(self.__event)

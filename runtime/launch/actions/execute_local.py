@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import os
 import traceback
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import launch.logging
 from launch.action import Action
@@ -13,10 +13,12 @@ from launch.child import Child, PythonProgram, start_child
 from launch.conditions import evaluate_condition_expression
 from launch.descriptions import Executable
 from launch.escalation import Escalation
-from launch.event_handlers import OnProcessExit, OnProcessIO, OnShutdown
+from launch.event_handlers.on_action_event_base import OnActionEventBase
+from launch.event_handlers.on_shutdown import OnShutdown
 from launch.event_handlers.on_targeted_process import OnTargetedProcess
 from launch.events.process import (
     ProcessExited,
+    ProcessIO,
     ProcessStarted,
     ProcessStderr,
     ProcessStdout,
@@ -30,6 +32,9 @@ from launch.substitution import Substitution
 from launch.substitutions.launch_configuration import LaunchConfiguration
 from launch.utilities import create_future, normalize_to_list_of_substitutions, perform_substitutions
 from launch.utilities.type_utils import normalize_typed_substitution
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class ExecuteLocal(Action):
@@ -156,15 +161,16 @@ class ExecuteLocal(Action):
 
     def get_sub_entities(self) -> list[Any]:
         """What happens when it has ended."""
-        if isinstance(self.__on_exit, (list, tuple)):
-            return list(self.__on_exit)
+        on_exit: Any = self.__on_exit
+        if isinstance(on_exit, (list, tuple)):
+            return [*on_exit]
         return [self.__on_exit] if isinstance(self.__on_exit, Action) else []
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:
         """Done when it has ended for good."""
         return self.__completed
 
-    def prepare(self, context: Any) -> None:
+    def prepare(self, context: LaunchContext) -> None:
         """Evaluate the description."""
         self.__process_description.prepare(context, self)
         self.__details = self.__new_details()
@@ -188,7 +194,7 @@ class ExecuteLocal(Action):
         """The command as the system is given it."""
         return command
 
-    def execute(self, context: Any) -> list[Any] | None:
+    def execute(self, context: LaunchContext) -> list[Any] | None:
         """Start it as soon as the loop goes on."""
         self.prepare(context)
         name = self.__process_description.final_name
@@ -198,7 +204,7 @@ class ExecuteLocal(Action):
         if context.is_shutdown or context.resolving:
             return None
         self.__logger = launch.logging.get_logger(name)
-        if not isinstance(self.__output, dict):
+        if not _by_stream(self.__output):
             self.__output = perform_substitutions(context, self.__output)
         loggers = launch.logging.get_output_loggers(name or "", self.__output)
         self.__lines = {
@@ -215,16 +221,24 @@ class ExecuteLocal(Action):
 
     def __handlers(self) -> list[Any]:
         return [
-            OnProcessExit(target_action=self, on_exit=self.__told),  # the first to be registered hears last
+            self.__when(ProcessExited, self.__told),  # the first to be registered hears last
             OnTargetedProcess(ShutdownProcess, self, lambda event, context: self._shutdown_process(context, True)),
             OnTargetedProcess(SignalProcess, self, self.__on_signal),
-            OnProcessIO(
-                target_action=self, on_stdin=self.__on_stdin, on_stdout=self.__on_text, on_stderr=self.__on_text
-            ),
+            self.__when(ProcessIO, self.__on_io),
             OnShutdown(on_shutdown=self.__on_shutdown),
-            *([OnProcessExit(target_action=self, on_exit=self.__on_exit)] if self.__on_exit else []),
-            OnProcessExit(target_action=self, on_exit=self.__flush),
+            *([self.__when(ProcessExited, self.__on_exit)] if self.__on_exit else []),
+            self.__when(ProcessExited, self.__flush),
         ]
+
+    def __when(self, kind: type[Any], what: Any) -> OnActionEventBase:
+        """As `OnProcessExit` and its like, which know this class."""
+        return OnActionEventBase(action_matcher=self, on_event=what, target_event_cls=kind, target_action_cls=Action)
+
+    def __on_io(self, event: Any, context: LaunchContext) -> None:
+        if event.from_stdin:
+            self.__on_stdin(event)
+        else:
+            self.__on_text(event)
 
     def __on_text(self, event: Any) -> None:
         fd = 1 if event.from_stdout else 2
@@ -236,15 +250,15 @@ class ExecuteLocal(Action):
         if self.__child is not None:
             self.__child.write(event.text)
 
-    def __flush(self, event: Any, context: Any) -> None:
+    def __flush(self, event: Any, context: LaunchContext) -> None:
         for lines in self.__lines.values():
             lines.flush()
 
-    def __told(self, event: Any, context: Any) -> None:
+    def __told(self, event: Any, context: LaunchContext) -> None:
         self.__exits_to_tell -= 1
         self.__retire(context)
 
-    def __retire(self, context: Any) -> None:
+    def __retire(self, context: LaunchContext) -> None:
         """Listen no more: it has ended for good, and its last exit is told. A long launch would keep every process."""
         if self.__exits_to_tell or self.__completed is None or not self.__completed.done():
             return
@@ -252,7 +266,7 @@ class ExecuteLocal(Action):
             context.unregister_event_handler(handler)
         self.__registered = []
 
-    def __on_signal(self, event: Any, context: Any) -> None:
+    def __on_signal(self, event: Any, context: LaunchContext) -> None:
         name = self.__process_description.final_name
         if self.__child is None:
             raise RuntimeError("Signal event received before execution.")
@@ -265,10 +279,10 @@ class ExecuteLocal(Action):
         except ProcessLookupError:
             self.__logger.debug(f"signal '{event.signal_name}' not sent to '{name}' because it has already ended")
 
-    def __on_shutdown(self, event: Any, context: Any) -> None:
+    def __on_shutdown(self, event: Any, context: LaunchContext) -> None:
         self._shutdown_process(context, not event.due_to_sigint or context.noninteractive)
 
-    def _shutdown_process(self, context: Any, send_sigint: bool) -> None:
+    def _shutdown_process(self, context: LaunchContext, send_sigint: bool) -> None:
         """Begin to end it, once; where the terminal has already sent SIGINT, none is sent."""
         if self.__shutdown is None or self.__shutdown.done():
             return
@@ -282,7 +296,7 @@ class ExecuteLocal(Action):
         elif not child.gets_signals_of_terminal:
             child.send_signal(2)
 
-    async def __run(self, context: Any) -> None:
+    async def __run(self, context: LaunchContext) -> None:
         """Start it, and again while that is wanted."""
         while not self.__over:
             try:
@@ -301,7 +315,7 @@ class ExecuteLocal(Action):
     def __over(self) -> bool:
         return self.__shutdown is None or self.__shutdown.done()
 
-    async def __run_once(self, context: Any) -> int | None:
+    async def __run_once(self, context: LaunchContext) -> int | None:
         description = self.__process_description
         command = description.final_cmd or []
         details = self.__new_details()
@@ -310,8 +324,6 @@ class ExecuteLocal(Action):
             custom = description.final_env is not None
             self.__logger.info(f"process details: cmd='{words}', cwd='{description.final_cwd}', custom_env?={custom}")
         child = await self.__start(context, command, details)
-        if child is None:
-            return None
         code = await child.exited
         self.__return_code = code
         if self.__escalation is not None:
@@ -326,7 +338,7 @@ class ExecuteLocal(Action):
         context.emit_event_sync(ProcessExited(returncode=code, action=self, **(self.__details or {})))
         return code
 
-    async def __start(self, context: Any, command: list[str], details: dict[str, Any]) -> Child:
+    async def __start(self, context: LaunchContext, command: list[str], details: dict[str, Any]) -> Child:
         self.__details = details
         early: list[tuple[int, bytes]] = []
 
@@ -360,7 +372,7 @@ class ExecuteLocal(Action):
             self.__escalation.interrupt()
         return child
 
-    def __wants_tty(self, context: Any) -> bool:
+    def __wants_tty(self, context: LaunchContext) -> bool:
         if "emulate_tty" not in context.launch_configurations:
             return self.__emulate_tty
         expression = normalize_to_list_of_substitutions(context.launch_configurations["emulate_tty"])
@@ -370,3 +382,8 @@ class ExecuteLocal(Action):
 def _kill_by_name(signal_number: Any) -> Any:
     """SIGKILL may be given by its name; other names are refused by the system call, as upstream has it."""
     return 9 if signal_number == "SIGKILL" else signal_number
+
+
+def _by_stream(output: Any) -> bool:
+    """Whether it says for each stream where its lines go, and is no text."""
+    return isinstance(output, dict)

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.actions.execute_local import ExecuteLocal
 from launch.descriptions import Executable
-from launch.frontend import expose_action
+from launch.frontend.expose import expose_action
 from launch.substitution import Substitution
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
 
 
 @expose_action("executable")
@@ -30,7 +34,7 @@ class ExecuteProcess(ExecuteLocal):
         super().__init__(process_description=executable, **kwargs)
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any, ignore: Iterable[str] | None = None) -> tuple[Any, dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser, ignore: Iterable[str] | None = None) -> tuple[Any, dict[str, Any]]:
         """From XML or YAML."""
         from launch.frontend.process_attributes import parse_process
 

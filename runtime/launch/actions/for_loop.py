@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import launch.logging
 from launch.action import Action
-from launch.frontend import expose_action
+from launch.frontend.expose import expose_action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+    from launch.launch_context import LaunchContext
 
 
 @expose_action("for_each")
@@ -23,12 +28,16 @@ class ForEach(Action):
         self._function = function
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[type[Action], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["input_values"] = parser.parse_substitution(entity.get_attr("values"))
         iteration = _children_function(entity, parser)
-        kwargs["function"] = lambda **values: iteration(values)
+
+        def function(**values: Any) -> Any:
+            return iteration(values)
+
+        kwargs["function"] = function
         return cls, kwargs
 
     @property
@@ -41,7 +50,7 @@ class ForEach(Action):
         """What is called with the values of each iteration."""
         return self._function
 
-    def execute(self, context: Any) -> list[Any]:
+    def execute(self, context: LaunchContext) -> list[Any]:
         """Call the function for each iteration; raises `SyntaxError` for values that are no YAML map."""
         import yaml
 
@@ -72,14 +81,18 @@ class ForLoop(Action):
         self._name = name
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[type[Action], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["length"] = parser.parse_substitution(entity.get_attr("len"))
         name = entity.get_attr("name")
         kwargs["name"] = name
         iteration = _children_function(entity, parser)
-        kwargs["function"] = lambda i: iteration({name: i})
+
+        def function(i: Any) -> Any:
+            return iteration({name: i})
+
+        kwargs["function"] = function
         return cls, kwargs
 
     @property
@@ -97,7 +110,7 @@ class ForLoop(Action):
         """The name by which `$(index name)` knows the number."""
         return self._name
 
-    def execute(self, context: Any) -> list[Any]:
+    def execute(self, context: LaunchContext) -> list[Any]:
         """Call the function for each number; raises `ValueError` for a length that is none."""
         length = int(perform_substitutions(context, self._length))
         found: list[Any] = []
@@ -113,15 +126,15 @@ class _WithLocals(Action):
         super().__init__()
         self._values = values
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         if self._values is None:
-            context._pop_locals()
+            context._pop_locals()  # pyright: ignore[reportPrivateUsage] -- a scope for each round, as upstream
         else:
-            context._push_locals()
+            context._push_locals()  # pyright: ignore[reportPrivateUsage] -- a scope for each round, as upstream
             context.extend_locals(self._values)
 
 
-def _children_function(entity: Any, parser: Any) -> Callable[[dict[str, Any]], list[Any]]:
+def _children_function(entity: Entity, parser: Parser) -> Callable[[dict[str, Any]], list[Any]]:
     children = entity.children
 
     def iteration(values: dict[str, Any]) -> list[Any]:

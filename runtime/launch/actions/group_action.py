@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
 from launch.actions.pop_environment import PopEnvironment
@@ -13,7 +13,12 @@ from launch.actions.push_launch_configurations import PushLaunchConfigurations
 from launch.actions.reset_environment import ResetEnvironment
 from launch.actions.reset_launch_configurations import ResetLaunchConfigurations, parse_kept
 from launch.actions.set_launch_configuration import SetLaunchConfiguration
-from launch.frontend import expose_action
+from launch.frontend.expose import expose_action
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+    from launch.launch_context import LaunchContext
 
 
 @expose_action("group")
@@ -33,11 +38,11 @@ class GroupAction(Action):
         self.__actions = actions
         self.__scoped = scoped
         self.__forwarding = forwarding
-        self.__configurations = {} if launch_configurations is None else launch_configurations
+        self.__configurations: Mapping[Any, Any] = {} if launch_configurations is None else launch_configurations
         self.__to_return: list[Any] | None = None
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[type[GroupAction], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[GroupAction], dict[str, Any]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         for name in ("scoped", "forwarding"):
@@ -67,6 +72,6 @@ class GroupAction(Action):
         begin += [ResetEnvironment(), ResetLaunchConfigurations(self.__configurations)]
         return [*begin, *actions, *end]
 
-    def execute(self, context: Any) -> list[Any]:
+    def execute(self, context: LaunchContext) -> list[Any]:
         """Visit the actions."""
         return self.get_sub_entities()

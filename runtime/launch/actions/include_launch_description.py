@@ -4,20 +4,26 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import launch.logging
 from launch.action import Action
 from launch.actions.set_launch_configuration import SetLaunchConfiguration
-from launch.frontend import expose_action
+from launch.argument_discovery import IncludesDescription
+from launch.frontend.expose import expose_action
 from launch.launch_description_source import LaunchDescriptionSource
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+    from launch.launch_context import LaunchContext
 
 Pair = tuple[Any, Any]
 
 
 @expose_action("include")
-class IncludeLaunchDescription(Action):
+class IncludeLaunchDescription(Action, IncludesDescription):
     """Visits another launch file, in the same scope: its configurations are seen afterwards."""
 
     def __init__(
@@ -33,14 +39,14 @@ class IncludeLaunchDescription(Action):
         self.__logger = launch.logging.get_logger(__name__)
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[type[IncludeLaunchDescription], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[IncludeLaunchDescription], dict[str, Any]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["launch_description_source"] = parser.parse_substitution(entity.get_attr("file"))
-        arguments = []
+        arguments: list[Pair] = []
         for each in entity.get_attr("arg", data_type=list, optional=True) or ():
-            pair = (each.get_attr("name"), each.get_attr("value"))
-            arguments.append(tuple(parser.parse_substitution(part) for part in pair))
+            name, value = each.get_attr("name"), each.get_attr("value")
+            arguments.append((parser.parse_substitution(name), parser.parse_substitution(value)))
             each.assert_entity_completely_parsed()
         if arguments:
             kwargs["launch_arguments"] = arguments
@@ -68,7 +74,7 @@ class IncludeLaunchDescription(Action):
             return []
         return [] if description is None else [description]
 
-    def execute(self, context: Any) -> list[Any]:
+    def execute(self, context: LaunchContext) -> list[Any]:
         """Read the file, check its required arguments, and visit it."""
         description = self.__source.get_launch_description(context)
         self._set_locals(context)
@@ -88,7 +94,7 @@ class IncludeLaunchDescription(Action):
                     f"(description: '{argument.description}'), given: [{', '.join(given)}]"
                 )
 
-    def _given_names(self, context: Any) -> list[str]:
+    def _given_names(self, context: LaunchContext) -> list[str]:
         return [
             perform_substitutions(context, normalize_to_list_of_substitutions(name)) for name, _ in self.__arguments
         ]
@@ -101,7 +107,7 @@ class IncludeLaunchDescription(Action):
         except Exception:  # a name that only the running launch knows cannot be counted
             return []
 
-    def _set_locals(self, context: Any) -> None:
+    def _set_locals(self, context: LaunchContext) -> None:
         path = os.path.abspath(self.__source.location)
         context.extend_locals({"current_launch_file_path": path})
         folder = os.path.dirname(path) if os.path.exists(path) else self.__source.location

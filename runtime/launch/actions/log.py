@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import logging
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import launch.logging
 from launch.actions.log_info import LogInfo, Message
-from launch.frontend import expose_action
+from launch.frontend.expose import expose_action
 from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 LEVELS = {name: getattr(logging, name) for name in ("NOTSET", "DEBUG", "INFO", "WARNING", "ERROR", "CRITICAL")}
 
@@ -28,7 +31,7 @@ class Log(Message):
         """The level."""
         return self.__level
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         """Log it; raises `KeyError` for a level that there is not."""
         level = perform_substitutions(context, self.__level).upper()
         if level not in LEVELS:

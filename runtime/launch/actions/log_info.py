@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import launch.logging
 from launch.action import Action
-from launch.frontend import expose_action
+from launch.frontend.expose import expose_action
 from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+    from launch.launch_context import LaunchContext
 
 
 class Message(Action):
@@ -19,7 +24,7 @@ class Message(Action):
         self.__msg = normalize_to_list_of_substitutions(msg)
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[type[Message], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Message], dict[str, Any]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["msg"] = parser.parse_substitution(entity.get_attr("message"))
@@ -40,6 +45,6 @@ class LogInfo(Message):
         super().__init__(msg=msg, **kwargs)
         self.__logger = launch.logging.get_logger("launch.user")
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         """Log it."""
         self.__logger.info("%s", perform_substitutions(context, self.msg))

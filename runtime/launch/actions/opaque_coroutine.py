@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Coroutine, Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
 from launch.event_handlers import OnShutdown
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class OpaqueCoroutine(Action):
@@ -35,12 +38,12 @@ class OpaqueCoroutine(Action):
         """Done when the coroutine is."""
         return self.__future
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         """Start it."""
         args = self.__args if self.__ignore_context else [context, *self.__args]
         self.__future = context.asyncio_loop.create_task(self.__coroutine(*args, **self.__kwargs))
         context.register_event_handler(OnShutdown(on_shutdown=self.__cancel))
 
-    def __cancel(self, event: Any, context: Any) -> None:
+    def __cancel(self, event: Any, context: LaunchContext) -> None:
         if self.__future is not None:
             self.__future.cancel()

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class OpaqueFunction(Action):
@@ -24,6 +27,6 @@ class OpaqueFunction(Action):
         self.__args = () if args is None else args
         self.__kwargs = {} if kwargs is None else kwargs
 
-    def execute(self, context: Any) -> Any:
+    def execute(self, context: LaunchContext) -> Any:
         """Call it."""
         return self.__function(context, *self.__args, **self.__kwargs)

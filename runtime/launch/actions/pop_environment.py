@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from launch.action import Action
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class PopEnvironment(Action):
     """Takes the environment back that was saved last."""
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         """Take it back."""
-        context._pop_environment()
+        context._pop_environment()  # pyright: ignore[reportPrivateUsage] -- there for this action, as upstream

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from launch.action import Action
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class PopLaunchConfigurations(Action):
     """Takes the launch configurations back that were saved last."""
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         """Take them back."""
-        context._pop_launch_configurations()
+        context._pop_launch_configurations()  # pyright: ignore[reportPrivateUsage] -- there for this action, as upstream

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from launch.action import Action
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class PushEnvironment(Action):
     """Saves the environment, for a later `PopEnvironment`."""
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         """Save it."""
-        context._push_environment()
+        context._push_environment()  # pyright: ignore[reportPrivateUsage] -- there for this action, as upstream

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class RegisterEventHandler(Action):
@@ -19,7 +22,7 @@ class RegisterEventHandler(Action):
         """The handler."""
         return self.__event_handler
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         """Register it."""
         context.register_event_handler(self.__event_handler)
 

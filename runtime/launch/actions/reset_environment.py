@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
-from launch.frontend import expose_action
+from launch.frontend.expose import expose_action
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+    from launch.launch_context import LaunchContext
 
 
 @expose_action("reset_env")
@@ -13,11 +18,11 @@ class ResetEnvironment(Action):
     """Makes the environment what it was when the launch began."""
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[type[ResetEnvironment], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[ResetEnvironment], dict[str, Any]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         return cls, kwargs
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         """Put it back."""
-        context._reset_environment()
+        context._reset_environment()  # pyright: ignore[reportPrivateUsage] -- there for this action, as upstream

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
-from launch.frontend import expose_action
+from launch.frontend.expose import expose_action
 from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+    from launch.launch_context import LaunchContext
 
 
 @expose_action("set_env")
@@ -20,7 +25,7 @@ class SetEnvironmentVariable(Action):
         self.__value = normalize_to_list_of_substitutions(value)
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[type[SetEnvironmentVariable], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetEnvironmentVariable], dict[str, Any]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
@@ -37,7 +42,7 @@ class SetEnvironmentVariable(Action):
         """Its value."""
         return self.__value
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         """Set it."""
         name = perform_substitutions(context, self.__name)
         context.environment[name] = perform_substitutions(context, self.__value)

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import launch.logging
 from launch.actions.emit_event import EmitEvent
 from launch.events import Shutdown as ShutdownEvent
 from launch.events.process import ProcessExited
-from launch.frontend import expose_action
+from launch.frontend.expose import expose_action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+    from launch.launch_context import LaunchContext
 
 
 @expose_action("shutdown")
@@ -21,17 +26,17 @@ class Shutdown(EmitEvent):
         self.__reason = normalize_to_list_of_substitutions(reason)
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[type[Shutdown], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Shutdown], dict[str, Any]]:
         """From XML or YAML."""
         from launch.action import Action
 
-        _, kwargs = Action.parse.__func__(cls, entity, parser)  # type: ignore[attr-defined]
+        _, kwargs = Action.parse.__func__(cls, entity, parser)  # type: ignore[attr-defined] -- the base's parser, past the class between
         reason = entity.get_attr("reason", optional=True)
         if reason:
             kwargs["reason"] = parser.parse_substitution(reason)
         return cls, kwargs
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         """End it."""
         event = context.get_locals_as_dict().get("event")
         if isinstance(event, ProcessExited):

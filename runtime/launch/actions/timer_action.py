@@ -5,15 +5,20 @@ from __future__ import annotations
 import asyncio
 import warnings
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
 from launch.event_handler import EventHandler
 from launch.event_handlers import OnShutdown
 from launch.events import TimerEvent
-from launch.frontend import expose_action
+from launch.frontend.expose import expose_action
 from launch.utilities import create_future, normalize_to_list_of_substitutions
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+    from launch.launch_context import LaunchContext
 
 
 @expose_action("timer")
@@ -40,7 +45,7 @@ class TimerAction(Action):
         self._handle: asyncio.TimerHandle | None = None
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[type[TimerAction], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[TimerAction], dict[str, Any]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["period"] = parser.parse_if_substitutions(entity.get_attr("period", data_type=float, can_be_str=True))
@@ -72,7 +77,7 @@ class TimerAction(Action):
         """Done when the actions were visited, or never will be."""
         return self._completed_future
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         """Start to wait."""
         self.__locals = dict(context.get_locals_as_dict())
         period = perform_typed_substitution(context, self.__period, float)
@@ -85,18 +90,21 @@ class TimerAction(Action):
             entities=None,
         )
         self._handler.kind_of_events = TimerEvent
-        self._handler.handle = self._handle_fired  # type: ignore[method-assign]
+        self._handler.handle = self._handle_fired  # type: ignore[method-assign] -- this handler alone, as upstream
         context.register_event_handler(self._handler)
         if perform_typed_substitution(context, self.__cancel_on_shutdown, bool):
-            context.register_event_handler(OnShutdown(on_shutdown=lambda event, context: self.cancel()))
+            context.register_event_handler(OnShutdown(on_shutdown=self._launch_ends))
         self._wait(context, max(0.0, period))
 
-    def _wait(self, context: Any, period: float) -> None:
+    def _launch_ends(self, event: Any, context: LaunchContext) -> None:
+        self.cancel()
+
+    def _wait(self, context: LaunchContext, period: float) -> None:
         """Emit the timer's event after a period (s)."""
         event = TimerEvent(timer_action=self)
         self._handle = context.asyncio_loop.call_later(period, context.emit_event_sync, event)
 
-    def _handle_fired(self, event: Any, context: Any) -> list[Any]:
+    def _handle_fired(self, event: Any, context: LaunchContext) -> list[Any]:
         if self._completed_future is None or self._completed_future.done():
             return []
         context.unregister_event_handler(self._handler)
@@ -104,7 +112,7 @@ class TimerAction(Action):
         context.extend_locals(self.__locals)
         return list(self.__actions)
 
-    def handle(self, context: Any) -> Any:
+    def handle(self, context: LaunchContext) -> Any:
         """The actions, in the locals of when the timer was started."""
         context.extend_locals(self.__locals)
         return self.__actions

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class UnregisterEventHandler(Action):
@@ -19,6 +22,6 @@ class UnregisterEventHandler(Action):
         """The handler."""
         return self.__event_handler
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         """Unregister it."""
         context.unregister_event_handler(self.__event_handler)

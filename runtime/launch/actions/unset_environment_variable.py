@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
-from launch.frontend import expose_action
+from launch.frontend.expose import expose_action
 from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+    from launch.launch_context import LaunchContext
 
 
 @expose_action("unset_env")
@@ -19,7 +24,7 @@ class UnsetEnvironmentVariable(Action):
         self.__name = normalize_to_list_of_substitutions(name)
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[type[UnsetEnvironmentVariable], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[UnsetEnvironmentVariable], dict[str, Any]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
@@ -30,6 +35,6 @@ class UnsetEnvironmentVariable(Action):
         """Its name."""
         return self.__name
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         """Unset it, if it is set."""
         context.environment.pop(perform_substitutions(context, self.__name), None)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
 from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class UnsetLaunchConfiguration(Action):
@@ -21,6 +24,6 @@ class UnsetLaunchConfiguration(Action):
         """Its name."""
         return self.__name
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         """Unset it."""
         context.launch_configurations.pop(perform_substitutions(context, self.__name), None)

@@ -6,7 +6,7 @@ own for a Python program (`forked_child`).
 
 from launch.child.child import Child, Output
 from launch.child.forked_child import CAN_FORK, begin_children_with, close_fork_server, fork_server
-from launch.child.news import News, on_news
+from launch.child.news import News, on_news, tell_news
 from launch.child.python_program import PythonProgram
 from launch.child.start import start_child
 
@@ -21,4 +21,5 @@ __all__ = [
     "fork_server",
     "on_news",
     "start_child",
+    "tell_news",
 ]

@@ -16,7 +16,8 @@ class News:
     process: str
     """Its label, as `talker-1`."""
     kind: str
-    """`notice` (a text), `uncaught` (an exception: text, frames), `crash` (in C code: text), ..."""
+    """`notice` (a text), `uncaught` (an exception: text, frames), `crash` (in C code: text), `declared` and `given`
+    (parameters of a node and where their values come from), ..."""
     facts: Mapping[str, Any]
 
 
@@ -28,6 +29,12 @@ def on_news(hook: Hook) -> Callable[[], None]:
     """Have news given to `hook(news)`, in the thread of the launch; it must not block. Returns what ends that."""
     _hooks.append(hook)
     return lambda: _hooks.remove(hook) if hook in _hooks else None
+
+
+def tell_news(news: News) -> None:
+    """Give news to whoever wants them."""
+    for hook in tuple(_hooks):
+        hook(news)
 
 
 class NewsReader:
@@ -64,9 +71,7 @@ class NewsReader:
         self._tell(kind, facts)
 
     def _tell(self, kind: str, facts: Mapping[str, Any]) -> None:
-        news = News(self.pid, self._process, kind, facts)
-        for hook in tuple(_hooks):
-            hook(news)
+        tell_news(News(self.pid, self._process, kind, facts))
         if not _hooks and kind == "notice":
             self._unheard(f"[WARN] [{self._process}]: {facts.get('text', '')}\n")
         elif not _hooks and kind == "crash":

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import warnings
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.condition import Condition
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class LaunchConfigurationEquals(Condition):
@@ -25,6 +28,6 @@ class LaunchConfigurationEquals(Condition):
         self.__expected = None if expected_value is None else normalize_to_list_of_substitutions(expected_value)
         super().__init__(predicate=self._predicate_func)
 
-    def _predicate_func(self, context: Any) -> bool:
+    def _predicate_func(self, context: LaunchContext) -> bool:
         expected = None if self.__expected is None else perform_substitutions(context, self.__expected)
         return context.launch_configurations.get(self.__name) == expected

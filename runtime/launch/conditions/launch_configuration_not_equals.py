@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from launch.conditions.launch_configuration_equals import LaunchConfigurationEquals
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class LaunchConfigurationNotEquals(LaunchConfigurationEquals):
     """Holds when a launch configuration does not have a value."""
 
-    def _predicate_func(self, context: Any) -> bool:
+    def _predicate_func(self, context: LaunchContext) -> bool:
         return not super()._predicate_func(context)

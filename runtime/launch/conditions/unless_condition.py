@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.condition import Condition
 from launch.conditions.evaluate_condition_expression_impl import evaluate_condition_expression
 from launch.utilities import normalize_to_list_of_substitutions
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class UnlessCondition(Condition):
@@ -16,7 +19,7 @@ class UnlessCondition(Condition):
         self.__expression = normalize_to_list_of_substitutions(predicate_expression)
         super().__init__(predicate=self._predicate_func)
 
-    def _predicate_func(self, context: Any) -> bool:
+    def _predicate_func(self, context: LaunchContext) -> bool:
         """Whether the text says false now; public launch files call it by this name."""
         return not evaluate_condition_expression(context, self.__expression)
 

@@ -7,12 +7,15 @@ import os
 import re
 import shlex
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.process import ProcessLocal
 from launch.substitution import Substitution
 from launch.substitutions.launch_configuration import LaunchConfiguration
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 _numbers: ProcessLocal[Iterator[int]] = ProcessLocal(lambda: itertools.count(1))
 
@@ -105,7 +108,7 @@ class Executable:
         """How the final command begins where a prefix was put before it."""
         return self.__words_of_prefix
 
-    def prepare(self, context: Any, action: Any) -> None:
+    def prepare(self, context: LaunchContext, action: Any) -> None:
         """Evaluate everything, and take the next number for the label."""
         cmd = [perform_substitutions(context, each) for each in self.__cmd]
         self.__words_of_prefix = self._prefix_for(context, cmd)
@@ -116,14 +119,14 @@ class Executable:
         self.__final_cwd = None if self.__cwd is None else perform_substitutions(context, self.__cwd)
         self.__final_env = self._environment(context)
 
-    def _prefix_for(self, context: Any, cmd: list[str]) -> list[str]:
+    def _prefix_for(self, context: LaunchContext, cmd: list[str]) -> list[str]:
         words = shlex.split(perform_substitutions(context, self.__prefix))
         pattern = perform_substitutions(context, self.__prefix_filter)
         if words and not self.__own_prefix and pattern and not re.match(pattern, os.path.basename(cmd[0])):
             return []
         return words
 
-    def _environment(self, context: Any) -> dict[str, str]:
+    def _environment(self, context: LaunchContext) -> dict[str, str]:
         found = dict(context.environment) if self.__env is None else {}
         for name, value in [*(self.__env or ()), *(self.__additional_env or ())]:
             found[perform_substitutions(context, name)] = perform_substitutions(context, value)

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.event_handler import BaseEventHandler
 from launch.launch_description_entity import LaunchDescriptionEntity
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class OnActionEventBase(BaseEventHandler):
@@ -46,7 +49,7 @@ class OnActionEventBase(BaseEventHandler):
             return True
         return self.target_of_events is None and bool(wanted(event.action))
 
-    def handle(self, event: Any, context: Any) -> Any:
+    def handle(self, event: Any, context: LaunchContext) -> Any:
         """The entities, or what the callable gives."""
         super().handle(event, context)
         if self.__entities is not None:
@@ -54,7 +57,7 @@ class OnActionEventBase(BaseEventHandler):
         assert self.__callback is not None
         return self._call(self.__callback, event, context)
 
-    def _call(self, callback: Callable[..., Any], event: Any, context: Any) -> Any:
+    def _call(self, callback: Callable[..., Any], event: Any, context: LaunchContext) -> Any:
         return callback(event, context)
 
     def describe(self) -> tuple[str, list[Any]]:
@@ -85,7 +88,7 @@ def _checked(on_event: Any) -> list[LaunchDescriptionEntity]:
             f"on_event with type '{type(on_event)}' not allowed: expected a launch entity, an iterable of them, "
             "or a callable"
         )
-    entities = list(on_event)
+    entities: list[Any] = [*on_event]
     for each in entities:
         if not isinstance(each, LaunchDescriptionEntity):
             raise TypeError(

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.event_handler import BaseEventHandler
 from launch.events.include_launch_description import IncludeLaunchDescription
 from launch.utilities import is_a_subclass
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class OnIncludeLaunchDescription(BaseEventHandler):
@@ -17,7 +20,7 @@ class OnIncludeLaunchDescription(BaseEventHandler):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(matcher=lambda event: is_a_subclass(event, IncludeLaunchDescription), **kwargs)
 
-    def handle(self, event: Any, context: Any) -> Any:
+    def handle(self, event: Any, context: LaunchContext) -> Any:
         """The description."""
         super().handle(event, context)
         return event.launch_description

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.event_handlers.on_action_event_base import OnActionEventBase
 from launch.events.process import ProcessIO
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class OnProcessIO(OnActionEventBase):
@@ -23,7 +26,7 @@ class OnProcessIO(OnActionEventBase):
     ) -> None:
         from launch.actions.execute_local import ExecuteLocal
 
-        def on_io(event: Any, context: Any) -> Any:
+        def on_io(event: Any, context: LaunchContext) -> Any:
             for is_it, callback in (
                 (event.from_stdout, on_stdout),
                 (event.from_stderr, on_stderr),

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.event_handler import BaseEventHandler
 from launch.events.shutdown import Shutdown
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.utilities import is_a_subclass
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class OnShutdown(BaseEventHandler):
@@ -19,7 +22,7 @@ class OnShutdown(BaseEventHandler):
         super().__init__(matcher=lambda event: is_a_subclass(event, Shutdown), **kwargs)
         self.__on_shutdown = on_shutdown
 
-    def handle(self, event: Any, context: Any) -> Any:
+    def handle(self, event: Any, context: LaunchContext) -> Any:
         """The entities."""
         super().handle(event, context)
         if callable(self.__on_shutdown) and not isinstance(self.__on_shutdown, LaunchDescriptionEntity):

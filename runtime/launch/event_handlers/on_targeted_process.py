@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.event_handler import BaseEventHandler
 from launch.events.process import ProcessTargetedEvent
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class OnTargetedProcess(BaseEventHandler):
@@ -17,7 +20,7 @@ class OnTargetedProcess(BaseEventHandler):
         self._callback = callback
         super().__init__(matcher=lambda event: isinstance(event, kind) and event.process_matcher(action))
 
-    def handle(self, event: Any, context: Any) -> Any:
+    def handle(self, event: Any, context: LaunchContext) -> Any:
         """What the callback gives."""
         super().handle(event, context)
         return self._callback(event, context)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import Any
+from typing import Any, cast
 
 from launch.frontend.expose import substitution_parse_methods
 
@@ -46,8 +46,10 @@ def parse_if_substitutions(value: Any) -> Any:
     """
     if not isinstance(value, list):
         return _parsed_if_needed(value)
-    found = [_parsed_if_needed(each) for each in value]
-    if len({type(each) for each in found if not isinstance(each, list)}) > 1:
+    items = cast("list[Any]", value)
+    found = [_parsed_if_needed(each) for each in items]
+    kinds: set[type] = {type(each) for each in found}
+    if len(kinds - {list}) > 1:
         raise ValueError("The result is a non-uniform list")
     return found
 
@@ -100,7 +102,7 @@ class _Reader:
         if name is None:
             raise self._unexpected("the name of a substitution")
         self._at = name.end()
-        arguments = []
+        arguments: list[Any] = []
         while not self._take(")"):
             if not self._take(" "):
                 raise self._unexpected("a space or ')'")

@@ -16,6 +16,7 @@ from launch.frontend.parse_substitution import (
     replace_escaped_characters,
 )
 from launch.invalid_launch_file_error import InvalidLaunchFileError
+from launch.launch_place import tell_place
 
 PARSERS = ("launch_xml", "launch_yaml")
 EXTENSIONS = ("launch_ros",)
@@ -67,6 +68,7 @@ class Parser:
         try:
             text = _read(path) if isinstance(file, str) else file.read()
         except UnicodeDecodeError as error:
+            tell_place(error, path)
             raise InvalidFrontendLaunchFileError("", likely_errors=[error]) from error
         for parser in cls._parsers_for(path):
             try:
@@ -74,6 +76,7 @@ class Parser:
                 found.path = path
                 return root, found
             except Exception as error:  # each library has its own errors; all are told
+                tell_place(error, path, _line_of_parse_error(error))
                 errors.append(error)
         known = extension if cls.is_extension_valid(extension) else ""
         raise InvalidFrontendLaunchFileError(known, likely_errors=errors)
@@ -90,6 +93,13 @@ class Parser:
 
     def parse_action(self, entity: Entity) -> Any:
         """The action of an element; raises what is wrong with it."""
+        try:
+            return self._parse_action(entity)
+        except Exception as error:
+            tell_place(error, self.path, entity.line or None)
+            raise
+
+    def _parse_action(self, entity: Entity) -> Any:
         method = action_parse_methods.get(entity.type_name)
         if method is None:
             raise RuntimeError(f"Unrecognized entity of the type: {entity.type_name}")
@@ -134,6 +144,15 @@ class Parser:
     def escape_characters(self, value: str) -> str:
         """A text without its protecting backslashes."""
         return replace_escaped_characters(value)
+
+
+def _line_of_parse_error(error: Any) -> int | None:
+    """Where the library that reads XML or YAML has stopped."""
+    mark = getattr(error, "problem_mark", None)
+    if mark is not None:
+        return mark.line + 1
+    position = getattr(error, "position", None)
+    return None if position is None else position[0]
 
 
 def _read(path: str) -> str:

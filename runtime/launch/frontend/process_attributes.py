@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
 
 TEXTS = ("output", "cwd", "name")
 DURATIONS = {"sigkill_timeout": str, "sigterm_timeout": str, "respawn_delay": float}
 
 
-def parse_process(entity: Any, parser: Any, kwargs: dict[str, Any], ignore: frozenset[str]) -> dict[str, Any]:
+def parse_process(entity: Entity, parser: Parser, kwargs: dict[str, Any], ignore: frozenset[str]) -> dict[str, Any]:
     """Add keyword arguments of `ExecuteProcess`; those to be ignored are the caller's to parse."""
     if "cmd" not in ignore:
         kwargs["cmd"] = parse_command_line(entity.get_attr("cmd"), parser)
@@ -44,7 +48,7 @@ def _parse_duration(entity: Any, name: str, form: Callable[[float], Any], kwargs
 
 
 def _set(
-    kwargs: dict[str, Any], name: str, entity: Any, parser: Any, ignore: frozenset[str], keyword: str = ""
+    kwargs: dict[str, Any], name: str, entity: Entity, parser: Parser, ignore: frozenset[str], keyword: str = ""
 ) -> None:
     keyword = keyword or name
     if name not in ignore and keyword not in ignore:
@@ -67,7 +71,7 @@ def _parse_on_exit(entity: Any, kwargs: dict[str, Any]) -> None:
     kwargs["on_exit"] = [Shutdown()]
 
 
-def _parse_env(entity: Any, parser: Any, kwargs: dict[str, Any]) -> None:
+def _parse_env(entity: Entity, parser: Parser, kwargs: dict[str, Any]) -> None:
     elements = entity.get_attr("env", data_type=list, optional=True)
     if elements is None:
         return

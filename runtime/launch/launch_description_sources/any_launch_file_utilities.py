@@ -3,17 +3,24 @@
 from __future__ import annotations
 
 import os
+from functools import partial
 from typing import Any
 
 from launch.invalid_launch_file_error import InvalidLaunchFileError
+from launch.launch_place import tell_place
 
 
 def get_launch_description_from_frontend_launch_file(launch_file_path: str, *, parser: Any = None) -> Any:
     """The description in an XML or YAML launch file."""
     from launch.frontend import Parser
 
-    root, used = (parser or Parser).load(launch_file_path)
-    return used.parse_description(root)
+    root = None
+    try:
+        root, used = (parser or Parser).load(launch_file_path)
+        return used.parse_description(root)
+    except Exception as error:
+        tell_place(error, launch_file_path, (root.line or None) if root else None)
+        raise
 
 
 def get_launch_description_from_any_launch_file(launch_file_path: str, *, parser: Any = None) -> Any:
@@ -24,7 +31,7 @@ def get_launch_description_from_any_launch_file(launch_file_path: str, *, parser
 
     extension = os.path.splitext(launch_file_path)[1].removeprefix(".")
     readers: list[Any] = [
-        lambda path: get_launch_description_from_frontend_launch_file(path, parser=parser),
+        partial(get_launch_description_from_frontend_launch_file, parser=parser),
         get_launch_description_from_python_launch_file,
     ]
     if extension == "py":

@@ -7,6 +7,8 @@ from importlib.util import module_from_spec, spec_from_loader
 from types import ModuleType
 from typing import Any
 
+from launch.launch_place import tell_place
+
 FUNCTION = "generate_launch_description"
 
 
@@ -27,6 +29,14 @@ def load_python_launch_file_as_module(python_launch_file_path: str) -> ModuleTyp
 
 def get_launch_description_from_python_launch_file(python_launch_file_path: str) -> Any:
     """The description that a launch file generates."""
+    try:
+        return _generate(python_launch_file_path)
+    except Exception as error:
+        tell_place(error, python_launch_file_path)
+        raise
+
+
+def _generate(python_launch_file_path: str) -> Any:
     module = load_python_launch_file_as_module(python_launch_file_path)
     if not hasattr(module, FUNCTION):
         raise InvalidPythonLaunchFileError(

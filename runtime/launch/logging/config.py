@@ -16,14 +16,14 @@ SCREEN_FORMAT = "OVERRIDE_LAUNCH_SCREEN_FORMAT"
 LOG_FORMAT = "OVERRIDE_LAUNCH_LOG_FORMAT"
 
 
-class ScreenHandler(logging.StreamHandler):
+class ScreenHandler(logging.StreamHandler):  # pyright: ignore[reportMissingTypeArgument] -- generic for checkers only
     """Writes to whatever `sys.stdout` is at that moment."""
 
     def __init__(self) -> None:
         logging.Handler.__init__(self)
 
     @property
-    def stream(self) -> TextIO:  # type: ignore[override]
+    def stream(self) -> TextIO:  # type: ignore[override] -- narrower than the base, which nobody minds here
         """The standard output."""
         return sys.stdout
 
@@ -39,6 +39,8 @@ class LaunchConfig:
     """The settings; files and folders are made when the first line goes there."""
 
     def __init__(self) -> None:
+        self.level_hooks: list[Callable[[int], None]] = []
+        """Told of a new level: the loggers know the settings, not these them."""
         self.reset()
 
     def reset(self) -> None:
@@ -61,10 +63,9 @@ class LaunchConfig:
 
     @level.setter
     def level(self, value: int) -> None:
-        from launch.logging.launch_logger import set_level
-
         self._level = value
-        set_level(value)
+        for tell in self.level_hooks:
+            tell(value)
 
     @property
     def log_dir(self) -> str:

@@ -49,7 +49,7 @@ class OutputAwareFormatter(logging.Formatter):
     """Writes records of launch in one format, and lines that a process has printed in another."""
 
     def __init__(self, launch_format: str, output_format: str, style: str = "{") -> None:
-        super().__init__(launch_format.replace("{msg}", "{message}"), style=style, validate=False)  # type: ignore
+        super().__init__(launch_format.replace("{msg}", "{message}"), style=style, validate=False)  # type: ignore -- a word that the caller has checked
         self._output = logging.Formatter(output_format, style="{")
 
     def format(self, record: logging.LogRecord) -> str:

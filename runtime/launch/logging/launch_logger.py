@@ -37,7 +37,7 @@ def get_logger(name: str | None = None) -> LaunchLogger:
 def set_level(level: int) -> None:
     """Drop records below a level, in all loggers that have none of their own."""
     _root.setLevel(level)
-    _manager._clear_cache()  # type: ignore[attr-defined]
+    _manager._clear_cache()  # type: ignore[attr-defined] -- the standard library itself calls it so
 
 
 def reset_loggers() -> None:
@@ -47,5 +47,6 @@ def reset_loggers() -> None:
 
 
 _root = LaunchLogger("root", logging.INFO)
-_manager = logging.Manager(_root)  # type: ignore[arg-type]
+_manager = logging.Manager(_root)  # type: ignore[arg-type] -- the standard library itself calls it so
 _manager.setLoggerClass(LaunchLogger)
+launch_config.level_hooks.append(set_level)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import atexit
 import datetime
 import os
-import shutil
 import socket
 import sys
 import tempfile
+
+from bot_console.runtime.process.scratch import scratch
 
 
 def get_logging_directory() -> str:
@@ -34,9 +34,7 @@ def new_run_directory() -> str:
             "ROS_LOG_DIR names another folder",
             file=sys.stderr,
         )
-    path = tempfile.mkdtemp(prefix="ros-log-")
-    atexit.register(shutil.rmtree, path, ignore_errors=True)
-    return path
+    return tempfile.mkdtemp(prefix="ros-log-", dir=scratch())
 
 
 def _made(base: str) -> str:

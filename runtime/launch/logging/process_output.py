@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import os
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, cast
 
 from launch.logging.config import launch_config
 from launch.logging.launch_logger import LaunchLogger, get_logger
@@ -31,7 +31,7 @@ def get_output_loggers(
 ) -> tuple[Any, Any]:
     """Loggers for lines of a process's stdout and stderr; raises `ValueError` for settings that mean nothing."""
     places = _normalized(os.environ.get(OVERRIDE) or output_config)
-    loggers = []
+    loggers: list[_OutputLogger] = []
     for source in ("stdout", "stderr"):
         logger = get_logger(f"{process_name}-{source}")
         logger.propagate = False
@@ -77,7 +77,8 @@ def _normalized(config: Any) -> Mapping[str, frozenset[str]]:
         return WORDS[config]
     if not isinstance(config, Mapping):
         raise ValueError(f'{config} is not a valid output config, give "screen", "log", "both" or a dict')
-    return {source: _places(source, places) for source, places in config.items()}
+    given = cast("Mapping[str, Any]", config)
+    return {source: _places(source, places) for source, places in given.items()}
 
 
 def _places(source: str, places: Any) -> frozenset[str]:

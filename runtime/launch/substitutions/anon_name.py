@@ -6,12 +6,15 @@ import os
 import random
 import re
 import socket
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from launch.frontend import expose_substitution
+from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions.joined import described
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 @expose_substitution("anon")
@@ -38,7 +41,7 @@ class AnonName(Substitution):
         """As `AnonName('rviz')`."""
         return f"AnonName({described(self.__name)})"
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """The name."""
         name = perform_substitutions(context, self.__name)
         key = f"anon{name}"

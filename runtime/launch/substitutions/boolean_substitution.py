@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from launch.frontend import expose_substitution
+from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions.joined import bool_of, described, word
 from launch.utilities import normalize_to_list_of_substitutions
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 @expose_substitution("not")
@@ -34,7 +37,7 @@ class NotSubstitution(Substitution):
         """As `NotSubstitution('true')`."""
         return f"NotSubstitution({described(self.__value)})"
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """`true` or `false`."""
         return word(not bool_of(context, self.__value))
 
@@ -70,7 +73,7 @@ class _TwoSided(Substitution):
         """As `AndSubstitution('true' 'false')`."""
         return f"{type(self).__name__}({described(self.__left)} {described(self.__right)})"
 
-    def sides(self, context: Any) -> tuple[bool, bool]:
+    def sides(self, context: LaunchContext) -> tuple[bool, bool]:
         """Truth values of both sides."""
         return bool_of(context, self.__left), bool_of(context, self.__right)
 
@@ -81,7 +84,7 @@ class AndSubstitution(_TwoSided):
 
     _name = "and"
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """`true` or `false`."""
         return word(all(self.sides(context)))
 
@@ -92,7 +95,7 @@ class OrSubstitution(_TwoSided):
 
     _name = "or"
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """`true` or `false`."""
         return word(any(self.sides(context)))
 
@@ -105,7 +108,11 @@ class _ManySided(Substitution):
     @classmethod
     def parse(cls, data: Any) -> tuple[Any, dict[str, Any]]:
         """From any number of words."""
-        return lambda args: cls(*args), {"args": list(data)}
+
+        def made(args: Any) -> Any:
+            return cls(*args)
+
+        return made, {"args": list(data)}
 
     @property
     def args(self) -> list[list[Substitution]]:
@@ -116,7 +123,7 @@ class _ManySided(Substitution):
         """As `AnySubstitution('true' 'false')`."""
         return f"{type(self).__name__}({' '.join(described(each) for each in self.__args)})"
 
-    def sides(self, context: Any) -> list[bool]:
+    def sides(self, context: LaunchContext) -> list[bool]:
         """Truth values of all sides."""
         return [bool_of(context, each) for each in self.__args]
 
@@ -125,7 +132,7 @@ class _ManySided(Substitution):
 class AnySubstitution(_ManySided):
     """Whether any side is true."""
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """`true` or `false`."""
         return word(any(self.sides(context)))
 
@@ -134,6 +141,6 @@ class AnySubstitution(_ManySided):
 class AllSubstitution(_ManySided):
     """Whether all sides are true."""
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """`true` or `false`."""
         return word(all(self.sides(context)))

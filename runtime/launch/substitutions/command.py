@@ -5,14 +5,17 @@ from __future__ import annotations
 import os
 import shlex
 import subprocess
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import launch.logging
-from launch.frontend import expose_substitution
+from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions.joined import described
 from launch.substitutions.substitution_failure import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 WORDS = ("fail", "ignore", "warn", "capture")
 
@@ -47,7 +50,7 @@ class Command(Substitution):
         """As `Command('date')`."""
         return f"Command({described(self.__command)})"
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """The output with its last newline; raises `SubstitutionFailure` where the command fails."""
         text = perform_substitutions(context, self.__command)
         command = text if os.name == "nt" else shlex.split(text)

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from launch.frontend import expose_substitution
+from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions.joined import described
 from launch.substitutions.substitution_failure import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 @expose_substitution("env")
@@ -41,7 +44,7 @@ class EnvironmentVariable(Substitution):
         """As `EnvVar('HOME')`."""
         return f"EnvVar({described(self.__name)})"
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """The value; raises `SubstitutionFailure` where there is neither value nor default."""
         name = perform_substitutions(context, self.__name)
         default = None if self.__default is None else perform_substitutions(context, self.__default)

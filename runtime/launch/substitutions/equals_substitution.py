@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from launch.frontend import expose_substitution
+from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions.joined import described, word
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 TRUTH = {"true": True, "1": True, "false": False, "0": False}
 
@@ -71,10 +74,10 @@ class EqualsSubstitution(Substitution):
         """As `EqualsSubstitution('a' 'b')`."""
         return f"{type(self).__name__}({described(self.__left)} {described(self.__right)})"
 
-    def equal(self, context: Any) -> bool:
+    def equal(self, context: LaunchContext) -> bool:
         """Whether they are equal now."""
         return _equal(perform_substitutions(context, self.__left), perform_substitutions(context, self.__right))
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """`true` or `false`."""
         return word(self.equal(context))

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import os
 import shutil
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from launch.frontend import expose_substitution
+from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions.joined import described
 from launch.substitutions.substitution_failure import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 @expose_substitution("find-exec")
@@ -37,7 +40,7 @@ class FindExecutable(Substitution):
         """As `FindExec('x')`."""
         return f"FindExec({described(self.__name)})"
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """The path; raises `SubstitutionFailure` where there is none."""
         name = perform_substitutions(context, self.__name)
         found = shutil.which(name, path=context.environment.get("PATH", os.defpath))

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from launch.frontend import expose_substitution
+from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions.joined import described
 from launch.substitutions.substitution_failure import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 @expose_substitution("for-var")
@@ -36,7 +39,7 @@ class ForEachVar(Substitution):
         """As `ForEachVar('x')`."""
         return f"{type(self).__name__}({described(self._name)})"
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """The value; raises `SubstitutionFailure` outside of a loop that has it."""
         name = perform_substitutions(context, self._name)
         values = context.get_locals_as_dict()

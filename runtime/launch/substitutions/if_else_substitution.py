@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from launch.frontend import expose_substitution
+from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions.joined import bool_of, described
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 @expose_substitution("if")
@@ -49,7 +52,7 @@ class IfElseSubstitution(Substitution):
         parts = (self._condition, self._if_value, self._else_value)
         return f"IfElseSubstitution({', '.join(described(each) for each in parts)})"
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """The value."""
         chosen = self._if_value if bool_of(context, self._condition) else self._else_value
         return perform_substitutions(context, chosen)

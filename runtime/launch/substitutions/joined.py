@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.utilities.perform_substitutions_impl import perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 def described(subs: Iterable[Any]) -> str:
@@ -13,7 +16,7 @@ def described(subs: Iterable[Any]) -> str:
     return " + ".join(each.describe() for each in subs)
 
 
-def bool_of(context: Any, subs: Iterable[Any]) -> bool:
+def bool_of(context: LaunchContext, subs: Iterable[Any]) -> bool:
     """The truth value of a text by YAML's rules; raises `SubstitutionFailure` where it has none."""
     from launch.substitutions.substitution_failure import SubstitutionFailure
     from launch.utilities.type_utils import perform_typed_substitution
@@ -29,6 +32,6 @@ def word(value: bool) -> str:
     return "true" if value else "false"
 
 
-def text_of(context: Any, subs: Iterable[Any]) -> str:
+def text_of(context: LaunchContext, subs: Iterable[Any]) -> str:
     """The text."""
     return perform_substitutions(context, subs)

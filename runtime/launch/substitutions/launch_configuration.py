@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
-from launch.frontend import expose_substitution
+from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions.substitution_failure import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 @expose_substitution("var")
@@ -36,7 +39,7 @@ class LaunchConfiguration(Substitution):
         """As `LaunchConfig('x')`."""
         return f"LaunchConfig({' + '.join(each.describe() for each in self.__variable_name)})"
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """The value; raises `SubstitutionFailure` where there is neither value nor default."""
         name = _joined(context, self.__variable_name)
         context.read_configurations.add(name)
@@ -51,11 +54,12 @@ def _pieces(default: Any) -> list[Substitution]:
     if isinstance(default, (str, Substitution)):
         return normalize_to_list_of_substitutions(default)
     if isinstance(default, Iterable):
+        items = cast("Iterable[Any]", default)
         return normalize_to_list_of_substitutions(
-            [each if isinstance(each, Substitution) else str(each) for each in default]
+            [each if isinstance(each, Substitution) else str(each) for each in items]
         )
     return normalize_to_list_of_substitutions(str(default))
 
 
-def _joined(context: Any, subs: list[Substitution]) -> str:
+def _joined(context: LaunchContext, subs: list[Substitution]) -> str:
     return "".join(context.perform_substitution(each) for each in subs)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import launch.logging
-from launch.frontend import expose_substitution
+from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 @expose_substitution("launch_log_dir")
@@ -25,6 +28,6 @@ class LaunchLogDir(Substitution):
         """As `LaunchLogDir()`."""
         return "LaunchLogDir()"
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """The folder."""
         return launch.logging.launch_config.log_dir

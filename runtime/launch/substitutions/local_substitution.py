@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from launch.substitution import Substitution
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class LocalSubstitution(Substitution):
@@ -24,6 +27,6 @@ class LocalSubstitution(Substitution):
         """As `LocalVar('node name')`."""
         return f"LocalVar('{self.__expression if self.__description is None else self.__description}')"
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """The value; raises `AttributeError` where it is missing."""
         return str(eval(f"context.locals.{self.__expression}", {}, {"context": context}))

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
-from launch.frontend import expose_substitution
+from launch.frontend.expose import expose_substitution
 from launch.substitutions.equals_substitution import EqualsSubstitution
 from launch.substitutions.joined import word
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 @expose_substitution("not-equals")
@@ -15,6 +18,6 @@ class NotEqualsSubstitution(EqualsSubstitution):
 
     _name = "not-equals"
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """`true` or `false`."""
         return word(not self.equal(context))

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import os
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from launch.frontend import expose_substitution
+from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions.joined import described
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 @expose_substitution("path-join")
@@ -42,7 +45,7 @@ class PathJoinSubstitution(Substitution):
         """As `PathJoin('<a> + <b>')`."""
         return f"PathJoin('{' + '.join(described(each) for each in self.__pieces)}')"
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """The path."""
         return os.path.join(*(perform_substitutions(context, each) for each in self.__pieces))
 

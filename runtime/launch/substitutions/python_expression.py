@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from launch.frontend import expose_substitution
+from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions.joined import described
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 @expose_substitution("eval")
@@ -47,7 +50,7 @@ class PythonExpression(Substitution):
         modules = ", ".join(described(each) for each in self.__modules)
         return f"PythonExpr({described(self.__expression)}, [{modules}])"
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """The value as text; raises what the expression raises."""
         modules = [importlib.import_module(perform_substitutions(context, each)) for each in self.__modules]
         names: dict[str, Any] = {}

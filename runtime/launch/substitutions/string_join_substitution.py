@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from launch.frontend import expose_substitution
+from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions.joined import described
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 @expose_substitution("string-join")
@@ -40,7 +43,7 @@ class StringJoinSubstitution(Substitution):
         """As `StringJoin('a' + 'b')`."""
         return f"StringJoin('{' + '.join(described(each) for each in self.__parts)}')"
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """The text."""
         delimiter = perform_substitutions(context, self.__delimiter)
         return delimiter.join(perform_substitutions(context, each) for each in self.__parts)

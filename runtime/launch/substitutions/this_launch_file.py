@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from launch.frontend import expose_substitution
+from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions.substitution_failure import SubstitutionFailure
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 @expose_substitution("filename")
@@ -24,7 +27,7 @@ class ThisLaunchFile(Substitution):
         """As `ThisLaunchFile()`."""
         return "ThisLaunchFile()"
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """The path; raises `SubstitutionFailure` where there is no file."""
         path = context.get_locals_as_dict().get("current_launch_file_path")
         if path is None:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from launch.frontend import expose_substitution
+from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions.substitution_failure import SubstitutionFailure
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 @expose_substitution("dirname")
@@ -30,7 +33,7 @@ class ThisLaunchFileDir(Substitution):
         """As `ThisLaunchFileDir()`."""
         return "ThisLaunchFileDir()"
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """The folder; raises `SubstitutionFailure` where there is no file."""
         folder = context.get_locals_as_dict().get("current_launch_file_directory")
         if folder is None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, get_args, get_origin
+from typing import Any, cast, get_args, get_origin
 
 SCALARS: tuple[type, ...] = (int, float, bool, str)
 
@@ -27,9 +27,11 @@ def is_instance_of_valid_type(value: Any, *, can_be_str: bool = False) -> bool:
     """Whether a value is a scalar or a list of one type; texts may stand between others where that is allowed."""
     if not isinstance(value, list):
         return isinstance(value, SCALARS)
-    kind = next((type(each) for each in value if type(each) is not str), str)
+    items = cast("list[Any]", value)
+    kinds: list[type] = [type(each) for each in items]
+    kind = next((each for each in kinds if each is not str), str)
     allowed = (kind, str) if can_be_str else (kind,)
-    return kind in SCALARS and all(isinstance(each, allowed) for each in value)
+    return kind in SCALARS and all(isinstance(each, allowed) for each in items)
 
 
 def is_instance_of(value: Any, data_type: Any, *, can_be_str: bool = False) -> bool:
@@ -40,4 +42,7 @@ def is_instance_of(value: Any, data_type: Any, *, can_be_str: bool = False) -> b
     allowed = (scalar, str) if can_be_str else (scalar,)
     if not is_list:
         return isinstance(value, allowed)
-    return isinstance(value, list) and all(isinstance(each, allowed) for each in value)
+    if not isinstance(value, list):
+        return False
+    items = cast("list[Any]", value)
+    return all(isinstance(each, allowed) for each in items)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, cast
 
 from launch.launch_description_entity import LaunchDescriptionEntity
 
@@ -11,7 +11,8 @@ from launch.launch_description_entity import LaunchDescriptionEntity
 def normalize_to_list_of_entities(entities: Any) -> list[Any]:
     """A flat list from an entity or nested iterables of them; raises `TypeError` for anything else."""
     found: list[Any] = []
-    for each in entities if isinstance(entities, Iterable) else (entities,):
+    given = cast("Iterable[Any]", entities if isinstance(entities, Iterable) else (entities,))
+    for each in given:
         if isinstance(each, LaunchDescriptionEntity):
             found.append(each)
         elif isinstance(each, Iterable) and not isinstance(each, str):

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
-def perform_substitutions(context: Any, subs: Iterable[Any]) -> str:
+def perform_substitutions(context: LaunchContext, subs: Iterable[Any]) -> str:
     """The texts of all, one after the other."""
     return "".join(context.perform_substitution(each) for each in subs)

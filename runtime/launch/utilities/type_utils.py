@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 from launch.substitution import Substitution
 from launch.utilities.data_types import (
@@ -15,6 +15,9 @@ from launch.utilities.data_types import (
 from launch.utilities.ensure_argument_type_impl import ensure_argument_type
 from launch.utilities.normalize_to_list_of_substitutions_impl import normalize_to_list_of_substitutions
 from launch.utilities.perform_substitutions_impl import perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 ScalarValueType = int | float | bool | str
 ListValueType = list[int] | list[float] | list[bool] | list[str]
@@ -87,12 +90,13 @@ def get_typed_value(value: Any, data_type: Any, *, can_be_str: bool = False) -> 
     """A value of a type from a text or a list of texts; raises `ValueError`, and `TypeError` for a list as a scalar."""
     if not isinstance(value, list):
         return coerce_to_type(value, data_type, can_be_str=can_be_str)
+    texts = cast("list[Any]", value)
     if data_type is None:
-        return coerce_list(value, can_be_str=can_be_str)
+        return coerce_list(texts, can_be_str=can_be_str)
     scalar, is_list = extract_type(data_type)
     if not is_list:
-        raise TypeError(f"Cannot convert input '{value}' of type '{type(value)}' to '{scalar}'")
-    return coerce_list(value, scalar, can_be_str=can_be_str)
+        raise TypeError(f"Cannot convert input '{texts}' of type '{list}' to '{scalar}'")
+    return coerce_list(texts, scalar, can_be_str=can_be_str)
 
 
 def _bool_from(value: str, can_be_str: bool) -> bool | str:
@@ -110,9 +114,10 @@ def _list_from(value: str, scalar: Any, can_be_str: bool) -> list[Any]:
     found = _by_yaml(value, problem, can_be_str)
     if not isinstance(found, list):
         raise ValueError(problem)
-    if not all(isinstance(each, wanted) for each in found):
-        raise ValueError(f"{problem}, got {found}")
-    return found
+    items = cast("list[Any]", found)
+    if not all(isinstance(each, wanted) for each in items):
+        raise ValueError(f"{problem}, got {items}")
+    return items
 
 
 def _by_yaml(value: str, problem: str, can_be_str: bool) -> Any:
@@ -143,7 +148,7 @@ def is_substitution(value: Any) -> bool:
         return True
     if isinstance(value, str) or not isinstance(value, Iterable):
         return False
-    items = list(value)
+    items: list[Any] = [*value]
     return any(isinstance(each, Substitution) for each in items) and all(
         isinstance(each, (str, Substitution)) for each in items
     )
@@ -151,7 +156,10 @@ def is_substitution(value: Any) -> bool:
 
 def is_normalized_substitution(value: Any) -> bool:
     """Whether something is a list of substitutions."""
-    return isinstance(value, list) and bool(value) and all(isinstance(each, Substitution) for each in value)
+    if not isinstance(value, list):
+        return False
+    items = cast("list[Any]", value)
+    return bool(items) and all(isinstance(each, Substitution) for each in items)
 
 
 def normalize_typed_substitution(value: Any, data_type: Any = None) -> Any:
@@ -167,7 +175,7 @@ def normalize_typed_substitution(value: Any, data_type: Any = None) -> Any:
             "value should be either a scalar, a substitutions, or a mixed list of scalars and substitutions. "
             f"Got `value={value}` of type `{type(value)}`. "
         )
-    items = list(value)
+    items: list[Any] = [*value]
     wanted = _type_of_items(value, data_type)
     given = _common_type(value, items)
     if given is not None and wanted not in (None, given):
@@ -209,7 +217,7 @@ def _common_type(value: Any, items: list[Any]) -> type | None:
     raise TypeError(f"Input value is not an acceptable 'SomeValueType'.Got value='{value}'")
 
 
-def perform_typed_substitution(context: Any, value: Any, data_type: Any = None) -> Any:
+def perform_typed_substitution(context: LaunchContext, value: Any, data_type: Any = None) -> Any:
     """The value of what `normalize_typed_substitution` gave; raises `ValueError` for a text not of the type."""
     if isinstance(value, ScalarTypesTuple):
         if data_type is not None and not is_instance_of(value, data_type):
@@ -224,9 +232,10 @@ def perform_typed_substitution(context: Any, value: Any, data_type: Any = None) 
         raise ValueError(
             f"The input value is a list, cannot convert it to a scalar. Got value='{value}', expected type {scalar}."
         )
+    items = cast("list[Any]", value)
     found = [
         coerce_to_type(perform_substitutions(context, each), scalar) if is_normalized_substitution(each) else each
-        for each in value
+        for each in items
     ]
     if not is_instance_of(found, data_type):
         expected = f"Got value='{value}', expected type {scalar}."

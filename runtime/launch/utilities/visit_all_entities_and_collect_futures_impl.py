@@ -3,13 +3,24 @@
 from __future__ import annotations
 
 import asyncio
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+from launch.launch_place import tell_visited
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
-def visit_all_entities_and_collect_futures(entity: Any, context: Any) -> list[tuple[Any, asyncio.Future[Any]]]:
+def visit_all_entities_and_collect_futures(
+    entity: Any, context: LaunchContext
+) -> list[tuple[Any, asyncio.Future[Any]]]:
     """Visit an entity, then all that come of it, depth first; each that is not done at once comes with its future."""
-    below = entity.visit(context)
-    found = []
+    try:
+        below = entity.visit(context)
+    except Exception as error:
+        tell_visited(error, entity)
+        raise
+    found: list[tuple[Any, asyncio.Future[Any]]] = []
     future = entity.get_asyncio_future()
     if future is not None:
         found.append((entity, future))

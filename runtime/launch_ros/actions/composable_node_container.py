@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.frontend import expose_action
 from launch_ros.actions.node import Node
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+    from launch.launch_context import LaunchContext
 
 
 @expose_action("node_container")
@@ -17,7 +22,7 @@ class ComposableNodeContainer(Node):
         self.__descriptions = composable_node_descriptions
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any, ignore: Any = None) -> tuple[Any, dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser, ignore: Any = None) -> tuple[Any, dict[str, Any]]:
         """From XML or YAML."""
         from launch_ros.actions.load_composable_nodes import parse_composable_nodes
 
@@ -28,7 +33,7 @@ class ComposableNodeContainer(Node):
         kwargs.setdefault("namespace", "")
         return cls, kwargs
 
-    def execute(self, context: Any) -> list[Any] | None:
+    def execute(self, context: LaunchContext) -> list[Any] | None:
         """Start it, then load the nodes whose conditions hold."""
         from launch_ros.actions.load_composable_nodes import LoadComposableNodes, holds
 

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.frontend import expose_action
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
 from launch_ros.actions.lifecycle_transition import LifecycleTransition
 from launch_ros.actions.node import Node
 from launch_ros.utilities.lifecycle_event_manager import LifecycleEventManager
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+    from launch.launch_context import LaunchContext
 
 
 @expose_action("lifecycle_node")
@@ -21,7 +26,7 @@ class LifecycleNode(Node):
         self.__manager: LifecycleEventManager | None = None
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any, ignore: Any = None) -> tuple[Any, dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser, ignore: Any = None) -> tuple[Any, dict[str, Any]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser, ignore)
         autostart = entity.get_attr("autostart", data_type=bool, optional=True)
@@ -34,7 +39,7 @@ class LifecycleNode(Node):
         """Whether the node is made active as soon as it runs."""
         return self.__autostart
 
-    def execute(self, context: Any) -> list[Any] | None:
+    def execute(self, context: LaunchContext) -> list[Any] | None:
         """Listen to the node, then start it."""
         self._perform_substitutions(context)
         self.__manager = LifecycleEventManager(self)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
 from launch.actions import EmitEvent, RegisterEventHandler
@@ -12,6 +12,9 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 from launch_ros.event_handlers import OnStateTransition
 from launch_ros.events import matches_node_name
 from launch_ros.events.lifecycle import ChangeState
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 GOALS = {1: "inactive", 2: "unconfigured", 3: "active", 4: "inactive", 5: "finalized", 6: "finalized", 7: "finalized"}
 """The state in which each public transition ends, by its number in `lifecycle_msgs/msg/Transition`."""
@@ -29,7 +32,7 @@ class LifecycleTransition(Action):
         if not self.__transitions:
             raise RuntimeError("transition_ids must provide at least one lifecycle node transition id")
 
-    def execute(self, context: Any) -> list[Any]:
+    def execute(self, context: LaunchContext) -> list[Any]:
         """Ask for the first transition of each node, and for the others when it is their turn."""
         numbers = [_number(context, each) for each in self.__transitions]
         entities: list[Any] = []
@@ -58,7 +61,7 @@ class LifecycleTransition(Action):
         return [*handlers, change(numbers[0])]
 
 
-def _number(context: Any, transition: Any) -> int:
+def _number(context: LaunchContext, transition: Any) -> int:
     if isinstance(transition, int):
         return transition
     return int(perform_substitutions(context, normalize_to_list_of_substitutions(transition)))

@@ -5,8 +5,9 @@ from __future__ import annotations
 import asyncio
 import threading
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import launch.logging
 from launch.action import Action
@@ -33,6 +34,11 @@ from launch_ros.utilities import (
     to_parameters_list,
 )
 
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+    from launch.launch_context import LaunchContext
+
 WAIT_S = 1.0
 
 
@@ -51,7 +57,7 @@ class LoadComposableNodes(Action):
         self.__logger = launch.logging.get_logger(__name__)
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[Any, dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["target_container"] = parser.parse_substitution(entity.get_attr("target"))
@@ -62,7 +68,7 @@ class LoadComposableNodes(Action):
         """Done when all were loaded, or cannot be."""
         return self.__done
 
-    def execute(self, context: Any) -> list[Any] | None:
+    def execute(self, context: LaunchContext) -> list[Any] | None:
         """Ask the container for each node whose condition holds."""
         from composition_interfaces.srv import LoadNode
 
@@ -78,7 +84,7 @@ class LoadComposableNodes(Action):
         started = [self._autostart(each, request, context) for each, request in zip(wanted, requests, strict=True)]
         return [each for each in started if each is not None] or None
 
-    def _autostart(self, description: Any, request: Any, context: Any) -> Action | None:
+    def _autostart(self, description: Any, request: Any, context: LaunchContext) -> Action | None:
         """What makes a loaded lifecycle node active, where it shall be."""
         if not isinstance(description, ComposableLifecycleNode):
             return None
@@ -90,27 +96,27 @@ class LoadComposableNodes(Action):
         self.__logger.info(f"Autostart enabled for requested lifecycle node {name}")
         return make_active(name)
 
-    def _container_name(self, context: Any) -> str:
+    def _container_name(self, context: LaunchContext) -> str:
         """The container's full name, or the text as it is: no pushed namespace goes before it."""
         if isinstance(self.__target, Node):
             return self.__target.node_name
         return perform_substitutions(context, normalize_to_list_of_substitutions(self.__target))
 
-    def _load(self, requests: list[Any], client: Any, target: str, context: Any) -> None:
+    def _load(self, requests: list[Any], client: Any, target: str, context: LaunchContext) -> None:
         try:
             for request in requests:
                 self._load_one(request, client, target, context)
         finally:
             context.asyncio_loop.call_soon_threadsafe(self._finish)
 
-    def _load_one(self, request: Any, client: Any, target: str, context: Any) -> None:
+    def _load_one(self, request: Any, client: Any, target: str, context: LaunchContext) -> None:
         while not client.wait_for_service(timeout_sec=0.0 if context.is_shutdown else WAIT_S):
             if context.is_shutdown:
                 self.__logger.warning(f"Abandoning wait for the '{client.srv_name}' service, due to shutdown.")
                 return
         answered = threading.Event()
         future = client.call_async(request)
-        future.add_done_callback(lambda _: answered.set())
+        future.add_done_callback(partial(_tell, answered))
         while not answered.wait(WAIT_S):
             if context.is_shutdown:
                 self.__logger.warning(f"Abandoning wait for the '{client.srv_name}' service response, due to shutdown.")
@@ -121,7 +127,7 @@ class LoadComposableNodes(Action):
             return
         self._report(future.result(), request, target, context)
 
-    def _report(self, answer: Any, request: Any, target: str, context: Any) -> None:
+    def _report(self, answer: Any, request: Any, target: str, context: LaunchContext) -> None:
         name = answer.full_node_name or request.node_name
         if not answer.success:
             self.__logger.error(
@@ -137,7 +143,11 @@ class LoadComposableNodes(Action):
             self.__done.set_result(None)
 
 
-def _count(name: str, target: str, context: Any) -> None:
+def _tell(answered: threading.Event, future: Any) -> None:
+    answered.set()
+
+
+def _count(name: str, target: str, context: LaunchContext) -> None:
     add_node_name(context, name)
     count = get_node_name_count(context, name)
     if count > 1:
@@ -146,22 +156,22 @@ def _count(name: str, target: str, context: Any) -> None:
         )
 
 
-def parse_composable_nodes(entity: Any, parser: Any, *, optional: bool = False) -> list[ComposableNode]:
+def parse_composable_nodes(entity: Entity, parser: Parser, *, optional: bool = False) -> list[ComposableNode]:
     """The `composable_node` elements."""
-    found = []
+    found: list[ComposableNode] = []
     for each in entity.get_attr("composable_node", data_type=list, optional=optional) or ():
         kind, kwargs = ComposableNode.parse(parser, each)
         found.append(kind(**kwargs))
     return found
 
 
-def holds(description: ComposableNode, context: Any) -> bool:
+def holds(description: ComposableNode, context: LaunchContext) -> bool:
     """Whether a description's condition holds."""
     condition = description.condition()
     return condition is None or condition.evaluate(context)
 
 
-def request_for(description: ComposableNode, context: Any) -> Any:
+def request_for(description: ComposableNode, context: LaunchContext) -> Any:
     """The request that loads a node, with what the launch file has set for all nodes."""
     from composition_interfaces.srv import LoadNode
 
@@ -199,12 +209,12 @@ def _of_all_nodes(given: Any) -> Any:
     return ParameterFile(path)
 
 
-def _messages(context: Any, names: tuple[str, str], parameters: Sequence[Any]) -> list[Any]:
+def _messages(context: LaunchContext, names: tuple[str, str], parameters: Sequence[Any]) -> list[Any]:
     evaluated = evaluate_parameters(context, parameters)
     return [each.to_parameter_msg() for each in to_parameters_list(context, *names, evaluated)]
 
 
-def get_composable_node_load_request(composable_node_description: ComposableNode, context: Any) -> Any:
+def get_composable_node_load_request(composable_node_description: ComposableNode, context: LaunchContext) -> Any:
     """The request that loads a node; None where its condition does not hold."""
     if not holds(composable_node_description, context):
         return None

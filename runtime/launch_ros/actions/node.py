@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 import launch.logging
 from launch.actions import ExecuteProcess
@@ -15,6 +15,7 @@ from launch.utilities import ensure_argument_type, normalize_to_list_of_substitu
 from launch_ros.missing_executables import may_start
 from launch_ros.node_program import os_command, program_of
 from launch_ros.parameter_arguments import ParameterArgument, global_parameter_arguments, own_parameter_arguments
+from launch_ros.parameter_sources import tell_given
 from launch_ros.parameter_warnings import warn_of_files, warn_of_values
 from launch_ros.substitutions import ExecutableInPackage
 from launch_ros.utilities import (
@@ -27,6 +28,11 @@ from launch_ros.utilities import (
     prefix_namespace,
     warn_of_same_name,
 )
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+    from launch.launch_context import LaunchContext
 
 LOCALS = "ros_specific_arguments"
 
@@ -57,7 +63,8 @@ class Node(ExecuteProcess):
         ]
         cmd += [] if arguments is None else arguments
         if ros_arguments is not None:
-            cmd += ["--ros-args"] + ros_arguments  # type: ignore[operator]  # noqa: RUF005 (fails as upstream does)
+            given: Any = ros_arguments
+            cmd += ["--ros-args"] + given  # noqa: RUF005 - fails as upstream does for what is no list
         cmd += ["--ros-args"]
         if name is not None:
             cmd += ["-r", LocalSubstitution(f"{LOCALS}['name']", description="node name")]
@@ -71,8 +78,8 @@ class Node(ExecuteProcess):
         self.__executable = executable
         self.__name = name
         self.__namespace = namespace
-        self.__parameters = [] if parameters is None else parameters
-        self.__remappings = [] if remappings is None else remappings
+        self.__parameters: list[Any] = [] if parameters is None else parameters
+        self.__remappings: list[tuple[Any, Any]] = [] if remappings is None else remappings
         self.__arguments = arguments
         self.__ros_arguments = ros_arguments
         self.__expanded_name = self.UNSPECIFIED_NODE_NAME
@@ -85,7 +92,7 @@ class Node(ExecuteProcess):
         self.__logger = launch.logging.get_logger(__name__)
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any, ignore: Iterable[str] | None = None) -> tuple[Any, dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser, ignore: Iterable[str] | None = None) -> tuple[Any, dict[str, Any]]:
         """From XML or YAML."""
         from launch_ros.actions.parse_node import parse_node
 
@@ -147,10 +154,10 @@ class Node(ExecuteProcess):
             self.UNSPECIFIED_NODE_NAME not in self.node_name and self.UNSPECIFIED_NODE_NAMESPACE not in self.node_name
         )
 
-    def execute(self, context: Any) -> list[Any] | None:
+    def execute(self, context: LaunchContext) -> list[Any] | None:
         """Evaluate names, parameters and rules, then start."""
         self._perform_substitutions(context)
-        if self.__package is not None and not may_start(context, self.process_description.cmd[0], self.__package_text):
+        if self.__package is not None and not may_start(context, self, self.__package_text):
             return None
         words = {"name": f"__node:={self.__expanded_name}"} if self.__name is not None else {}
         context.extend_locals({LOCALS: words})
@@ -161,7 +168,7 @@ class Node(ExecuteProcess):
             warn_of_same_name(context, self._likely_name(), self.origin)
         return entities
 
-    def _count_name(self, context: Any) -> None:
+    def _count_name(self, context: LaunchContext) -> None:
         add_node_name(context, self.node_name)
         count = get_node_name_count(context, self.node_name)
         if count > 1:
@@ -170,7 +177,7 @@ class Node(ExecuteProcess):
                 "created within this launch context"
             )
 
-    def _perform_substitutions(self, context: Any) -> None:
+    def _perform_substitutions(self, context: LaunchContext) -> None:
         if self.__substitutions_performed:
             return  # a second run of the same action fails in a moment, with its own message
         self.__substitutions_performed = True
@@ -181,7 +188,7 @@ class Node(ExecuteProcess):
         self._expand_parameters(context)
         self._expand_remappings(context)
 
-    def _expand_names(self, context: Any) -> None:
+    def _expand_names(self, context: LaunchContext) -> None:
         try:
             if self.__name is not None:
                 self.__expanded_name = _performed(context, self.__name)
@@ -202,16 +209,17 @@ class Node(ExecuteProcess):
             raise
         self.__final_name = prefix_namespace(self.__expanded_namespace, self.__expanded_name)
 
-    def _expand_parameters(self, context: Any) -> None:
+    def _expand_parameters(self, context: LaunchContext) -> None:
         given = context.launch_configurations.get("global_params")
         if given is None and not self.__parameters:
             return
         self.__expanded_parameters = [] if given is None else global_parameter_arguments(given)
         target = self.node_name if self.is_node_name_fully_specified() else None
+        tell_given(context, self._likely_name(), self.__parameters, self.origin)
         evaluated = evaluate_parameters(context, self.__parameters)
         for entry, found in zip(self.__parameters, evaluated, strict=True):
             if isinstance(entry, dict):
-                warn_of_values(context, entry, found, self.origin)
+                warn_of_values(context, cast("dict[Any, Any]", entry), found, self.origin)
         self.__expanded_parameters += own_parameter_arguments(context, evaluated, target, self.__logger)
         if self.__name is not None:
             files = [str(each) for each in evaluated if isinstance(each, Path)]
@@ -223,8 +231,8 @@ class Node(ExecuteProcess):
         """The full name, with the root as namespace where none is known: few programs choose another."""
         return self.node_name.replace(self.UNSPECIFIED_NODE_NAMESPACE, "")
 
-    def _expand_remappings(self, context: Any) -> None:
-        rules = list(context.launch_configurations.get("ros_remaps") or ())
+    def _expand_remappings(self, context: LaunchContext) -> None:
+        rules: list[tuple[str, str]] = list(context.launch_configurations.get("ros_remaps") or ())
         rules += [(_performed(context, source), _performed(context, target)) for source, target in self.__remappings]
         if rules:
             self.__expanded_remappings = rules
@@ -245,7 +253,7 @@ class Node(ExecuteProcess):
         return os_command(self.__package_text, command, len(self.process_description.words_of_prefix))
 
 
-def _performed(context: Any, text: Any) -> str:
+def _performed(context: LaunchContext, text: Any) -> str:
     return perform_substitutions(context, normalize_to_list_of_substitutions(text))
 
 

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.frontend.process_attributes import parse_command_line
 from launch_ros.actions.parse_parameters import parse_nested_parameters, parse_remappings
 
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
 
-def parse_node(entity: Any, parser: Any, kwargs: dict[str, Any]) -> dict[str, Any]:
+
+def parse_node(entity: Entity, parser: Parser, kwargs: dict[str, Any]) -> dict[str, Any]:
     """Add what belongs to a node to the keyword arguments of its process."""
     for attribute, keyword in (("args", "arguments"), ("ros_args", "ros_arguments")):
         text = entity.get_attr(attribute, optional=True)

@@ -3,10 +3,14 @@
 # ruff: noqa: UP006, UP035 (messages show the names of these types)
 from __future__ import annotations
 
-from typing import Any, List
+from typing import TYPE_CHECKING, Any, List
 
 from launch_ros.descriptions.parameter_file import ParameterFile
 from launch_ros.descriptions.parameter_value import ParameterValue
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
 
 TYPES: dict[str, Any] = {
     "int": int,
@@ -26,7 +30,7 @@ def parse_nested_parameters(params: Any, parser: Any) -> list[Any]:
     return [_parameter(each, parser) for each in params]
 
 
-def _parameter(entity: Any, parser: Any) -> Any:
+def _parameter(entity: Entity, parser: Parser) -> Any:
     source = entity.get_attr("from", optional=True)
     name = entity.get_attr("name", optional=True)
     substitute = entity.get_attr("allow_substs", data_type=bool, optional=True)
@@ -46,7 +50,7 @@ def _parameter(entity: Any, parser: Any) -> Any:
     return _named(entity, parser)
 
 
-def _named(entity: Any, parser: Any) -> dict[Any, Any]:
+def _named(entity: Entity, parser: Parser) -> dict[Any, Any]:
     name = tuple(parser.parse_substitution(entity.get_attr("name")))
     kind = _kind(entity.get_attr("type", optional=True))
     value = entity.get_attr("value", data_type=kind, optional=True)
@@ -74,7 +78,7 @@ def _kind(name: str | None) -> Any:
     return TYPES[name]
 
 
-def parse_remappings(entity: Any, parser: Any) -> list[tuple[Any, Any]] | None:
+def parse_remappings(entity: Entity, parser: Parser) -> list[tuple[Any, Any]] | None:
     """The `remap` elements."""
     elements = entity.get_attr("remap", data_type=list, optional=True)
     if elements is None:

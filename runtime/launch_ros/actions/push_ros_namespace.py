@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
 from launch.frontend import expose_action
@@ -10,6 +10,11 @@ from launch.substitution import Substitution
 from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.utilities import make_namespace_absolute, prefix_namespace
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+    from launch.launch_context import LaunchContext
 
 
 @expose_action("push_ros_namespace")
@@ -22,7 +27,7 @@ class PushROSNamespace(Action):
         self.__namespace = normalize_to_list_of_substitutions(namespace)
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[type[PushROSNamespace], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[PushROSNamespace], dict[str, Any]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["namespace"] = parser.parse_substitution(entity.get_attr("namespace"))
@@ -33,7 +38,7 @@ class PushROSNamespace(Action):
         """The namespace."""
         return self.__namespace
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         """Push it; raises `SubstitutionFailure` for an invalid one."""
         from rclpy.exceptions import InvalidNamespaceException
         from rclpy.validate_namespace import validate_namespace

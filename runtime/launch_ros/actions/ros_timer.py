@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.actions import TimerAction
 from launch.events import TimerEvent
 from launch.frontend import expose_action
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 @expose_action("ros_timer")
@@ -17,7 +20,7 @@ class ROSTimer(TimerAction):
         super().__init__(period=period, actions=actions, **kwargs)
         self.__timer: Any = None
 
-    def _wait(self, context: Any, period: float) -> None:
+    def _wait(self, context: LaunchContext, period: float) -> None:
         from launch_ros.ros_adapters import get_ros_node
 
         node = get_ros_node(context)

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 from launch.action import Action
 from launch.frontend import expose_action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.parameter_warnings import warn_of_argument
 from launch_ros.utilities import evaluate_parameter_dict, normalize_parameter_dict
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+    from launch.launch_context import LaunchContext
 
 KEY = "global_params"
 
@@ -22,7 +27,7 @@ class SetParameter(Action):
         self.__param_dict = normalize_parameter_dict({_key(name): value})
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[type[SetParameter], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetParameter], dict[str, Any]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
@@ -39,7 +44,7 @@ class SetParameter(Action):
         """The parameter's value."""
         return next(iter(self.__param_dict.values()))
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         """Set it."""
         evaluated = evaluate_parameter_dict(context, self.__param_dict)
         for name, value in evaluated.items():
@@ -57,7 +62,7 @@ class SetParametersFromFile(Action):
         self.__file = normalize_to_list_of_substitutions(filename)
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[type[SetParametersFromFile], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetParametersFromFile], dict[str, Any]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["filename"] = parser.parse_substitution(entity.get_attr("filename"))
@@ -68,11 +73,14 @@ class SetParametersFromFile(Action):
         """Where it is."""
         return self.__file
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         """Give it."""
         context.launch_configurations.setdefault(KEY, [])
         context.launch_configurations[KEY].append(perform_substitutions(context, self.__file))
 
 
 def _key(name: Any) -> Any:
-    return tuple(name) if isinstance(name, list) else name
+    if not isinstance(name, list):
+        return name
+    pieces = cast("list[Any]", name)
+    return tuple(pieces)

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
 from launch.frontend import expose_action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+    from launch.launch_context import LaunchContext
 
 
 @expose_action("set_remap")
@@ -19,7 +24,7 @@ class SetRemap(Action):
         self.__target = normalize_to_list_of_substitutions(dst)
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[type[SetRemap], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetRemap], dict[str, Any]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["src"] = parser.parse_substitution(entity.get_attr("from"))
@@ -36,7 +41,7 @@ class SetRemap(Action):
         """The name that it becomes."""
         return self.__target
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         """Give it."""
         rule = (perform_substitutions(context, self.__source), perform_substitutions(context, self.__target))
         context.launch_configurations.setdefault("ros_remaps", [])

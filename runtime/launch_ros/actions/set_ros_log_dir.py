@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import os
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
 from launch.frontend import expose_action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+    from launch.launch_context import LaunchContext
 
 
 @expose_action("set_ros_log_dir")
@@ -19,7 +24,7 @@ class SetROSLogDir(Action):
         self.__log_dir = normalize_to_list_of_substitutions(new_log_dir)
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[type[SetROSLogDir], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetROSLogDir], dict[str, Any]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["new_log_dir"] = parser.parse_substitution(entity.get_attr("new_log_dir"))
@@ -30,7 +35,7 @@ class SetROSLogDir(Action):
         """The folder."""
         return self.__log_dir
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         """Set it."""
         from rclpy.logging import get_logging_directory
 

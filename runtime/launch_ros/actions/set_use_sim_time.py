@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.action import Action
 from launch.frontend import expose_action
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
+
+if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
+    from launch.launch_context import LaunchContext
 
 
 @expose_action("set_use_sim_time")
@@ -18,7 +23,7 @@ class SetUseSimTime(Action):
         self.__value = normalize_typed_substitution(value, bool)
 
     @classmethod
-    def parse(cls, entity: Any, parser: Any) -> tuple[type[SetUseSimTime], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetUseSimTime], dict[str, Any]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["value"] = parser.parse_substitution(entity.get_attr("value"))
@@ -29,7 +34,7 @@ class SetUseSimTime(Action):
         """Whether it does."""
         return self.__value
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: LaunchContext) -> None:
         """Set it."""
         from launch_ros.ros_adapters import get_ros_node
         from rclpy.parameter import Parameter

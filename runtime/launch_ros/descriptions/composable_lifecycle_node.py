@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.utilities.type_utils import normalize_typed_substitution
 from launch_ros.descriptions.composable_node import ComposableNode
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class ComposableLifecycleNode(ComposableNode):
@@ -26,7 +29,7 @@ class ComposableLifecycleNode(ComposableNode):
         """The node's name; its full name once the launch knows it."""
         return super().node_name if self.__full_name is None else self.__full_name
 
-    def init_lifecycle_event_manager(self, context: Any, full_name: str) -> None:
+    def init_lifecycle_event_manager(self, context: LaunchContext, full_name: str) -> None:
         """Hear and steer the node of this full name."""
         from launch_ros.utilities.lifecycle_event_manager import LifecycleEventManager
 

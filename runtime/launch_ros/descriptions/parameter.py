@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.descriptions.parameter_value import ParameterValue
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class Parameter:
@@ -34,7 +37,7 @@ class Parameter:
     def __str__(self) -> str:
         return f"launch_ros.description.Parameter(name={self.name}, value={self.value}, value_type={self.value_type})"
 
-    def evaluate(self, context: Any) -> tuple[str, Any]:
+    def evaluate(self, context: LaunchContext) -> tuple[str, Any]:
         """Name and value, of the first time."""
         if self.__evaluated_name is None:
             self.__evaluated_name = perform_substitutions(context, self.__name)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-import tempfile
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from bot_console.runtime.process.scratch import scratch_file
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 PREFIX = "launch_params_"
 
@@ -33,7 +36,7 @@ class ParameterFile:
     def __str__(self) -> str:
         return f"launch_ros.description.ParameterFile(param_file={self.param_file}, allow_substs={self.allow_substs})"
 
-    def evaluate(self, context: Any) -> Path:
+    def evaluate(self, context: LaunchContext) -> Path:
         """The path; of a file with substitutions, that of a copy in which they are evaluated. The first time counts.
 
         Raises `OSError` for a file with substitutions that cannot be read, `SubstitutionFailure` for one that is no
@@ -52,7 +55,7 @@ class ParameterFile:
             self.__evaluated = None
 
 
-def _substituted(context: Any, path: Path) -> Path:
+def _substituted(context: LaunchContext, path: Path) -> Path:
     import yaml
     from launch.frontend.parse_substitution import parse_substitution
     from launch.substitutions import SubstitutionFailure
@@ -62,6 +65,4 @@ def _substituted(context: Any, path: Path) -> Path:
         yaml.safe_load(text)
     except yaml.YAMLError as error:
         raise SubstitutionFailure("The substituted parameter file is not a valid yaml file") from error
-    with tempfile.NamedTemporaryFile(mode="w", prefix=PREFIX, delete=False, encoding="utf-8") as copy:
-        copy.write(text)
-    return Path(copy.name)
+    return scratch_file(PREFIX, text)

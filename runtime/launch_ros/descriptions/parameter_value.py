@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class ParameterValue:
@@ -33,7 +36,7 @@ class ParameterValue:
     def __str__(self) -> str:
         return f"launch_ros.description.ParameterValue(value={self.value}, value_type={self.value_type})"
 
-    def evaluate(self, context: Any) -> Any:
+    def evaluate(self, context: LaunchContext) -> Any:
         """The value, of the first time; raises `ValueError` for a text that is none of the type."""
         self.__evaluated = perform_typed_substitution(context, self.value, self.__value_type)
         return self.__evaluated

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ament_index_python.packages import PackageNotFoundError, get_package_prefix
 from bot_console.runtime.workspace.executables import executables
@@ -14,6 +14,9 @@ from launch.substitutions import SubstitutionFailure
 from launch.substitutions.joined import described
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.node_program import container_path
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 @expose_substitution("exec-in-pkg")
@@ -46,7 +49,7 @@ class ExecutableInPackage(Substitution):
         """As `ExecInPkg(pkg='p', exec='e')`."""
         return f"ExecInPkg(pkg={described(self.__package)}, exec={described(self.__executable)})"
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """The path; raises `PackageNotFoundError`, or `SubstitutionFailure` for a package without the executable."""
         executable = perform_substitutions(context, self.__executable)
         package = perform_substitutions(context, self.__package)

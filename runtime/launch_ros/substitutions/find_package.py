@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ament_index_python.packages import get_package_prefix, get_package_share_directory
 from launch.frontend import expose_substitution
@@ -11,6 +11,9 @@ from launch.substitution import Substitution
 from launch.substitutions import PathJoinSubstitution
 from launch.substitutions.joined import described
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 class FindPackage(Substitution):
@@ -44,7 +47,7 @@ class FindPackage(Substitution):
         """The folder; raises `PackageNotFoundError`."""
         raise NotImplementedError
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """The folder."""
         return str(Path(self.find(perform_substitutions(context, self.__package))))
 

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.frontend import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions import SubstitutionFailure
 from launch.substitutions.joined import described
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 
 @expose_substitution("param")
@@ -36,12 +39,13 @@ class Parameter(Substitution):
         """As `Parameter('x')`."""
         return f"Parameter({described(self.__name)})"
 
-    def perform(self, context: Any) -> str:
+    def perform(self, context: LaunchContext) -> str:
         """The value; raises `SubstitutionFailure` where nobody has set it."""
         name = perform_substitutions(context, self.__name)
         for each in context.launch_configurations.get("global_params", ()):
-            if isinstance(each, tuple) and each[0] == name:
-                return str(each[1])
+            pair: Any = each
+            if isinstance(each, tuple) and pair[0] == name:
+                return str(pair[1])
         if self.__default is None:
             raise SubstitutionFailure(f"parameter '{name}' not found")
         return perform_substitutions(context, self.__default)

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 from launch.utilities import ensure_argument_type, perform_substitutions
 from launch.utilities.type_utils import is_normalized_substitution
 from launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
 
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+
 SCALARS = (float, int, str, bool, bytes)
 ITEM_SCALARS = (bool, int, float, str)
 
 
-def evaluate_parameters(context: Any, parameters: Sequence[Any]) -> tuple[Any, ...]:
+def evaluate_parameters(context: LaunchContext, parameters: Sequence[Any]) -> tuple[Any, ...]:
     """Each entry as a dict of plain values, a path, or a `Parameter`; raises `TypeError` for values of no ROS type."""
     found: list[Any] = []
     for entry in parameters:
@@ -27,7 +30,7 @@ def evaluate_parameters(context: Any, parameters: Sequence[Any]) -> tuple[Any, .
     return tuple(found)
 
 
-def evaluate_parameter_dict(context: Any, parameters: Mapping[Any, Any]) -> dict[str, Any]:
+def evaluate_parameter_dict(context: LaunchContext, parameters: Mapping[Any, Any]) -> dict[str, Any]:
     """Names and values."""
     found: dict[str, Any] = {}
     for key, value in parameters.items():
@@ -39,16 +42,17 @@ def evaluate_parameter_dict(context: Any, parameters: Mapping[Any, Any]) -> dict
     return found
 
 
-def _evaluate(context: Any, name: str, value: Any) -> Any:
+def _evaluate(context: LaunchContext, name: str, value: Any) -> Any:
     if is_normalized_substitution(value):
         return yaml_value(name, perform_substitutions(context, value))
-    if isinstance(value, tuple) and any(isinstance(each, list) for each in value):
-        return [
-            yaml_value(name, perform_substitutions(context, each)) if isinstance(each, list) else each for each in value
-        ]
-    if isinstance(value, tuple) and not value:
-        ensure_argument_type(value, SCALARS, "value")
-    return value
+    if not isinstance(value, tuple):
+        return value
+    items = cast("tuple[Any, ...]", value)
+    if any(isinstance(each, list) for each in items):
+        return [yaml_value(name, perform_substitutions(context, each)) if _is_list(each) else each for each in items]
+    if not items:
+        ensure_argument_type(items, SCALARS, "value")
+    return items
 
 
 def yaml_value(name: str, text: str) -> Any:
@@ -71,9 +75,10 @@ def check_value(name: str, value: Any) -> Any:
     if isinstance(value, SCALARS):
         return value
     if isinstance(value, Sequence):
-        kinds = {type(each) for each in value}
+        items = cast("Sequence[Any]", value)
+        kinds: set[type] = {type(each) for each in items}
         if len(kinds) == 1 and kinds <= {*ITEM_SCALARS}:
-            return tuple(value)
+            return tuple(items)
         raise TypeError(
             "Expected a non-empty sequence, with items of uniform type. Allowed sequence item types are "
             f'bool, int, float, str. Got inconsistent input for "{name}"'
@@ -83,3 +88,7 @@ def check_value(name: str, value: Any) -> Any:
         f'Sequence[str]. Got {type(value)} for "{name}". If the parameter is meant to be a string, try wrapping it in '
         "launch_ros.parameter_descriptions.ParameterValue(value, value_type=str)"
     )
+
+
+def _is_list(value: Any) -> bool:
+    return isinstance(value, list)

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import threading
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import launch.logging
 from launch.event_handler import BaseEventHandler
 from launch_ros.ros_adapters import get_ros_node
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 WAIT_S = 1.0
 
@@ -27,7 +30,7 @@ class LifecycleEventManager:
         """The node's full name."""
         return self._node.node_name
 
-    def setup_lifecycle_manager(self, context: Any) -> None:
+    def setup_lifecycle_manager(self, context: LaunchContext) -> None:
         """Begin, before the node starts."""
         from lifecycle_msgs.msg import TransitionEvent
         from lifecycle_msgs.srv import ChangeState as ChangeStateService
@@ -39,17 +42,17 @@ class LifecycleEventManager:
         self._client = node.create_client(ChangeStateService, f"{self.node_name}/change_state")
         context.register_event_handler(_OnChangeState(self._node, self._change_state))
 
-    def _on_transition(self, context: Any, message: Any) -> None:
+    def _on_transition(self, context: LaunchContext, message: Any) -> None:
         from launch_ros.events.lifecycle import StateTransition
 
         event = StateTransition(action=self._node, msg=message)
         context.asyncio_loop.call_soon_threadsafe(context.emit_event_sync, event)
 
-    def _change_state(self, event: Any, context: Any) -> None:
+    def _change_state(self, event: Any, context: LaunchContext) -> None:
         thread = threading.Thread(target=self._call, args=(event.transition_id, context), daemon=True)
         thread.start()
 
-    def _call(self, transition_id: int, context: Any) -> None:
+    def _call(self, transition_id: int, context: LaunchContext) -> None:
         from launch_ros.events.lifecycle import ChangeState
         from lifecycle_msgs.srv import ChangeState as ChangeStateService
 
@@ -61,7 +64,11 @@ class LifecycleEventManager:
         request.transition.id = transition_id
         answered = threading.Event()
         future = self._client.call_async(request)
-        future.add_done_callback(lambda _: answered.set())
+
+        def tell(_: Any) -> None:
+            answered.set()
+
+        future.add_done_callback(tell)
         while not answered.wait(WAIT_S):
             if context.is_shutdown:
                 self._logger.warning(
@@ -81,6 +88,6 @@ class _OnChangeState(BaseEventHandler):
         self._callback = callback
         super().__init__(matcher=lambda event: isinstance(event, ChangeState) and event.lifecycle_node_matcher(action))
 
-    def handle(self, event: Any, context: Any) -> None:
+    def handle(self, event: Any, context: LaunchContext) -> None:
         super().handle(event, context)
         self._callback(event, context)

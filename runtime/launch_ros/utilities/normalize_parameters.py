@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from launch.some_substitutions_type import SomeSubstitutionsType_types_tuple
 from launch.substitution import Substitution
@@ -20,12 +20,14 @@ def normalize_parameters(parameters: Any) -> list[Any]:
     """Each entry as a dict with normal keys and values, a `ParameterFile`, or a `Parameter`; raises `TypeError`."""
     if isinstance(parameters, str) or not isinstance(parameters, Sequence):
         raise TypeError("Expecting list of parameters, got {parameters}")
-    return [_entry(each) for each in parameters]
+    given = cast("Sequence[Any]", parameters)
+    return [_entry(each) for each in given]
 
 
 def _entry(entry: Any) -> Any:
     if isinstance(entry, Mapping):
-        return normalize_parameter_dict(entry)
+        values = cast("Mapping[Any, Any]", entry)
+        return normalize_parameter_dict(values)
     if isinstance(entry, (Parameter, ParameterFile)):
         return entry
     ensure_argument_type(entry, (str, Path, Substitution, list, tuple), "parameters", "normalize_parameters")
@@ -34,13 +36,14 @@ def _entry(entry: Any) -> Any:
 
 def normalize_parameter_dict(parameters: Mapping[Any, Any], *, _prefix: Any = None) -> dict[Key, Any]:
     """Names as substitutions, those of nested dicts with dots between; values as `normalize_value` gives them."""
-    if not isinstance(parameters, Mapping):
+    if not isinstance(parameters, Mapping):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
         raise TypeError("expected dict")
     found: dict[Key, Any] = {}
     for name, value in parameters.items():
         key = _key(name, _prefix)
         if isinstance(value, Mapping):
-            found.update(normalize_parameter_dict(value, _prefix=key))
+            below = cast("Mapping[Any, Any]", value)
+            found.update(normalize_parameter_dict(below, _prefix=key))
         else:
             found[key] = normalize_value(value)
     return found
@@ -58,7 +61,8 @@ def normalize_value(value: Any) -> Any:
     if isinstance(value, Substitution):
         return [value]
     if isinstance(value, Sequence):
-        return _normalize_sequence(value)
+        items = cast("Sequence[Any]", value)
+        return _normalize_sequence(items)
     raise TypeError(f"Unexpected type for parameter value {value!r}")
 
 

@@ -6,12 +6,17 @@ import re
 import warnings
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 PARAMETERS_KEY = "ros__parameters"
 
 
-def to_parameters_list(context: Any, node_name: str, namespace: str | None, evaluated_parameters: Any) -> list[Any]:
+def to_parameters_list(
+    context: LaunchContext, node_name: str, namespace: str | None, evaluated_parameters: Any
+) -> list[Any]:
     """The `rclpy` parameters of a node from what `evaluate_parameters` gave; of files, what is meant for the node.
 
     A `UserWarning` says that a file has nothing for the node. Raises `OSError`, `yaml.YAMLError`, `RuntimeError` for a
@@ -23,13 +28,24 @@ def to_parameters_list(context: Any, node_name: str, namespace: str | None, eval
     found: list[Any] = []
     for each in evaluated_parameters:
         if isinstance(each, Path):
-            values = _values_of_file(context, each, full_name)
+            values: Mapping[Any, Any] = _values_of_file(context, each, full_name)
         else:
-            values = each if isinstance(each, Mapping) else dict([each.evaluate(context)])
-        found += [
-            Parameter(name, value=list(value) if isinstance(value, tuple) else value) for name, value in values.items()
-        ]
+            values = _values_of(context, each)
+        found += [Parameter(name, value=_as_list(value)) for name, value in values.items()]
     return found
+
+
+def _values_of(context: LaunchContext, entry: Any) -> Mapping[Any, Any]:
+    if isinstance(entry, Mapping):
+        return cast("Mapping[Any, Any]", entry)
+    return dict([entry.evaluate(context)])
+
+
+def _as_list(value: Any) -> Any:
+    if not isinstance(value, tuple):
+        return value
+    items = cast("tuple[Any, ...]", value)
+    return [*items]
 
 
 def _full_name(node_name: str, namespace: str | None) -> str:
@@ -37,7 +53,7 @@ def _full_name(node_name: str, namespace: str | None) -> str:
     return name if not namespace or namespace == "/" else f"/{namespace.strip('/')}{name}"
 
 
-def _values_of_file(context: Any, path: Path, full_name: str) -> dict[str, Any]:
+def _values_of_file(context: LaunchContext, path: Path, full_name: str) -> dict[str, Any]:
     """Values of the keys that mean the node, later ones over earlier ones; a file without node keys is all values."""
     import yaml
     from launch_ros.utilities.evaluate_parameters import evaluate_parameter_dict
@@ -46,13 +62,14 @@ def _values_of_file(context: Any, path: Path, full_name: str) -> dict[str, Any]:
     content = yaml.safe_load(path.read_text(encoding="utf-8"))
     if not isinstance(content, Mapping):
         raise RuntimeError(f"invalid yaml file {path}, error: it has no keys")
-    sections = list(_sections(content, []))
+    tree = cast("Mapping[Any, Any]", content)
+    sections = list(_sections(tree, []))
     values: dict[str, Any] = {}
     for key, section in sections:
         if _means(key, full_name, path):
             values.update(section or {})
     if not sections:
-        values = dict(content)
+        values = dict(tree)
     elif not values:
         warnings.warn(
             "node name not provided to launch; parameter files will not apply "
@@ -70,7 +87,8 @@ def _sections(content: Mapping[Any, Any], above: list[str]) -> Iterator[tuple[st
             yield "/".join(above), value
             return
         if isinstance(value, Mapping):
-            yield from _sections(value, [*above, str(key).lstrip("/")])
+            below = cast("Mapping[Any, Any]", value)
+            yield from _sections(below, [*above, str(key).lstrip("/")])
 
 
 def _means(key: str, full_name: str, path: Path) -> bool:

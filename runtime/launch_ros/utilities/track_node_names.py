@@ -2,26 +2,29 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
 
 KEY = "unique_ros_node_names"
 
 
-def add_node_name(context: Any, node_name: str) -> None:
+def add_node_name(context: LaunchContext, node_name: str) -> None:
     """Count a name."""
-    counts = context.get_locals_as_dict().get(KEY)
+    counts: dict[str, int] | None = context.get_locals_as_dict().get(KEY)
     if counts is None:
         counts = {}
         context.extend_globals({KEY: counts})
     counts[node_name] = counts.get(node_name, 0) + 1
 
 
-def get_node_name_count(context: Any, node_name: str) -> int:
+def get_node_name_count(context: LaunchContext, node_name: str) -> int:
     """How often a name was counted."""
     return context.get_locals_as_dict().get(KEY, {}).get(node_name, 0)
 
 
-def warn_of_same_name(context: Any, node_name: str, origin: str) -> None:
+def warn_of_same_name(context: LaunchContext, node_name: str, origin: str) -> None:
     """Warn where a node, though its namespace is not given, will most likely have the name of another one."""
     import launch.logging
 

@@ -36,7 +36,9 @@ class ForkServer:
                 [sys.executable, "-c", CODE.format(descriptor=theirs.fileno(), warm_up=warm_up)],
                 stdin=subprocess.DEVNULL,
                 pass_fds=[theirs.fileno()],
+                # OpenBLAS starts threads when it is imported; a fork beside them loses them, and may hang.
                 env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
+                # Ctrl-C in the terminal is for the parent, which then ends what it has started.
                 start_new_session=True,
             )
         self.pid = self._process.pid
@@ -61,6 +63,7 @@ class ForkServer:
             os.close(report)
             raise
         finally:
+            # The server has its own copy; while ours is open the report would never end.
             os.close(told)
         return report
 

@@ -44,6 +44,7 @@ class Server:
         wake, woken = os.pipe()
         os.set_blocking(wake, False)
         os.set_blocking(woken, False)
+        # A signal makes `select` return: children end, and the parent asks for the end, at any time.
         signal.set_wakeup_fd(woken, warn_on_full_buffer=False)
         for each in HELD_BACK:
             signal.signal(each, self._signalled)
@@ -79,6 +80,7 @@ class Server:
         data, descriptors = request
         *given, report = descriptors
         job = Job.from_bytes(data)
+        # Until it has handlers of its own, a signal to the child would run those of the server.
         signal.pthread_sigmask(signal.SIG_BLOCK, HELD_BACK)
         try:
             pid = os.fork()
@@ -89,6 +91,7 @@ class Server:
         if pid == 0:
             os.close(report)
             for each in self._children.values():
+                # The reports of its siblings: a child that kept them open would hide that a sibling has ended.
                 os.close(each)
             return Birth(job, (given[0], given[1], given[2]), given[3])
         signal.pthread_sigmask(signal.SIG_UNBLOCK, HELD_BACK)

@@ -18,12 +18,12 @@ class ClientGoalHandle:
         self._status: int = GoalStatus.STATUS_UNKNOWN
 
     def __eq__(self, other: object) -> bool:
-        return self._goal_id == other.goal_id  # type: ignore[attr-defined]
+        return self._goal_id == other.goal_id  # type: ignore[attr-defined] -- what is no such thing fails, as upstream
 
     def __ne__(self, other: object) -> bool:
-        return self._goal_id != other.goal_id  # type: ignore[attr-defined]
+        return self._goal_id != other.goal_id  # type: ignore[attr-defined] -- what is no such thing fails, as upstream
 
-    __hash__ = None  # type: ignore[assignment]
+    __hash__ = None  # type: ignore[assignment] -- not hashable, as upstream
 
     def __repr__(self) -> str:
         return f"ClientGoalHandle <id={self.goal_id.uuid}, accepted={self.accepted}, status={self.status}>"

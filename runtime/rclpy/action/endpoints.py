@@ -18,7 +18,7 @@ from bot_console.runtime.rmw.endpoints import (
 )
 from bot_console.runtime.rosidl.conversion import type_name
 from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException
-from rclpy.impl.topic_names import checked
+from rclpy.node_parts.topic_names import checked
 
 GOAL, CANCEL, RESULT = "send_goal", "cancel_goal", "get_result"
 FEEDBACK, STATUS = "feedback", "status"

@@ -13,7 +13,7 @@ TYPE_SUFFIX = "_FeedbackMessage"
 
 
 def _actions(topics: NamesAndTypes) -> NamesAndTypes:
-    found = []
+    found: NamesAndTypes = []
     for topic, types in topics:
         if topic.endswith(TOPIC_SUFFIX):
             kinds = [each.removesuffix(TYPE_SUFFIX) for each in types if each.endswith(TYPE_SUFFIX)]

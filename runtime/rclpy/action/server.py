@@ -1,5 +1,8 @@
 """Action servers."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
 import functools
@@ -183,7 +186,7 @@ class ActionServer(ActionEntity):
     async def _serve_cancel(self, client: Any, number: int, request: Any) -> None:
         self._debug("Cancel request received: {}", request)
         handles, code = self._goals.to_cancel(request)
-        canceling = []
+        canceling: list[Any] = []
         for handle in handles:
             if await call(self._cancel_callback, handle) is not CancelResponse.ACCEPT:
                 continue

@@ -28,12 +28,12 @@ class ServerGoalHandle:
         """When the goal ended, by the node's clock (ns)."""
 
     def __eq__(self, other: object) -> bool:
-        return self.goal_id == other.goal_id  # type: ignore[attr-defined]
+        return self.goal_id == other.goal_id  # type: ignore[attr-defined] -- what is no such thing fails, as upstream
 
     def __ne__(self, other: object) -> bool:
-        return self.goal_id != other.goal_id  # type: ignore[attr-defined]
+        return self.goal_id != other.goal_id  # type: ignore[attr-defined] -- what is no such thing fails, as upstream
 
-    __hash__ = None  # type: ignore[assignment]
+    __hash__ = None  # type: ignore[assignment] -- not hashable, as upstream
 
     @property
     def request(self) -> Any:

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from bot_console.runtime.rmw import arguments
 from bot_console.runtime.rmw.arguments import Arguments, ArgumentsError
 from rclpy._rclpy_pybind11 import RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
-from rclpy.logging import apply_arguments, get_logger
+from rclpy.impl.log_state import state
+from rclpy.impl.rcutils_logger import RcutilsLogger
 
 DEPRECATED = "Found remap rule '{0}'. This syntax is deprecated. Use '--ros-args --remap {0}' instead."
 
@@ -17,10 +18,10 @@ def parse_global(words: Sequence[str]) -> Arguments:
     try:
         parsed = _parse(words)
     except ArgumentsError as error:
-        get_logger("rcl").error("Failed to parse global arguments")
+        RcutilsLogger("rcl").error("Failed to parse global arguments")
         raise RCLError(f"failed to initialize rcl: {error}") from None
     _refuse_unknown(parsed)
-    apply_arguments(parsed)
+    state().obey(parsed)
     return parsed
 
 
@@ -42,7 +43,7 @@ def parse_local(words: Sequence[str]) -> Arguments:
 def _parse(words: Sequence[str]) -> Arguments:
     parsed = arguments.parse(words)
     for rule in parsed.deprecated_rules:
-        get_logger("rcl").warning(DEPRECATED.format(rule))
+        RcutilsLogger("rcl").warning(DEPRECATED.format(rule))
     return parsed
 
 

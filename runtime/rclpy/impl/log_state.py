@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.process import ProcessLocal
 from rclpy.impl.log_format import Formatter
+
+if TYPE_CHECKING:
+    from bot_console.runtime.rmw.arguments import Arguments
 
 UNSET = 0
 INFO = 20
@@ -36,6 +39,14 @@ class LogState:
             self.default = level
         self.effective.clear()
 
+    def obey(self, arguments: Arguments) -> None:
+        """Take the log levels and switches of a context's command line."""
+        for name, level in arguments.logger_levels.items():
+            self.set_level(name, level)
+        if arguments.default_level is not None:
+            self.set_level("", arguments.default_level)
+        self.stdout = arguments.stdout_enabled
+
     def effective_level(self, name: str) -> int:
         """The level of the nearest ancestor that has one, else the default."""
         found = self.effective.get(name)
@@ -54,6 +65,7 @@ class LogState:
     def say(self, severity: int, name: str, text: str, file: str, function: str, line: int, stamp_ns: int) -> None:
         """Write a line to `/rosout` and to the console, which is told whether the first was done."""
         publish = self.rosout.get(name)
+        # First to the graph: the printed line says whether that was done.
         sent = publish is not None and publish(severity, name, text, file, function, line, stamp_ns)
         if self.stdout:
             self.formatter.write(severity, name, text, file, function, line, stamp_ns, sent)

@@ -77,10 +77,10 @@ class LivelinessPolicy(QoSPolicyEnum):
     BEST_AVAILABLE = 5
 
 
-HistoryPolicy._deprecated_prefix = "RMW_QOS_POLICY_HISTORY_"  # type: ignore[attr-defined]
-ReliabilityPolicy._deprecated_prefix = "RMW_QOS_POLICY_RELIABILITY_"  # type: ignore[attr-defined]
-DurabilityPolicy._deprecated_prefix = "RMW_QOS_POLICY_DURABILITY_"  # type: ignore[attr-defined]
-LivelinessPolicy._deprecated_prefix = "RMW_QOS_POLICY_LIVELINESS_"  # type: ignore[attr-defined]
+HistoryPolicy._deprecated_prefix = "RMW_QOS_POLICY_HISTORY_"  # type: ignore[attr-defined] -- set once the class is made
+ReliabilityPolicy._deprecated_prefix = "RMW_QOS_POLICY_RELIABILITY_"  # type: ignore[attr-defined] -- set once the class is made
+DurabilityPolicy._deprecated_prefix = "RMW_QOS_POLICY_DURABILITY_"  # type: ignore[attr-defined] -- set once the class is made
+LivelinessPolicy._deprecated_prefix = "RMW_QOS_POLICY_LIVELINESS_"  # type: ignore[attr-defined] -- set once the class is made
 
 
 class QoSPolicyKind(IntEnum):

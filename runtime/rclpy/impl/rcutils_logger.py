@@ -11,7 +11,7 @@ from rclpy.impl.log_state import state
 from rclpy.impl.logging_severity import LoggingSeverity
 
 DEBUG, INFO, WARN, ERROR, FATAL = 10, 20, 30, 40, 50
-_frame = sys._getframe
+_frame = sys._getframe  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
 
 
 class RcutilsLogger:
@@ -82,9 +82,11 @@ class RcutilsLogger:
         shared = state()
         if severity < (shared.effective.get(self.name) or shared.effective_level(self.name)):
             return False
+        # The caller of `info` and the like, which call this.
         frame = _frame(2)
         code = frame.f_code
         line = frame.f_lineno
+        # With `f_lasti`, as two calls may stand on one line.
         key = (code.co_name, code.co_filename, line, frame.f_lasti)
         site = self._sites.get(key)
         if site is None:

@@ -145,7 +145,7 @@ class LifecycleNodeMixin(ManagedEntity):
 
     def add_managed_entity(self, entity: ManagedEntity) -> None:
         """Let an entity take part in the transitions; raises `TypeError` for anything else."""
-        if not isinstance(entity, ManagedEntity):
+        if not isinstance(entity, ManagedEntity):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
             raise TypeError("Expected a rclpy.lifecycle.ManagedEntity instance.")
         self._managed_entities[entity] = None
 
@@ -153,14 +153,14 @@ class LifecycleNodeMixin(ManagedEntity):
         """Make a publisher that is silent while the node is not active; arguments as of `create_publisher`."""
         if "publisher_class" in kwargs:
             raise TypeError("create_publisher() got an unexpected keyword argument 'publisher_class'")
-        publisher: Any = Node.create_publisher(self, *args, **kwargs, publisher_class=LifecyclePublisher)  # type: ignore[arg-type]
+        publisher: Any = Node.create_publisher(self, *args, **kwargs, publisher_class=LifecyclePublisher)  # type: ignore[arg-type] -- the mixin is always part of a Node
         self._managed_entities[publisher] = None
         return publisher
 
     def destroy_lifecycle_publisher(self, publisher: LifecyclePublisher) -> bool:
         """Destroy such a publisher; whether it was one of this node."""
         self._managed_entities.pop(publisher, None)
-        return Node.destroy_publisher(self, publisher)  # type: ignore[arg-type]
+        return Node.destroy_publisher(self, publisher)  # type: ignore[arg-type] -- the mixin is always part of a Node
 
 
 class LifecycleNode(LifecycleNodeMixin, Node):

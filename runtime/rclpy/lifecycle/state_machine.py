@@ -10,9 +10,9 @@ from bot_console.runtime.rmw.endpoints import Endpoint, new_gid, no_event
 from bot_console.runtime.rosidl.conversion import type_name
 from lifecycle_msgs.msg import State, TransitionEvent
 from rclpy._rclpy_pybind11 import RCLError
-from rclpy.impl.topic_names import checked
 from rclpy.lifecycle.transition_map import STATES, TRANSITIONS, TransitionRow
 from rclpy.logging import get_logger
+from rclpy.node_parts.topic_names import checked
 from rclpy.qos import QoSProfile
 
 Described = tuple[int, str, int, str, int, str]
@@ -23,7 +23,7 @@ class LifecycleStateMachine:
     """Knows the current state, and tells the topic `~/transition_event` of each change."""
 
     def __init__(self, node: Any, enable_com_interface: bool) -> None:
-        if not isinstance(enable_com_interface, bool):
+        if not isinstance(enable_com_interface, bool):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
             raise TypeError(f"enable_communication_interface must be a bool, not {type(enable_com_interface)}")
         self._state: int = State.PRIMARY_STATE_UNCONFIGURED
         self._publish: Callable[[Any], None] | None = None

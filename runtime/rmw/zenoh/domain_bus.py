@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import atexit
 import os
 import threading
 
 from bot_console.runtime.rmw.bus import Bus
 from bot_console.runtime.rmw.local import local_bus
+from bot_console.runtime.rmw.middleware import choose_middleware, is_chosen
 from bot_console.runtime.rmw.zenoh.bus import ZenohBus
-from bot_console.runtime.rmw.zenoh.session import open_session
+from bot_console.runtime.rmw.zenoh.mesh import open_session
 
 RANGE_VARIABLE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
 
@@ -21,7 +23,7 @@ def shared_bus(domain: int) -> Bus:
 
     To be given to `choose_middleware`. Raises what `open_session` raises.
     """
-    if os.environ.get(RANGE_VARIABLE, "").upper() == "OFF":
+    if not is_in_range():
         return local_bus(domain)
     with _lock:
         if domain not in _buses:
@@ -29,6 +31,18 @@ def shared_bus(domain: int) -> Bus:
             session.watch()
             _buses[domain] = ZenohBus(session, local_bus(domain))
         return _buses[domain]
+
+
+def is_in_range() -> bool:
+    """Whether the environment lets the processes of this machine find each other."""
+    return os.environ.get(RANGE_VARIABLE, "").upper() != "OFF"
+
+
+def share_domains() -> None:
+    """Let the contexts of this process that are initialised from now on share their domain; leave it at the end."""
+    if not is_chosen(shared_bus):
+        choose_middleware(shared_bus)
+        atexit.register(leave_all)
 
 
 def close_shared_buses() -> None:

@@ -80,7 +80,9 @@ class Inlet:
             number, stamp, gid = unpack(attachment)
             publisher = self._publishers.get(gid)
             if publisher is None:
+                # Its first message can be here before its token.
                 publisher = self._publishers[gid] = RemotePublisher()
+            # A latched message can come twice: as it is published, and from the publisher's cache.
             if not publisher.fits or (self._latched and number <= publisher.number):
                 return
             if publisher.number and number > publisher.number + 1:
@@ -100,6 +102,7 @@ class Inlet:
 
     def _lost(self, count: int) -> None:
         endpoint = self._subscription.endpoint
+        self._session.lost += count
         self._subscription.on_event("lost", count)
         if endpoint.qos.reliability.name == "RELIABLE":
             notify(

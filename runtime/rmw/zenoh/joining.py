@@ -24,6 +24,7 @@ def folder_lock(folder: str) -> Generator[None]:
     A process that is frozen while it holds the lock stops nobody: the others go on without, and what they miss of each
     other is mended by the watch that each of them keeps on the folder.
     """
+    # The folder itself is locked: a lock file could be removed while somebody holds it.
     handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
     try:
         deadline = time.monotonic() + LONGEST_WAIT

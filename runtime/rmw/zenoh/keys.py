@@ -6,9 +6,6 @@ do not hear each other at all.
 
 from __future__ import annotations
 
-NO_HASH = "TypeHashNotSupported"
-"""Stands for the hash on ROS 2 Humble, which has none."""
-
 
 class FormatError(ValueError):
     """A text or bytes that are not of the format; the message says what is wrong."""

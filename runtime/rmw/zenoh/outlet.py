@@ -19,12 +19,16 @@ ALL_KEPT = 1000
 """How many messages a latching publisher keeps for others where its profile says all."""
 
 
+PATIENT_TOPICS = frozenset({"/rosout"})
+"""Reliable topics of which nothing is dropped whatever their depth: who reads a log counts on each of its lines."""
+
+
 class Outlet(deque[Any]):
     """Stands among the local subscriptions of a publisher as the one for all other processes.
 
-    What the publisher puts into its queue goes out at once; what must not be dropped (reliable, keep all) does from
-    another thread, so that the publisher does not wait. A latching publisher's messages always do: those who come
-    later get them from the session, not from the program.
+    What the publisher puts into its queue goes out at once; what must not be dropped (reliable, and keep all or lines
+    of the log) does from another thread, so that the publisher does not wait. A latching publisher's messages always
+    do: those who come later get them from the session, not from the program.
     """
 
     def __init__(self, session: Session, sender: Sender, publisher: LocalPublisher, key: str) -> None:
@@ -37,7 +41,8 @@ class Outlet(deque[Any]):
         self._process = current()
         self._sender = sender
         qos = publisher.endpoint.qos
-        self._patient = qos.history.name == "KEEP_ALL" and qos.reliability.name != "BEST_EFFORT"
+        all_count = qos.history.name == "KEEP_ALL" or publisher.endpoint.topic in PATIENT_TOPICS
+        self._patient = all_count and qos.reliability.name != "BEST_EFFORT"
         self._target = SubscriptionEndpoint(publisher.endpoint, True, self, _nothing)
         self.latching = publisher.history is not None
         if self.latching:

@@ -38,6 +38,7 @@ class SeenTokens:
                 else:
                     del self._tokens[key]
                 for listener in tuple(self._listeners):
+                    # With the lock held, so that nobody hears of a change before the state that it changes.
                     listener(token, came)
 
     def listen(self, listener: Listener) -> None:

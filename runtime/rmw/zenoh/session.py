@@ -1,4 +1,4 @@
-"""A session: this process's place in the mesh of a domain. The only file that imports Zenoh, and only when one opens.
+"""A session: this process's part in a domain. The only file that imports Zenoh, and only when one opens.
 
 Callbacks come on Zenoh's own threads, at once and one after the other: they may append and wake, and nothing else.
 Nothing may fork once a session was opened.
@@ -12,20 +12,20 @@ from __future__ import annotations
 import json
 import os
 import threading
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+import time
+from collections.abc import Callable, Iterable, Mapping
+from typing import TYPE_CHECKING, Any, cast
 
-from bot_console.runtime.rmw.zenoh.domain_folder import domain_folder
-from bot_console.runtime.rmw.zenoh.joining import folder_lock
-from bot_console.runtime.rmw.zenoh.settings import session_settings
-from bot_console.runtime.rmw.zenoh.sockets import Socket, live_sockets, own_socket
-from bot_console.runtime.rmw.zenoh.watch import Watch
+from bot_console.runtime.rmw.zenoh.sockets import Socket
 
 if TYPE_CHECKING:
     import zenoh
 
 ATTENDANCE = "@bot_console/"
 """Begin of the token that each session shows; the begin of its id follows."""
+
+INSEPARABLE = ("connect/retry",)
+"""Settings that Zenoh takes only as a whole."""
 
 CLOSING = 0.4
 """How long closing is waited for, in s: it takes 2.5 s beside a frozen process to which the link is full."""
@@ -39,6 +39,10 @@ TokenSeen = Callable[[str, bool], None]
 
 class SessionError(RuntimeError):
     """A session cannot be opened."""
+
+
+class SettingsError(SessionError):
+    """Zenoh does not take the settings of a session."""
 
 
 class Declared:
@@ -106,7 +110,12 @@ class Query:
 
 
 class Session:
-    """A session of one domain; made by `open_session`. All methods may be called from any thread but Zenoh's own."""
+    """A session of one domain; a subclass says where it is. To be called from any thread but Zenoh's own."""
+
+    joined: tuple[Socket, ...] = ()
+    """The sockets of processes of this machine that were there, and that this session connects to."""
+    patience = 0.2
+    """How long the first question about the graph waits for its answer, in s; running processes take 5 ms."""
 
     def __init__(self, domain: int) -> None:
         self.domain = domain
@@ -116,59 +125,50 @@ class Session:
         """Called when the session was opened anew: what was kept for late subscribers is to be published again."""
         self._lock = threading.RLock()
         self._declared: dict[Declared, None] = {}
-        self._watch: Watch | None = None
         self._ended = False
-        folder = domain_folder(domain)
-        with folder_lock(folder):
-            self._join(folder)
-        self.declare_token(ATTENDANCE + self.zid[:8])
+        self.lost = 0
+        """Messages to subscriptions of this session that did not arrive, as far as their numbers tell."""
 
-    def _join(self, folder: str) -> None:
+    def _open(self, settings: Mapping[str, Any], file: str = "", last: Iterable[tuple[str, str]] = ()) -> None:
+        """Open with these settings, over those of a file where one is named; `last` (path, JSON5) is over both.
+
+        Raises `SettingsError` and `SessionError`.
+        """
         import zenoh
 
-        self.socket = own_socket(folder, self.zid)
-        self.joined: tuple[Socket, ...] = tuple(live_sockets(folder))
-        """The sockets that were there, and that this session connects to."""
-        settings = session_settings(self.zid, self.socket.path, [each.path for each in self.joined])
         try:
-            self._zenoh = zenoh.open(zenoh.Config.from_json5(json.dumps(settings)))
+            config = zenoh.Config.from_file(file) if file else zenoh.Config.from_json5(json.dumps(settings))
+            for path, value in (*(_leaves(settings) if file else ()), *last):
+                config.insert_json5(path, value)
+        except (zenoh.ZError, OSError) as error:
+            raise SettingsError(f"Zenoh does not take these settings: {_first_line(error)}") from None
+        try:
+            self._zenoh = zenoh.open(config)
         except zenoh.ZError as error:
-            raise SessionError(f"cannot listen on {self.socket.path}: {error}") from None
+            raise SessionError(_first_line(error)) from None
+
+    def _shut(self) -> None:
+        self._zenoh.close()
+
+    def _declare_again(self) -> None:
+        for each in self._declared:
+            each.inner = each.declare(self._zenoh)
 
     def watch(self) -> None:
-        """Look after the session's place in the mesh for as long as it is open; not for short-lived programs."""
-        self._watch = self._watch or Watch(self)
-
-    def rejoin(self, needed: Callable[[str], bool]) -> None:
-        """Open the session anew where that is `needed` (asked with the folder's lock held), and declare all again."""
-        folder = domain_folder(self.domain)
-        with folder_lock(folder), self._lock:
-            if self._ended or not needed(folder):
-                return
-            self._zenoh.close()
-            self._join(folder)
-            for each in self._declared:
-                each.inner = each.declare(self._zenoh)
-        self.on_rejoin()
+        """Look after the session's place for as long as it is open; not for short-lived programs."""
 
     def close(self) -> None:
-        """Leave the mesh; what was declared is gone. A second time does nothing."""
-        if self._watch:
-            self._watch.end()
+        """Leave; what was declared is gone. A second time does nothing."""
         with self._lock:
             self._ended = True
             if self._zenoh.is_closed():
                 return
-            closing = threading.Thread(target=self._zenoh.close, name="zenoh-close", daemon=True)
+            closing = threading.Thread(target=self._shut, name="zenoh-close", daemon=True)
             closing.start()
             closing.join(CLOSING)
-            self.socket.remove()
 
     def leave(self) -> None:
-        """Take the socket out of the folder, for a process that ends at once and does not wait for `close`."""
-        if self._watch:
-            self._watch.end()
-        self.socket.remove()
+        """Take away what would be left of it, for a process that ends at once and does not wait for `close`."""
 
     def is_closed(self) -> bool:
         """Whether it was closed."""
@@ -194,7 +194,10 @@ class Session:
         def declare(session: zenoh.Session) -> Any:
             if not cache:
                 return session.declare_publisher(key, **quality)
-            heartbeat = ext.MissDetectionConfig(heartbeat=None, sporadic_heartbeat=0.5) if reliable else None
+            # The heartbeat overtakes what a patient one has still to send: it would be taken for lost, and the last
+            # samples fetched from the cache before those in between have come.
+            misses = reliable and not patient
+            heartbeat = ext.MissDetectionConfig(heartbeat=None, sporadic_heartbeat=0.5) if misses else None
             return ext.declare_advanced_publisher(
                 *(session, key),
                 **quality,
@@ -297,7 +300,7 @@ class Session:
 
     def linked(self) -> set[str]:
         """The ids of the sessions that this one has a link to."""
-        return {str(each) for each in self._zenoh.info.peers_zid()}
+        return {str(each) for each in (*self._zenoh.info.peers_zid(), *self._zenoh.info.routers_zid())}
 
     def watch_links(self, changed: Callable[[str, bool], None]) -> Declared:
         """Call back with the id of each session that is or gets linked (True) or is lost (False)."""
@@ -315,13 +318,21 @@ class Session:
             )
         )
 
-    def attendance(self) -> set[str]:
-        """The first eight digits of the ids of the sessions that answer now."""
+    def attendance(self, who: str = "*", timeout: float = 0.1) -> set[str]:
+        """The first eight digits of the ids of the sessions that answer within `timeout` (s)."""
         answered: set[str] = set()
         done = threading.Event()
-        self.ask_tokens(ATTENDANCE + "*", lambda key: answered.add(key.removeprefix(ATTENDANCE)), done.set, 0.1)
-        done.wait(1.0)
+        self.ask_tokens(ATTENDANCE + who, lambda key: answered.add(key.removeprefix(ATTENDANCE)), done.set, timeout)
+        done.wait(timeout + 0.9)
         return answered
+
+    def is_answered(self, timeout: float) -> bool:
+        """Whether the other end answers a small question within `timeout` (s)."""
+        done, began, late = threading.Event(), time.monotonic(), timeout * 0.98
+        self.ask_tokens(f"{ATTENDANCE}nobody/{self.zid}", lambda key: None, done.set, timeout)
+        done.wait(timeout + 0.9)
+        # Without an answer Zenoh says only after the time-out that it is done, and without a link it says so at once.
+        return time.monotonic() - began < late and bool(self.linked())
 
     def _declare(self, thing: Any) -> Any:
         with self._lock:
@@ -337,12 +348,9 @@ class Session:
                 thing.inner.undeclare()
 
 
-def open_session(domain: int) -> Session:
-    """Join the mesh of a domain: listen on a socket in its folder and connect to all others there.
-
-    Raises `FolderRefusedError`, `PathTooLongError` and `SessionError`, whose texts say how to mend it.
-    """
-    return Session(domain)
+def preload() -> None:
+    """Import Zenoh, which opens nothing and starts no thread: for a process that others are forked from."""
+    import zenoh.ext  # noqa: F401  # pyright: ignore[reportUnusedImport]
 
 
 def _errors() -> type[Exception]:
@@ -354,3 +362,17 @@ def _errors() -> type[Exception]:
 
 def _bytes(data: Any) -> bytes | None:
     return None if data is None else data.to_bytes()
+
+
+def _leaves(settings: Mapping[str, Any], above: str = "") -> Iterable[tuple[str, str]]:
+    """The single settings, as path and JSON."""
+    for name, value in settings.items():
+        if isinstance(value, Mapping) and above + name not in INSEPARABLE:
+            yield from _leaves(cast("Mapping[str, Any]", value), f"{above}{name}/")
+        else:
+            yield above + name, json.dumps(value)
+
+
+def _first_line(error: Exception) -> str:
+    """What Zenoh says, without the place in its sources."""
+    return str(error).splitlines()[0].partition(" at /")[0]

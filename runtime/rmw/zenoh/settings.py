@@ -6,7 +6,8 @@ process holds up nobody: with the library's own values opening, closing and leav
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 from typing import Any
 
 SCHEME = "unixsock-stream/"
@@ -33,12 +34,26 @@ just has no processor is kept.
 """
 
 
-def session_settings(zid: str, listen: str, connect: Iterable[str]) -> dict[str, Any]:
-    """The settings of a session with this id that listens on one socket and connects to others (paths)."""
+@dataclass(frozen=True)
+class Serving:
+    """The way into a mesh for other machines: what a router listens on beside its socket, and its TLS settings."""
+
+    endpoints: tuple[str, ...]
+    tls: Mapping[str, Any] = field(default_factory=dict[str, Any])
+
+
+def session_settings(zid: str, listen: str, connect: Iterable[str], serving: Serving | None = None) -> dict[str, Any]:
+    """The settings of a session with this id that listens on one socket and connects to others (paths).
+
+    One that lets other machines in is a router, as clients want to find; all others of the mesh are linked directly, so
+    that it carries nothing between them.
+    """
+    beside = serving.endpoints if serving else ()
     return {
-        "mode": "peer",
+        "mode": "router" if serving else "peer",
         "id": zid,
-        "listen": {"endpoints": [SCHEME + listen], "exit_on_failure": True},
+        "routing": {"router": {"peers_failover_brokering": False}},
+        "listen": {"endpoints": [SCHEME + listen, *beside], "exit_on_failure": True},
         "connect": {
             "endpoints": [SCHEME + each for each in connect],
             "timeout_ms": -1,
@@ -52,6 +67,7 @@ def session_settings(zid: str, listen: str, connect: Iterable[str]) -> dict[str,
             "shared_memory": {"enabled": False},
             "unicast": {"open_timeout": OPEN_TIMEOUT, "accept_timeout": OPEN_TIMEOUT},
             "link": {
+                "tls": dict(serving.tls) if serving else {},
                 "tx": {
                     "queue": {
                         "size": {"data": ROOM_OF_A_LINK, "data_low": ROOM_OF_A_LINK},
@@ -60,7 +76,7 @@ def session_settings(zid: str, listen: str, connect: Iterable[str]) -> dict[str,
                             "block": {"wait_before_close": WAIT_BEFORE_CUT},
                         },
                     }
-                }
+                },
             },
         },
     }

@@ -49,6 +49,7 @@ class Socket:
         try:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError as error:
+            # Held, so its process lives.
             return error.errno not in (errno.EWOULDBLOCK, errno.EAGAIN)
         finally:
             os.close(handle)

@@ -14,9 +14,6 @@ from bot_console.runtime.rmw.zenoh.seen import SeenTokens
 from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.runtime.rmw.zenoh.tokens import Kind, Token, TokenNode, all_tokens
 
-PATIENCE = 0.2
-"""How long the first question waits for the answers of other processes, in s. Running ones take 5 ms."""
-
 Row = NodeId | Endpoint | ServiceEndpoint | ClientEndpoint
 
 
@@ -27,7 +24,7 @@ class WholeGraph:
         self._changed = changed
         self._lock = threading.Lock()
         self._rows: dict[Kind, dict[str, Row]] = {"NN": {}, "MP": {}, "MS": {}, "SS": {}, "SC": {}}
-        self.silent = await_answers(session, PATIENCE)
+        self.silent = await_answers(session, session.patience)
         """The sockets of the processes that did not answer in time: what they have may be missing."""
         for each in self.silent:
             if each.is_stopped():
@@ -35,8 +32,9 @@ class WholeGraph:
         key, answered = all_tokens(session.domain), threading.Event()
         self._seen = SeenTokens(session, key)
         self._seen.listen(self._saw)
-        session.ask_tokens(key, lambda found: self._seen.saw(found, True), answered.set, PATIENCE)
-        answered.wait(2 * PATIENCE)
+        # Watching brings what is there some time; only a question says when all of it has come.
+        session.ask_tokens(key, lambda found: self._seen.saw(found, True), answered.set, session.patience)
+        answered.wait(2 * session.patience)
 
     def _saw(self, token: Token, came: bool) -> None:
         with self._lock:

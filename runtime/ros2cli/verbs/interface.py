@@ -1,12 +1,16 @@
-"""`ros2 interface`: list, package, packages, proto and show."""
+"""`ros2 interface`: list, package, packages, proto and show; and `add`, which ROS 2 does by a build."""
 
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
+from bot_console.runtime.further_interfaces import NotAdded, add, unverified_folders
+from bot_console.runtime.interface_finder import interface_folders
 from ros2cli.command import Command, Result, Verb
 from ros2cli.interface_text import show_text
 from rosidl_runtime_py import (
@@ -18,6 +22,10 @@ from rosidl_runtime_py import (
 from rosidl_runtime_py.utilities import get_action, get_message, get_service
 
 KINDS = ("msg", "srv", "action")
+UNVERIFIED = (
+    "names and types of the fields of {0} were read from public sources, its type hash was not compared with ROS 2; "
+    "beside a real robot add the package's own sources: bot-console interface add FOLDER"
+)
 
 
 def _all() -> dict[str, list[str]]:
@@ -82,7 +90,12 @@ def _proto_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _proto(arguments: argparse.Namespace) -> Result:
-    kind = _prototype(arguments.type)
+    try:
+        kind = _prototype(arguments.type)
+    except (AttributeError, ImportError, LookupError, TypeError, ValueError) as error:
+        if isinstance(error, AttributeError) and re.fullmatch(r"\w+/(msg|srv|action)/\w+", arguments.type):
+            raise  # a name that its package lacks is told as ROS 2 tells it
+        return f"Unknown interface '{arguments.type}'"
     text = message_to_yaml(kind())
     print(text if arguments.no_quotes else f'"{text}"')
     return None
@@ -118,9 +131,29 @@ def _show(arguments: argparse.Namespace) -> Result:
     if len(name.split("/")) != 3:
         return f"Invalid name '{name}'. Expected three parts separated by '/'"
     try:
-        print(show_text(name, all_comments=arguments.all_comments, no_comments=arguments.no_comments), end="")
+        text = show_text(name, all_comments=arguments.all_comments, no_comments=arguments.no_comments)
     except LookupError as error:
         return str(error.args[0])
+    except OSError as error:  # as of a name that is too long for any file
+        return f"Unknown interface '{name[:80]}': {error.strerror}"
+    print(text, end="")
+    package = name.partition("/")[0]
+    if interface_folders().get(package) == unverified_folders().get(package, ""):
+        print(f"[INFO] [bot-console]: {UNVERIFIED.format(package)}", file=sys.stderr)
+    return None
+
+
+def _add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("folder", type=Path, help="A package that defines interfaces, or a checkout with such")
+
+
+def _add(arguments: argparse.Namespace) -> Result:
+    try:
+        added = add(arguments.folder)
+    except (NotAdded, OSError) as error:
+        return f"nothing added: {error}"
+    for package, names in added.items():
+        print(f"added {package}: {', '.join(names)}")
     return None
 
 
@@ -128,6 +161,7 @@ COMMAND = Command(
     "interface",
     "Show information about ROS interfaces",
     (
+        Verb("add", "Keep the interfaces of a folder, for every program (not in ROS 2)", _add, _add_arguments),
         Verb("list", "List all interface types available", _list, _kind_arguments),
         Verb("package", "Output a list of available interface types within one package", _package, _package_arguments),
         Verb("packages", "Output a list of packages that provide interfaces", _packages, _kind_arguments),

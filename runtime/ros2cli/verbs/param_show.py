@@ -7,7 +7,8 @@ import re
 import sys
 from typing import Any
 
-from rcl_interfaces.msg import ParameterType, ParameterValue
+from bot_console.runtime.rmw.parameter_types import BY_CODE, NOT_SET, ParameterType
+from rcl_interfaces.msg import ParameterValue
 from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters
 from rclpy.node import Node
 from rclpy.parameter import parameter_value_to_python
@@ -15,29 +16,7 @@ from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, NodeName, absolute, call, node_names, wait_for_node
 
 NOT_FOUND = "Node not found"
-TYPE_WORDS = {
-    ParameterType.PARAMETER_NOT_SET: "not set",
-    ParameterType.PARAMETER_BOOL: "boolean",
-    ParameterType.PARAMETER_INTEGER: "integer",
-    ParameterType.PARAMETER_DOUBLE: "double",
-    ParameterType.PARAMETER_STRING: "string",
-    ParameterType.PARAMETER_BYTE_ARRAY: "byte array",
-    ParameterType.PARAMETER_BOOL_ARRAY: "boolean array",
-    ParameterType.PARAMETER_INTEGER_ARRAY: "integer array",
-    ParameterType.PARAMETER_DOUBLE_ARRAY: "double array",
-    ParameterType.PARAMETER_STRING_ARRAY: "string array",
-}
-LABELS = {
-    ParameterType.PARAMETER_BOOL: "Boolean value is:",
-    ParameterType.PARAMETER_INTEGER: "Integer value is:",
-    ParameterType.PARAMETER_DOUBLE: "Double value is:",
-    ParameterType.PARAMETER_STRING: "String value is:",
-    ParameterType.PARAMETER_BYTE_ARRAY: "Byte values are:",
-    ParameterType.PARAMETER_BOOL_ARRAY: "Boolean values are:",
-    ParameterType.PARAMETER_INTEGER_ARRAY: "Integer values are:",
-    ParameterType.PARAMETER_DOUBLE_ARRAY: "Double values are:",
-    ParameterType.PARAMETER_STRING_ARRAY: "String values are:",
-}
+TYPE_WORDS = {NOT_SET: "not set", **{code: each.shown for code, each in BY_CODE.items()}}
 
 
 def found(node: Node, arguments: argparse.Namespace) -> bool:
@@ -63,30 +42,25 @@ def get(arguments: argparse.Namespace) -> Result:
     if not values:
         return "Parameter not set"
     value = values[0]
-    if value.type == ParameterType.PARAMETER_NOT_SET:
+    if value.type == NOT_SET:
         print("Parameter not set.")
         return None
-    if value.type not in LABELS:
+    kind = BY_CODE.get(value.type)
+    if kind is None:
         return f"Unknown parameter type '{value.type}'"
-    text = _shown(value)
-    print(text if arguments.hide_type else f"{LABELS[value.type]} {text}")
+    text = _shown(value, kind)
+    print(text if arguments.hide_type else f"{_label(kind)} {text}")
     return None
 
 
-def _shown(value: ParameterValue) -> Any:
+def _label(kind: ParameterType) -> str:
+    word = kind.shown.removesuffix(" array").capitalize()
+    return f"{word} values are:" if kind.is_array else f"{word} value is:"
+
+
+def _shown(value: ParameterValue, kind: ParameterType) -> Any:
     """The field of the value that counts; numbers of an array as a list."""
-    fields = [
-        "bool_value",
-        "integer_value",
-        "double_value",
-        "string_value",
-        "byte_array_value",
-        "bool_array_value",
-        "integer_array_value",
-        "double_array_value",
-        "string_array_value",
-    ]
-    shown = getattr(value, fields[value.type - 1])
+    shown = getattr(value, kind.field)
     return shown.tolist() if hasattr(shown, "tolist") else shown
 
 

@@ -1,4 +1,4 @@
-"""`ros2 pkg create`: a new Python package that colcon builds and this console runs as it is."""
+"""`ros2 pkg create`: a new package that colcon builds; what is Python in it, this console runs as it is."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import getpass
 import os
 import re
 import subprocess
+import sys
 from xml.sax.saxutils import escape
 
 from ros2cli.command import Result
@@ -26,6 +27,12 @@ LICENSES = (
     "MIT-0",
 )
 """Names that ament knows."""
+
+
+NOT_COMPILED = (
+    "programs in C++ are not compiled here; interfaces in its msg/, srv/ and action/ and Python programs that its "
+    "CMakeLists.txt installs work without a build"
+)
 
 
 def _user() -> str:
@@ -58,12 +65,7 @@ def create(arguments: argparse.Namespace) -> Result:
         return (
             f"Aborted since the package name '{name}' is invalid: use lower case letters, digits and single underscores"
         )
-    if arguments.build_type != "ament_python":
-        return (
-            f"A package of build type '{arguments.build_type}' has to be compiled, which this machine's ROS cannot do; "
-            "add --build-type ament_python for a Python package"
-        )
-    if name == "test":
+    if name == "test" and arguments.build_type == "ament_python":
         return "Aborted since 'ament_python' packages can't be named 'test'. Please choose a different package name."
     folder = os.path.join(arguments.destination_directory, name)
     if os.path.exists(folder):
@@ -73,8 +75,13 @@ def create(arguments: argparse.Namespace) -> Result:
         )
     email = arguments.maintainer_email or _git_email() or f"{arguments.maintainer_name}@todo.todo"
     _tell(arguments, email)
-    _write(folder, arguments, email)
+    if arguments.build_type == "ament_python":
+        _write(folder, arguments, email)
+    else:
+        _write_cmake(folder, arguments, email)
     _tell_license(arguments.license)
+    if arguments.build_type != "ament_python":
+        print(f"[INFO] [bot-console]: {NOT_COMPILED}", file=sys.stderr)
     return None
 
 
@@ -121,6 +128,22 @@ def _write(folder: str, arguments: argparse.Namespace, email: str) -> None:
         _file(source, f"{arguments.node_name}.py", texts.NODE.substitute(words))
     if arguments.library_name:
         _file(_folder(source, arguments.library_name), "__init__.py", "")
+
+
+def _write_cmake(folder: str, arguments: argparse.Namespace, email: str) -> None:
+    """The same for a package that CMake builds."""
+    from ros2cli.verbs.pkg_cmake import files
+
+    node, library = arguments.node_name or "", arguments.library_name or ""
+    words = _words(arguments, email)
+    made = files(words, arguments.build_type, arguments.dependencies, node, library)
+    _folder(folder)
+    _file(folder, "package.xml", made.pop("package.xml"))
+    print("creating source and include folder")
+    _folder(folder, "src")
+    _folder(folder, "include", arguments.package_name)
+    for path, text in made.items():
+        _file(folder, path, text)
 
 
 def _folder(*path: str) -> str:

@@ -50,7 +50,7 @@ def _run(arguments: argparse.Namespace) -> Result:
 
 def run(executable: Executable, words: list[str], prefix: str | None = None) -> int:
     """Run an executable in this process where it is Python and no prefix is asked for, else as one of its own."""
-    from bot_console.runtime.process.main_thread import exit_code_of
+    from bot_console.runtime.process.node.main_thread import exit_code_of
     from bot_console.runtime.workspace.program import program
 
     runs = None if prefix else program(executable)

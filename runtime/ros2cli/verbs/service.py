@@ -15,6 +15,7 @@ from ros2cli.direct_node import DirectNode, add_strategy_arguments, node_names, 
 from ros2cli.endpoints import hidden
 from ros2cli.verbs import service_echo
 from ros2cli.verbs.topic_pub import POSITIVE_FLOAT
+from ros2cli.yaml_values import read_values
 from rosidl_runtime_py import set_message_fields
 
 
@@ -119,8 +120,6 @@ def _call_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _call(arguments: argparse.Namespace) -> Result:
-    import yaml
-
     parts = arguments.service_type.split("/")
     if len(parts) == 2:
         parts = [parts[0], "srv", parts[1]]
@@ -130,7 +129,7 @@ def _call(arguments: argparse.Namespace) -> Result:
         return "The passed service type is invalid"
     if not hasattr(kind, "Request"):
         return "The passed type is not a service"
-    values = yaml.safe_load(sys.stdin if arguments.stdin else arguments.values)
+    values = read_values(sys.stdin if arguments.stdin else arguments.values)
     arguments.no_daemon = True
     with DirectNode(arguments, name=f"_ros2cli_requester_{parts[0]}_{parts[-1]}") as node:
         return _requests(node, kind, values, arguments)

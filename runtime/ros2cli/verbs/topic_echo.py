@@ -11,6 +11,7 @@ from rclpy.node import Node
 from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, spin_until
 from ros2cli.qos_arguments import add_qos_arguments, compatible
+from ros2cli.told_types import message_class
 from rosidl_runtime_py import message_to_csv, message_to_yaml
 from rosidl_runtime_py.utilities import get_message
 
@@ -167,7 +168,7 @@ def _message_class(node: Node, arguments: argparse.Namespace) -> Any:
         return "Could not determine the type for the passed topic"
     if len(types) > 1:
         return f"Cannot echo topic '{arguments.topic_name}', as it contains more than one type: [{', '.join(types)}]"
-    return get_message(types[0])
+    return message_class(node, name, types[0])
 
 
 def echo(arguments: argparse.Namespace) -> Result:

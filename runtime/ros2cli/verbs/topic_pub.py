@@ -14,6 +14,7 @@ from rclpy.node import Node
 from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, spin_until
 from ros2cli.qos_arguments import add_qos_arguments, profile
+from ros2cli.yaml_values import read_values
 from rosidl_runtime_py import set_message_fields
 from rosidl_runtime_py.utilities import get_message
 
@@ -102,7 +103,7 @@ def publish(arguments: argparse.Namespace) -> Result:
         kind = get_message(arguments.message_type)
     except (AttributeError, ModuleNotFoundError, ValueError):
         return "The passed message type is invalid"
-    values = {} if arguments.stdin else yaml.safe_load(arguments.values)
+    values = {} if arguments.stdin else read_values(arguments.values)
     if not isinstance(values, dict):
         return "The passed value needs to be a dictionary in YAML format"
     arguments.no_daemon = True

@@ -13,8 +13,8 @@ from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
 from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, spin_until
+from ros2cli.told_types import message_class
 from ros2cli.verbs.topic_echo import _filter as message_filter
-from rosidl_runtime_py.utilities import get_message
 
 WINDOW = 10_000
 BYTES_WINDOW = 100
@@ -67,14 +67,17 @@ def delay_arguments(parser: argparse.ArgumentParser) -> None:
     add_strategy_arguments(parser, daemon=False)
 
 
-def _subscribe(node: Node, topic: str, take: Callable[[Any], None], *, raw: bool = False) -> None:
-    """Subscribe when the topic appears."""
+def _subscribe(node: Node, topic: str, take: Callable[[Any], None], *, raw: bool = False) -> str:
+    """Subscribe when the topic appears; why that cannot be, empty where it can."""
     name = topic if topic.startswith("/") else f"/{topic}"
     if name not in dict(node.get_topic_names_and_types()):
         print(f"WARNING: topic [{topic}] does not appear to be published yet")
     spin_until(node, lambda: name in dict(node.get_topic_names_and_types()))
-    kind = get_message(dict(node.get_topic_names_and_types())[name][0])
+    kind = message_class(node, name, dict(node.get_topic_names_and_types())[name][0])
+    if isinstance(kind, str):
+        return kind
     node.create_subscription(kind, topic, take, qos_profile_sensor_data, raw=raw)
+    return ""
 
 
 def _tell_each_second(node: Node, tell: Callable[[], str]) -> Result:
@@ -143,7 +146,9 @@ def rate(arguments: argparse.Namespace) -> Result:
             if passes(message) and (text := measured.take()):
                 print(text)
 
-        _subscribe(node, arguments.topic_name, take)
+        problem = _subscribe(node, arguments.topic_name, take)
+        if problem:
+            return problem
         spin_until(node, lambda: False)
     return None
 
@@ -170,7 +175,9 @@ def bandwidth(arguments: argparse.Namespace) -> Result:
                 f"max: {shown[3]}"
             )
 
-        _subscribe(node, arguments.topic, take, raw=True)
+        problem = _subscribe(node, arguments.topic, take, raw=True)
+        if problem:
+            return problem
         print(f"Subscribed to [{arguments.topic}]")
         return _tell_each_second(node, tell)
 
@@ -215,5 +222,5 @@ def delay(arguments: argparse.Namespace) -> Result:
                 f"std dev: {deviation:.5f}s window: {len(delays)}"
             )
 
-        _subscribe(node, arguments.topic_name, take)
-        return _tell_each_second(node, tell)
+        problem = _subscribe(node, arguments.topic_name, take)
+        return problem or _tell_each_second(node, tell)

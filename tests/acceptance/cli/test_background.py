@@ -3,15 +3,26 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
-from collections.abc import Iterator
+import threading
+import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
+
+from bot_console.runtime.rmw.zenoh.domain_folder import domain_folder
+from bot_console.tui.console.launch_host.door import doors, knock
+from bot_console.tui.console.launch_host.proxy import HostedLauncher
+from bot_console.tui.console.launch_host.several import SeveralLaunchers
+from bot_console.tui.console.model import ProcessInfo, ProcessState
+from launcher_bench import WAITS
 
 PATIENCE = 90.0
 """Seconds after which a test gives up; nothing is measured by it."""
@@ -24,7 +35,7 @@ def typed(*words: str) -> subprocess.CompletedProcess[str]:
 
 @pytest.fixture
 def state(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
-    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    monkeypatch.setenv("BOT_CONSOLE_USER_DIR", str(tmp_path))
     monkeypatch.setenv("ROS_HOME", str(tmp_path))
     yield tmp_path
     typed("down")
@@ -45,12 +56,82 @@ def test_a_robot_in_the_background(state: Path) -> None:
     ended = typed("down")
     assert ended.returncode == 0 and ended.stdout.startswith("ended: ")
     assert typed("status").returncode == 1
-    (log,) = (state / "bot-console" / "systems").glob("*.log")
-    assert '"distance"' in log.read_text(encoding="utf-8"), "it came to rest and told its report"
+    (log,) = (state / "state" / "systems").glob("*.log")
+    text = log.read_text(encoding="utf-8")
+    assert re.search(r"\[simulator\]: Emergency stop: locked by .*: its system is being ended", text)
+    assert "simulator_node-1]: process has finished cleanly" in text
+    assert "Traceback" not in text
+
+
+LAUNCH = """
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+def generate_launch_description():
+    return LaunchDescription([Node(executable="{folder}/waiter.py", name="waiter")])
+"""
+
+
+def process(launcher: SeveralLaunchers) -> ProcessInfo | None:
+    """The one process."""
+    return next(iter(launcher.info().processes), None)
+
+
+def until(condition: Callable[[], Any], what: str) -> Any:
+    """Wait until something is so."""
+    deadline = time.monotonic() + PATIENCE
+    while not (found := condition()):
+        assert time.monotonic() < deadline, f"waited in vain for {what}"
+        threading.Event().wait(0.02)
+    return found
+
+
+def test_its_processes_are_seen_and_steered_from_consoles_that_come_and_go(state: Path) -> None:
+    (state / "waiter.py").write_text(WAITS)
+    file = state / "system.launch.py"
+    file.write_text(LAUNCH.format(folder=state))
+    assert typed("up", "--launch", str(file), "--no-simulator").returncode == 0
+    folder = domain_folder(0)
+    lines: list[str] = []
+
+    def enter(door: str) -> HostedLauncher | None:
+        connection = knock(door)
+        return connection and HostedLauncher(
+            connection, lambda *record: None, lambda severity, name, text: lines.append(text), owner=False
+        )
+
+    def attached() -> SeveralLaunchers:
+        return SeveralLaunchers(never, tuple, lambda: doors(folder), enter)
+
+    first, second = attached(), attached()
+    begun = until(lambda: process(first), "the process")
+    assert (begun.state, begun.group) == (ProcessState.RUNNING, ("system.launch.py",))
+    until(lambda: "up" in lines, "what it has printed before")
+    answer = first.restart(begun.key).result(PATIENCE)
+    assert answer.ok, answer
+    again = until(lambda: (each := process(second)) and each.restarts == 1 and each, "the restart")
+    assert again.pid != begun.pid
+    first.close()
+    assert second.stop(again.key).result(PATIENCE).ok and typed("status").returncode == 0
+    assert typed("down").returncode == 0
+    until(lambda: not second.info().processes, "its end")
+    assert any("has gone" in each.text for each in second.info().timeline)
+    assert not doors(folder)
+    second.close()
+
+
+def never() -> HostedLauncher:
+    """Nothing is launched from these consoles."""
+    raise AssertionError
 
 
 def test_what_cannot_start_is_told(state: Path) -> None:
     failed = typed("up", "--launch", "nowhere.launch.py")
     assert failed.returncode == 1
     assert failed.stderr == "there is no launch file nowhere.launch.py\n"
+    (state / "wrong.launch.py").write_text("a = 1\n\ndef (:\n")
+    failed = typed("up", "--launch", str(state / "wrong.launch.py"))
+    assert failed.returncode == 1 and "ended with exit code 1" in failed.stderr
+    (log,) = (state / "state" / "systems").glob("*.log")
+    assert "wrong.launch.py, line 3: syntax error" in log.read_text(encoding="utf-8")
     assert typed("status").returncode == 1

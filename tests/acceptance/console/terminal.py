@@ -34,6 +34,7 @@ class Terminal:
             stdin=slave, stdout=slave, stderr=slave,
         )  # fmt: skip
         self.output = b""
+        self.folder = folder
 
     def read_until(self, condition: Callable[[], bool], what: str) -> None:
         """Take the program's output until a condition holds."""
@@ -47,6 +48,12 @@ class Terminal:
         if select.select([self.master], [], [], seconds)[0]:
             with contextlib.suppress(OSError):
                 self.output += os.read(self.master, 65536)
+
+    def drain(self, seconds: float) -> None:
+        """Take the program's output for a while."""
+        end = time.monotonic() + seconds
+        while (left := end - time.monotonic()) > 0:
+            self._read(left)
 
     def type(self, keys: str) -> None:
         """Press keys."""
@@ -62,8 +69,27 @@ class Terminal:
         """Whether the program has left the alternate screen, shows the cursor and has given the line back."""
         left = self.output.rfind(b"\x1b[?1049l") > self.output.rfind(b"\x1b[?1049h")
         shown = self.output.rfind(b"\x1b[?25h") > self.output.rfind(b"\x1b[?25l")
-        modes = termios.tcgetattr(self._slave)[3]
-        return left and shown and modes == self.settings[3]
+        return left and shown and self.modes() == self.settings[3]
+
+    def modes(self) -> int:
+        """How the line is set (`c_lflag`)."""
+        return termios.tcgetattr(self._slave)[3]
+
+    def set_as_a_shell_does(self) -> int:
+        """Set the line for editing by somebody else, who has taken the terminal over; gives `modes`."""
+        settings = termios.tcgetattr(self._slave)
+        settings[3] = (settings[3] | termios.ISIG) & ~(termios.ICANON | termios.ECHO)
+        termios.tcsetattr(self._slave, termios.TCSANOW, settings)
+        return self.modes()
+
+    def processes(self) -> list[str]:
+        """The command lines of all processes that have come from this program, itself included."""
+        found: list[str] = []
+        for each in Path("/proc").glob("[0-9]*"):
+            with contextlib.suppress(OSError):
+                if f"ROS_HOME={self.folder}".encode() in (each / "environ").read_bytes().split(b"\0"):
+                    found.append((each / "cmdline").read_bytes().replace(b"\0", b" ").decode())
+        return found
 
     def hang_up(self) -> None:
         """Let the terminal vanish, without a signal."""

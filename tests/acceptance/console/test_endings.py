@@ -46,6 +46,7 @@ def generate_launch_description():
 """
 
 CRASH = """
+import os
 import sys
 from pathlib import Path
 from bot_console.tui import cli
@@ -54,6 +55,11 @@ from bot_console.tui.app import BotConsoleApp
 pull = BotConsoleApp.pull
 
 def crash(self):
+    stray = Path("{folder}/stray")
+    if stray.exists():
+        os.write(2, b"from a library\\n")
+        os.closerange(0, 3)
+        stray.unlink()
     if Path("{folder}/crash").exists():
         raise ZeroDivisionError("a fault of the console")
     pull(self)
@@ -70,7 +76,6 @@ def console(tmp_path):
     (tmp_path / "one.launch.py").write_text(LAUNCH.format(folder=tmp_path))
     (tmp_path / "program.py").write_text(CRASH.format(folder=tmp_path))
     terminal = Terminal(["program.py", "--launch", "one.launch.py"], tmp_path)
-    terminal.folder = tmp_path
     received = tmp_path / "received"
     terminal.read_until(lambda: received.exists() and received.read_text().count("1.0") >= 3, "the driving robot")
     yield terminal
@@ -83,9 +88,10 @@ ENDS = {
     "SIGTERM": lambda terminal: terminal.process.send_signal(signal.SIGTERM),
     "SIGHUP": lambda terminal: terminal.process.send_signal(signal.SIGHUP),
     "SIGINT": lambda terminal: terminal.process.send_signal(signal.SIGINT),
+    "SIGQUIT": lambda terminal: terminal.process.send_signal(signal.SIGQUIT),
     "crash": lambda terminal: (terminal.folder / "crash").touch(),
 }
-CODES = {"q": 0, "ctrl-c": 0, "SIGTERM": 143, "SIGHUP": 129, "SIGINT": 130, "crash": 1}
+CODES = {"q": 0, "ctrl-c": 0, "SIGTERM": 143, "SIGHUP": 129, "SIGINT": 130, "SIGQUIT": 131, "crash": 1}
 
 
 @pytest.mark.parametrize("how", ENDS)
@@ -110,3 +116,32 @@ def test_a_terminal_that_vanishes_ends_the_console(console):
     console.hang_up()
     assert console.process.wait(PATIENCE) == 129
     assert (console.folder / "received").read_text().splitlines()[-1] == "0.0"
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSEGV, signal.SIGABRT])
+def test_killed_it_leaves_a_usable_terminal_and_no_process(console, number):
+    assert console.modes() != console.settings[3], "the console has set it"
+    console.process.send_signal(number)
+    assert console.wait() == -number
+    console.read_until(console.is_usable, "the usable terminal after the end")
+    console.read_until(lambda: not console.processes(), "the end of all processes")
+
+
+def test_a_terminal_that_a_shell_has_set_meanwhile_is_left_as_it_is(console):
+    console.process.send_signal(signal.SIGSTOP)
+    theirs = console.set_as_a_shell_does()
+    console.process.kill()
+    console.wait()
+    console.read_until(lambda: not console.processes(), "the end of all processes")
+    assert console.modes() == theirs
+
+
+def test_descriptors_that_are_closed_and_written_to_harm_nothing(console):
+    console.type("2")
+    (console.folder / "stray").touch()
+    console.read_until(lambda: b"from a library" in console.output, "the line in the log")
+    console.type("?")
+    console.read_until(lambda: b"Help" in console.output, "the answer to a key")
+    console.type("qq")
+    assert console.wait() == 0
+    assert console.is_usable()

@@ -17,7 +17,7 @@ import pytest
 if not hasattr(os, "fork"):
     pytest.skip("needs fork", allow_module_level=True)
 
-from bot_console.tui.cli.launch_host import start_host
+from bot_console.tui.cli.live.launch_host import start_host
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.model import ProcessState
 from launcher_bench import HEAD, WAITS
@@ -33,18 +33,19 @@ class Hosted:
         self.folder = folder
         self.printed: list[tuple[int, str, str]] = []
         self.log = folder / "host.log"
-        self.process, connection = start_host(["--workspace", str(folder), "--isolation", "process"], log=self.log)
-        self.launcher = HostedLauncher(connection, lambda *record: None, lambda *line: self.printed.append(line))
+        host = start_host(["--workspace", str(folder)], log=self.log)
+        self.process = host.process
+        self.launcher = HostedLauncher(host.connection, lambda *record: None, lambda *line: self.printed.append(line))
 
-    def launch(self, **programs: str) -> Any:
-        """Launch these programs, by name; the answer."""
+    def launch(self, *actions: str, **programs: str) -> Any:
+        """Launch these programs, by name, and actions; the answer."""
         nodes: list[str] = []
         for name, text in programs.items():
             path = self.folder / f"{name}.py"
             path.write_text(text)
             nodes.append(f"Node(executable={str(path)!r}, exec_name={name!r}, name={name!r})")
         file = self.folder / "x.launch.py"
-        file.write_text(HEAD.format(entities=f"[{', '.join(nodes)}]"))
+        file.write_text(HEAD.format(entities=f"[{', '.join([*nodes, *actions])}]"))
         return self.launcher.launch(str(file), {}).result(PATIENCE)
 
     def until(self, condition: Callable[[], Any]) -> Any:
@@ -100,6 +101,13 @@ def test_a_node_has_a_process_and_a_crash_takes_nothing_else_along(hosted: Hoste
     assert hosted.named("waiter").state is ProcessState.EXITED
 
 
+def test_a_host_tells_how_many_starts_are_put_off(hosted: Hosted) -> None:
+    late = "TimerAction(period={}, actions=[ExecuteProcess(cmd=['true'])])"
+    assert hosted.launch(late.format("3600.0"), late.format("0.01"), waiter=WAITS).ok
+    hosted.until(lambda: len(hosted.launcher.info().processes) == 2)
+    hosted.until(lambda: hosted.launcher.info().delayed == 1)
+
+
 FILLS = "import time\nheld = bytearray(300_000_000)\nprint('up', flush=True)\ntime.sleep(60)\n"
 LOOPS = "import time\nprint('up', flush=True)\nwhile True:\n    pass\n"
 FULL = """
@@ -145,11 +153,11 @@ def test_what_an_owner_started_ends_with_it(tmp_path: Path) -> None:
     file.write_text(HEAD.format(entities=f"[Node(executable={str(program)!r})]"))
     owner = (
         "import time\n"
-        "from bot_console.tui.cli.launch_host import start_host\n"
+        "from bot_console.tui.cli.live.launch_host import start_host\n"
         "from bot_console.tui.console.launch_host.proxy import HostedLauncher\n"
-        "process, connection = start_host(['--isolation', 'process'])\n"
-        "launcher = HostedLauncher(connection, lambda *record: None, lambda *line: None)\n"
-        f"print(launcher.launch({str(file)!r}, {{}}).result(40).ok, process.pid, flush=True)\n"
+        "host = start_host()\n"
+        "launcher = HostedLauncher(host.connection, lambda *record: None, lambda *line: None)\n"
+        f"print(launcher.launch({str(file)!r}, {{}}).result(40).ok, host.process.pid, flush=True)\n"
         "print(launcher.info().processes[0].pid, flush=True)\n"
         "time.sleep(60)\n"
     )

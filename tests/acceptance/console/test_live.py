@@ -9,7 +9,7 @@ from contextlib import asynccontextmanager
 
 import pytest
 from bot_console.tui.cli.arguments import Options
-from bot_console.tui.cli.session import Session
+from bot_console.tui.cli.live.session import Session
 from bot_console.tui.console.model import LogFilter, ProcessState, Severity
 
 PATIENCE = 60.0

@@ -152,7 +152,26 @@ def test_steering_holds_the_program_back_and_its_silence_locks(bench: Bench) -> 
     person.process.kill()
     assert bench.stands(6.0)
     assert "anna: held the steering and fell silent" in bench.launch.stdout
-    bench.call("/safety_monitor/release")
+    assert "still locked by anna" in bench.call("/safety_monitor/release")
+    assert bench.stands(), "nobody else's release lets go of it unnamed"
+    assert "released" in bench.call("/safety_monitor/release_all")
+    assert bench.drives()
+
+
+def test_a_person_releases_nobody_elses_stop(bench: Bench) -> None:
+    bench.call("/safety_monitor/stop")
+    assert bench.command("stop", "the arm swings").exit == 0
+    kept = bench.command("release")
+    assert kept.exit == 1 and kept.stderr.startswith("still held by a call of safety_monitor/stop: asked for by a")
+    assert bench.stands()
+    assert bench.command("stop", "the arm swings").exit == 0
+    assert "still locked by bot-console stop of " in bench.call("/simulator/release")
+    assert bench.stands()
+    assert bench.command("release").exit == 0
+    assert bench.drives()
+    bench.call("/simulator/stop")
+    assert bench.stands()
+    assert bench.command("release", "--all").exit == 0
     assert bench.drives()
 
 

@@ -30,7 +30,7 @@ made = ({endpoints})
 rclpy.spin(node)
 """
 LAUNCH = """from launch import LaunchDescription
-from launch.actions import TimerAction
+from launch.actions import GroupAction, OpaqueFunction, Shutdown, TimerAction
 from launch_ros.actions import Node
 
 def generate_launch_description():
@@ -72,6 +72,42 @@ def test_a_node_that_starts_late_is_seen(tmp_path):
     assert report["distance"] > 0.2
 
 
+def later(period, *actions):
+    return f"TimerAction(period={period}, actions=[{', '.join(actions)}])"
+
+
+BRINGING = "Node(package='bot_console_robot', executable='simulator_node', name='simulator')"
+WAITS = "the launch file starts more later, which is waited for, at most 30 s, before a simulated robot comes"
+
+
+@pytest.mark.parametrize(
+    "bringing",
+    [
+        later(5.0, BRINGING),
+        f"OpaqueFunction(function=lambda context: [{later(5.0, BRINGING)}])",
+        later(2.0, later(3.0, f"GroupAction([{BRINGING}])")),
+    ],
+    ids=["timer", "timer of a function", "timer of a timer"],
+)
+def test_no_two_robots_when_the_launch_brings_one_later(tmp_path, bringing):
+    write(tmp_path, "driver", bringing)
+    log = headless(tmp_path, "--duration", "9", "--launch", "mine.launch.py")["log"]
+    assert BESIDE not in log
+    assert log.count(WAITS) == 1
+
+
+def test_what_starts_later_and_is_no_robot_holds_ours_up_for_its_time_only(tmp_path):
+    write(tmp_path, "driver", later(4.0, "Node(executable='blind.py')"), later(900.0, "Shutdown()"))
+    report = headless(tmp_path, "--duration", "10", "--launch", "mine.launch.py")
+    assert report["log"].count(WAITS) == report["log"].count(BESIDE) == 1
+
+
+def test_what_starts_much_later_is_not_waited_for(tmp_path):
+    write(tmp_path, "driver", later(900.0, "Node(executable='blind.py')"))
+    report = headless(tmp_path, "--duration", "35", "--launch", "mine.launch.py")
+    assert report["log"].count(WAITS) == report["log"].count(BESIDE) == 1
+
+
 @pytest.mark.parametrize(
     "entities",
     [
@@ -103,6 +139,38 @@ def test_simulator_where_it_is_asked_for(tmp_path):
 
 
 def test_no_two_robots_when_the_launch_brings_one(tmp_path):
-    bringing = "Node(package='bot_console_robot', executable='simulator_node', name='simulator')"
-    write(tmp_path, "driver", bringing)
+    write(tmp_path, "driver", BRINGING)
     assert BESIDE not in headless(tmp_path, "--duration", "4", "--launch", "mine.launch.py")["log"]
+
+
+ASKS = """import rclpy
+from sensor_msgs.msg import LaserScan
+
+rclpy.init()
+node = rclpy.create_node("asker")
+node.create_subscription(LaserScan, "scan", lambda scan: None, 10)
+looks = []
+node.create_timer(0.1, lambda: looks.append(len(node.get_publishers_info_by_topic("/scan"))))
+while len(looks) < 30 and not any(looks):
+    rclpy.spin_once(node)
+print("given by", looks[-1], flush=True)
+"""
+
+
+@pytest.mark.parametrize(
+    ("words", "givers"),
+    [
+        (("run", "asks.py"), 0),
+        (("launch", "asks.launch.py"), 0),
+        (("run", "--headless", "--duration", "30", "asks.py"), 1),
+    ],
+    ids=["run", "launch", "run --headless"],
+)
+def test_the_verbs_start_what_they_are_told_and_no_robot(tmp_path, monkeypatch, words, givers):
+    monkeypatch.setenv("ROS_HOME", str(tmp_path))
+    (tmp_path / "asks.py").write_text(ASKS)
+    node = "Node(executable='./asks.py', output='screen')"
+    (tmp_path / "asks.launch.py").write_text(LAUNCH.format(entities=f"[{node}]"))
+    line = [sys.executable, "-m", "bot_console.tui", *words]
+    done = subprocess.run(line, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert f"given by {givers}" in done.stdout + done.stderr, done.stderr

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from bot_console.runtime.process.stepping import stepped
+from bot_console.runtime.process.stepping.stepped_time import stepped
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from serving import serving

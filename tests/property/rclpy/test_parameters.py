@@ -12,8 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor, ParameterEvent
 from rclpy.context import Context
-from rclpy.impl.parameter_descriptors import refusal
 from rclpy.node import Node
+from rclpy.node_parts.parameter_descriptors import refusal
 from rclpy.parameter import Parameter, parameter_value_to_python
 
 Type = Parameter.Type

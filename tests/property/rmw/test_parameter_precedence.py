@@ -6,7 +6,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import yaml
-from bot_console.runtime.rmw.parameter_yaml import ParameterTable, key_matches
+from bot_console.runtime.rmw.parameter_precedence import ParameterTable, key_matches
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

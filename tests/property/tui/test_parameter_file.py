@@ -6,8 +6,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import yaml
+from bot_console.runtime.rmw.parameter_precedence import ParameterTable
 from bot_console.runtime.rmw.parameter_scalars import scalar_value
-from bot_console.runtime.rmw.parameter_yaml import ParameterTable
 from bot_console.tui.console.model import Value
 from bot_console.tui.console.parameters.patch import new_text, patched, same
 from bot_console.tui.console.parameters.text import plain_value, sections, value_at

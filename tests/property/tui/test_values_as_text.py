@@ -6,8 +6,8 @@ import argparse
 import shlex
 
 import pytest
-from bot_console.tui.console.kinds import ARRAYS
 from bot_console.tui.console.model import Kind, ParameterInfo, Value
+from bot_console.tui.console.parameter_types import ARRAYS
 from bot_console.tui.console.parameters.patch import same
 from bot_console.tui.format import command_of, field_text, guess, parse_number, parse_value, value_text
 from bot_console.tui.yaml_flow import quoted

@@ -6,7 +6,14 @@ import warnings
 from pathlib import Path
 
 import pytest
-from ament_index_python import get_resource, get_resource_types, get_resources, has_resource
+from ament_index_python import (
+    InvalidResourceNameError,
+    InvalidResourceTypeNameError,
+    get_resource,
+    get_resource_types,
+    get_resources,
+    has_resource,
+)
 from ament_index_python.packages import (
     PackageNotFoundError,
     get_package_prefix,
@@ -69,3 +76,11 @@ def test_resources(prefixes: list[Path]) -> None:
     assert get_resource_types() == {"packages": {first, second}}
     with pytest.raises(LookupError):
         get_resource("packages", "none")
+
+
+@pytest.mark.parametrize("name", ["", "a/b", "..\\x"])
+def test_names_that_lead_elsewhere_are_refused(name: str) -> None:
+    with pytest.raises(InvalidResourceTypeNameError):
+        get_resources(name)
+    with pytest.raises(InvalidResourceNameError):
+        get_resource("packages", name)

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from bot_console.runtime.process import ClockSource, NodeProcess, SteppedTime, stepped
-from bot_console.runtime.process.virtual import uninstall_virtual_process
+from bot_console.runtime.process.virtual.install import uninstall_virtual_process
 
 LONG = 20.0
 """How long (s) a test waits for what it expects, before it fails."""

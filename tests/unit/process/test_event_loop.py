@@ -6,7 +6,7 @@ import asyncio
 import time
 
 from bot_console.runtime.process import NodeProcess, stepped
-from bot_console.runtime.process.event_loop import SteppedEventLoop
+from bot_console.runtime.process.stepping.event_loop import SteppedEventLoop
 
 
 def test_sleeps_and_timers_are_virtual_and_nodes_run_meanwhile():

@@ -83,7 +83,7 @@ def test_ctrl_c_breaks_a_stepped_run_and_closes_it():
     ended = run_python("""
         import signal, sys, time
         from bot_console.runtime.process import NodeProcess, stepped
-        from bot_console.runtime.process.os_calls import _kill, _getpid
+        from bot_console.runtime.process.virtual.os_calls import _kill, _getpid
         rounds = []
         def node():
             while True:

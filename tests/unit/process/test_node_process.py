@@ -21,8 +21,8 @@ from bot_console.runtime.process import (
     on_notice,
     running_as,
 )
-from bot_console.runtime.process import node_process as node_process_module
-from bot_console.runtime.process.busy_watch import busy_watch
+from bot_console.runtime.process.node import node_process as node_process_module
+from bot_console.runtime.process.watch.busy_watch import busy_watch
 
 LONG = 20.0
 

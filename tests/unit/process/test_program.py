@@ -7,7 +7,7 @@ import textwrap
 
 import pytest
 from bot_console.runtime.process import entry_point_program, file_program
-from bot_console.runtime.process.fresh_import import FreshModules
+from bot_console.runtime.process.virtual.fresh_import import FreshModules
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ import time
 
 import pytest
 from bot_console.runtime.process import NodeProcess, current, on_notice, real, stepped
-from bot_console.runtime.process.thread_state import local
+from bot_console.runtime.process.node.thread_state import local
 from ticking import ticker
 
 STALL = 0.02

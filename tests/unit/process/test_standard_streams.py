@@ -11,7 +11,7 @@ import threading
 import traceback
 
 import pytest
-from bot_console.runtime.process.virtual import install_virtual_process, reinstall_stdio
+from bot_console.runtime.process.virtual.install import install_virtual_process, reinstall_stdio
 
 
 def test_whole_lines_arrive_at_once_and_the_rest_at_the_end(start):

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from bot_console.runtime.process import NodeProcess, stepped
-from bot_console.runtime.process import stepped_lock as module
+from bot_console.runtime.process.stepping import lock as module
 
 
 class Interrupted:

@@ -7,9 +7,9 @@ import threading
 import time
 
 from bot_console.runtime.process import MAIN, NodeProcess, RealTime, current, stepped
-from bot_console.runtime.process.baton import INSTANT_WAITS, POLL_NS
-from bot_console.runtime.process.stepping import DEFAULT_START_NS, FREE_READS
-from bot_console.runtime.process.virtual import uninstall_virtual_process
+from bot_console.runtime.process.stepping.baton import INSTANT_WAITS, POLL_NS
+from bot_console.runtime.process.stepping.stepped_time import DEFAULT_START_NS, FREE_READS
+from bot_console.runtime.process.virtual.install import uninstall_virtual_process
 from ticking import ticker
 
 SECOND = 10**9
@@ -216,4 +216,4 @@ def test_many_timers_leave_no_heap(clock):
     NodeProcess("n", clock).start(target)
     NodeProcess("w", clock).start(waker)
     clock.run_for(9.0)
-    assert len(clock._baton._timers) < 200
+    assert len(clock._baton._deadlines) < 200

@@ -117,7 +117,7 @@ def test_only_who_takes_part_can_run(clock):
             errors.append(str(error))
 
     thread = threading.Thread(target=outside)
-    from bot_console.runtime.process.child_threads import start_outside
+    from bot_console.runtime.process.virtual.child_threads import start_outside
 
     start_outside(thread)
     thread.join(LONG)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from bot_console.runtime.process import thread_work
-from bot_console.runtime.process.thread_work import IMPORTING, LOOKS_PER_STALL, PATIENT, ThreadWork
+from bot_console.runtime.process.watch import thread_work
+from bot_console.runtime.process.watch.thread_work import IMPORTING, LOOKS_PER_STALL, PATIENT, ThreadWork
 
 FUTEX = "futex_do_wait"
 

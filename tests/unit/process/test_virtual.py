@@ -17,7 +17,7 @@ import types
 
 import pytest
 from bot_console.runtime.process import on_notice
-from bot_console.runtime.process.virtual import install_virtual_process, uninstall_virtual_process
+from bot_console.runtime.process.virtual.install import install_virtual_process, uninstall_virtual_process
 
 OWNERS = (
     os,

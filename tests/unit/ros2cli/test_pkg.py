@@ -64,7 +64,6 @@ def test_what_is_created_is_told_line_by_line(ros, src: Path) -> None:
     [
         (["--build-type", "ament_python", "Bad-Name"], "Aborted since the package name 'Bad-Name' is invalid"),
         (["--build-type", "ament_python", "test"], "Aborted since 'ament_python' packages can't be named 'test'"),
-        (["compiled"], "A package of build type 'ament_cmake' has to be compiled"),
         (["--build-type", "ament_python", "here"], "\nAborted!\nThe directory already exists: ./here\n"),
     ],
 )
@@ -157,3 +156,43 @@ def test_launch_show_args_without_a_file_lists_the_launch_files(ros, src: Path) 
     assert "    robot_system.launch.py\n" in told.stdout and "    environment_launch.py\n" in told.stdout
     package(src, "p", tell="def main():\n    pass\n")
     assert "package 'p' has no launch files" in ros.ask("launch", "p", "--show-args").stderr
+
+
+def test_a_package_of_interfaces_for_cmake(ros, src: Path) -> None:
+    words = (
+        "--build-type",
+        "ament_cmake",
+        "--dependencies",
+        "std_msgs",
+        "--node-name",
+        "hello",
+        "--library-name",
+        "my_lib",
+    )
+    made = ros.ask("pkg", "create", *words, "cmake_made_msgs")
+    assert made.exit == 0
+    lines = made.stdout.splitlines()
+    assert "creating source and include folder" in lines
+    assert "creating folder ./cmake_made_msgs/include/cmake_made_msgs" in lines
+    assert "interfaces in its msg/" in made.stderr
+    folder = Path("cmake_made_msgs")
+    listed = (folder / "CMakeLists.txt").read_text("utf-8")
+    for needed in (
+        "project(cmake_made_msgs)",
+        "find_package(std_msgs REQUIRED)",
+        "add_executable(hello src/hello.cpp)",
+    ):
+        assert needed in listed
+    assert listed.endswith("ament_package()\n")
+    assert "class MyLib" in (folder / "include" / "cmake_made_msgs" / "my_lib.hpp").read_text("utf-8")
+    (folder / "msg").mkdir()
+    (folder / "msg" / "Num.msg").write_text("std_msgs/Header header\nint64 num\n")
+    use(src)
+    assert "int64 num" in ros.ask("interface", "show", "cmake_made_msgs/msg/Num").stdout
+    assert ros.ask("pkg", "xml", "cmake_made_msgs", "-t", "depend").stdout == "std_msgs\n"
+
+
+def test_a_plain_cmake_package(ros, src: Path) -> None:
+    assert ros.ask("pkg", "create", "--build-type", "cmake", "plain_cmake").exit == 0
+    assert "ament" not in Path("plain_cmake/CMakeLists.txt").read_text("utf-8")
+    assert "<build_type>cmake</build_type>" in Path("plain_cmake/package.xml").read_text("utf-8")

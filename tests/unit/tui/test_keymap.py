@@ -6,32 +6,44 @@ import re
 
 import pytest
 from bot_console.tui.app import BotConsoleApp
-from bot_console.tui.keymap import TABLE, Key
-from bot_console.tui.pane_table import PANES
+from bot_console.tui.keymap import TABLE
+from bot_console.tui.keys import Key
+from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.panes.broken import BrokenPane
+from bot_console.tui.screens.arrange import ArrangeScreen
+from bot_console.tui.screens.box import Boxed
 from bot_console.tui.screens.confirm import ConfirmScreen
 from bot_console.tui.screens.elements import ElementsScreen
+from bot_console.tui.screens.fill import FillScreen
 from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.screens.launch_arguments import ArgumentsScreen
 from bot_console.tui.screens.overlay import Overlay
 from bot_console.tui.screens.picker import PickerScreen
 from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.widgets.diagram_view import DiagramView
+from bot_console.tui.widgets.prompt.filtered import Findable, Narrowed
+from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.row_list import RowList
 
 SCREENS = {
+    "arrange": ArrangeScreen,
     "overlay": Overlay,
     "help": HelpScreen,
     "question": QuestionScreen,
     "confirm": ConfirmScreen,
     "elements": ElementsScreen,
+    "box": Boxed,
     "picker": PickerScreen,
     "form": ArgumentsScreen,
+    "fill": FillScreen,
 }
 OWNERS = {
     "app": BotConsoleApp,
     "list": RowList,
     "diagram": DiagramView,
+    "find": Findable,
+    "narrowed": Narrowed,
+    "prompt": Prompt,
     "broken": BrokenPane,
     **SCREENS,
     **{each.id: each.load() for each in PANES},
@@ -58,7 +70,7 @@ def test_no_key_has_two_meanings_in_one_scope(scope: str) -> None:
 
 
 def test_every_pane_has_its_digit_keys_and_help() -> None:
-    digits = {key.keys: key.action for key in TABLE["app"] if key.keys.isdigit()}
+    digits = {key.keys: key.action for key in TABLE["app"] if key.action.startswith("pane(")}
     for each in PANES:
         assert digits[each.digit] == f"pane('{each.id}')"
         assert each.load().HELP and each.id in TABLE
@@ -66,3 +78,15 @@ def test_every_pane_has_its_digit_keys_and_help() -> None:
 
 def test_every_scope_of_the_table_is_used() -> None:
     assert set(TABLE) == set(OWNERS)
+
+
+@pytest.mark.parametrize("each", PANES, ids=[each.id for each in PANES])
+def test_a_pane_names_the_scopes_that_act_in_it_and_overrides_no_key_of_them(each: PaneEntry) -> None:
+    kind = each.load()
+    merged = kind._merge_bindings().key_to_bindings
+    for scope in (each.id, *kind.SCOPES):
+        if scope in ("list", "diagram"):
+            continue  # these are of what stands in the pane
+        for key in TABLE[scope]:
+            for name in key.keys.split(","):
+                assert [binding.id for binding in merged[name]] == [key.id]

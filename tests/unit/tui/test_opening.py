@@ -43,8 +43,6 @@ def test_every_program_has_its_pane(program: str, pane: str) -> None:
 @pytest.mark.parametrize(
     ("line", "note"),
     [
-        ("rqt --perspective-file ~/.config/ros.org/rqt_gui.ini", "perspective ~/.config/ros.org/rqt_gui.ini: "),
-        ("rqt -p mine", "perspective mine: "),
         ("rqt_plot -P /a", "-P of rqt_plot is not taken over"),
         ("rqt_robot_steering --default_topic /cmd", "--default_topic /cmd of rqt_robot_steering is not taken over"),
         ("rqt -s rqt_bag", "there is no pane for rqt_bag"),
@@ -52,6 +50,11 @@ def test_every_program_has_its_pane(program: str, pane: str) -> None:
 )
 def test_what_is_not_taken_over_is_told(line: str, note: str) -> None:
     assert [each.startswith(note) for each in opening(line).notes] == [True]
+
+
+@pytest.mark.parametrize("line", ["rqt --perspective-file ~/a.ini", "rqt -p ~/a.ini", "rqt_gui --perspective=~/a.ini"])
+def test_a_perspective_is_taken(line: str) -> None:
+    assert opening(line) == Opening(perspective="~/a.ini")
 
 
 def test_other_words_are_those_of_bot_console(capsys: pytest.CaptureFixture[str]) -> None:

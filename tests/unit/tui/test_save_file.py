@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import NoReturn
 
 import pytest
-from bot_console.tui import save_file as module
-from bot_console.tui.save_file import NotSaved, save_file, typed_path
+from bot_console.tui.files import save_file as module
+from bot_console.tui.files.save_file import NotSaved, save_file, typed_path
 
 POSIX = pytest.mark.skipif(os.name != "posix", reason="modes and owners of POSIX")
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
+from bot_console.tui.console.graph.pairs import UnheardPairs
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from rclpy.node import Node
 
@@ -38,6 +40,7 @@ class GraphWatch:
         self._services: Any = []
         self._stale = True
         self._told = events is not None
+        self._unheard = UnheardPairs(node)
         self._end = events(node.context.get_domain_id(), self._event) if events else _nothing
         node.create_timer(PERIOD, self._tick)
 
@@ -70,6 +73,7 @@ class GraphWatch:
             old.topics if topics == self._topics else _endpoints(topics),
             old.services if services == self._services else _endpoints(services),
         )
+        self.info = replace(self.info, unheard=self._unheard.follow(self.info))
         self._nodes, self._topics, self._services = nodes, topics, services
         self._changed(self.info)
 

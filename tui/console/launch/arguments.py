@@ -18,7 +18,7 @@ def read_arguments(path: str) -> list[LaunchArgument]:
         context = LaunchContext()
         declared = AnyLaunchDescriptionSource(path).get_launch_description(context).get_launch_arguments()
     except (Exception, SystemExit) as error:  # a launch file is a program: whatever it raises is its reader's to see
-        raise ValueError(fault_text(error, path)) from error
+        raise ValueError(fault_text(error, path, reading=True)) from error
     return [_argument(each, context) for each in declared]
 
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 import traceback
-from collections.abc import Callable, Iterator, Sequence
-from types import FrameType, TracebackType
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any, TypeAlias
 
 from bot_console.tui.console.user_code import library_folders
@@ -17,17 +16,23 @@ Place: TypeAlias = "tuple[str, int | None]"
 """A file, and the line in it where that is known."""
 
 
-def fault_text(error: BaseException, path: str, file_of: Callable[[Any], str] = lambda entity: "") -> str:
-    """What went wrong and where; `path` is the launch file that was asked for, `file_of` knows where entities stand."""
+def fault_text(
+    error: BaseException, path: str, file_of: Callable[[Any], str] = lambda entity: "", *, reading: bool = False
+) -> str:
+    """What went wrong and where.
+
+    `path` is the launch file that was asked for, `reading` that nothing else was read yet; `file_of` knows where
+    entities stand. The embedded launch tells on the exception what it was at; of others there are the user's lines in
+    the traceback, and what a parser says.
+    """
     causes = list(_causes(error))
     error = causes[-1]
     if isinstance(error, SyntaxError) and error.filename:
         return _at((error.filename, error.lineno), f"syntax error: {error.msg}")
     own = _user_line(error)
-    entity = _entity_line(causes, file_of)
     if isinstance(error, RecursionError):
-        return _at(own or entity or (path, None), ENDLESS)
-    place = own or _file_line(causes) or entity or (path, None)
+        return _at(own or _include_line(causes) or (path, None), ENDLESS)
+    place = own or _told(causes, file_of) or (path, _parsers_line(error) if reading else None)
     named = own and not _is_missing_package(error)
     return _at(place, f"{type(error).__name__}: {error}" if named else _text(error))
 
@@ -68,13 +73,14 @@ def _at(place: Place, text: str) -> str:
 
 def _causes(error: BaseException) -> Iterator[BaseException]:
     """An error, then what the reader for files of that ending has said; the other readers have only tried."""
+    from launch.invalid_launch_file_error import InvalidLaunchFileError
+
     yield error
-    readers = getattr(error, "_likely_errors", None)
-    if readers:
-        yield from _causes(readers[0])
+    if isinstance(error, InvalidLaunchFileError) and error.__cause__ is not None:
+        yield from _causes(error.__cause__)
 
 
-def _user_line(error: BaseException) -> tuple[str, int] | None:
+def _user_line(error: BaseException) -> Place | None:
     """The innermost line that is neither launch's nor a library's."""
     libraries = library_folders()
     lines = [
@@ -85,20 +91,8 @@ def _user_line(error: BaseException) -> tuple[str, int] | None:
     return lines[-1] if lines else None
 
 
-def _frames(trace: TracebackType | None) -> Iterator[FrameType]:
-    while trace is not None:
-        yield trace.tb_frame
-        trace = trace.tb_next
-
-
-def _file_line(causes: Sequence[BaseException]) -> Place | None:
-    """The file that a reader of XML or YAML was at, and the line where its parser says one."""
-    frames = [frame for error in causes for frame in _frames(error.__traceback__)]
-    files = [each for each in (frame.f_locals.get("launch_file_path") for frame in frames) if isinstance(each, str)]
-    return (files[-1], _parsers_line(causes[-1]) or _elements_line(frames)) if files else None
-
-
 def _parsers_line(error: BaseException) -> int | None:
+    """Where a parser of YAML or XML has stopped."""
     mark: Any = getattr(error, "problem_mark", None)
     position: Any = getattr(error, "position", None)
     if mark is not None:
@@ -106,25 +100,22 @@ def _parsers_line(error: BaseException) -> int | None:
     return None if position is None else position[0]
 
 
-def _elements_line(frames: Sequence[FrameType]) -> int | None:
-    """The line of the element that was being read, if it says so."""
-    lines = [getattr(frame.f_locals.get("entity"), "line", None) for frame in frames]
-    return next((line for line in reversed(lines) if isinstance(line, int)), None) or None
+def _told(causes: Sequence[BaseException], file_of: Callable[[Any], str]) -> Place | None:
+    """What launch has told of the innermost error; in place of a library's line the launch file that it stands for."""
+    for told in _all_told(reversed(causes)):
+        if told.file and not (told.entity is not None and told.file.startswith(library_folders())):
+            return told.file, told.line
+        file = "" if told.entity is None else file_of(told.entity)
+        if file:
+            return file, None
+    return None
 
 
-def _entity_line(causes: Sequence[BaseException], file_of: Callable[[Any], str]) -> Place | None:
-    """Where the innermost action that was being executed was made, if it says so, else the file that it stands in."""
-    from launch import Action
+def _include_line(causes: Sequence[BaseException]) -> Place | None:
+    """Where an include stands that was being visited."""
+    return next(((told.file, told.line) for told in _all_told(causes) if told.line), None)
 
-    libraries = library_folders()
-    found: Place | None = None
-    for frame in (frame for error in causes for frame in _frames(error.__traceback__)):
-        entity = frame.f_locals.get("self")
-        if isinstance(entity, Action):
-            made_in, _, line = str(getattr(entity, "origin", "")).rpartition(":")
-            file = file_of(entity)
-            if line.isdigit() and not made_in.startswith(libraries):
-                found = (made_in, int(line))
-            elif file:
-                found = (file, None)
-    return found
+
+def _all_told(errors: Iterable[BaseException]) -> Iterator[Any]:
+    """The `launch.launch_place.LaunchPlace` of each error that has one."""
+    return (each for each in (getattr(error, "launch_place", None) for error in errors) if each is not None)

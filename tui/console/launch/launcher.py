@@ -9,10 +9,10 @@ from concurrent.futures import Future
 from pathlib import Path
 from typing import Any, Protocol
 
-from bot_console.tui.console.launch.again import Recipe, recipe
 from bot_console.tui.console.launch.arguments import read_arguments
 from bot_console.tui.console.launch.output import Add, ProcessOutput
 from bot_console.tui.console.launch.process import ENDED, KILLED, LaunchedProcess, Order
+from bot_console.tui.console.launch.restart import Recipe, recipe
 from bot_console.tui.console.launch.run import LaunchRun, Listener
 from bot_console.tui.console.launch.timeline import LaunchTimeline
 from bot_console.tui.console.launch.vitals import FindVitals, Usage, Vitals
@@ -56,10 +56,12 @@ class RosLauncher:
         spawn: Callable[[Callable[[], None], str], Joinable] | None = None,
         vitals: FindVitals = lambda pid: None,
         heard: Callable[[str], bool] = lambda name: True,
+        every: Add | None = None,
     ) -> None:
         """`spawn` starts the thread of a launch of a file, and keeps what launch itself prints off the screen.
 
-        `heard` says whether `/rosout` has brought a line of the logger of that name.
+        `heard` says whether `/rosout` has brought a line of the logger of that name; `every` is given all lines of
+        loggers, those too that `/rosout` brings.
         """
         self._record = record
         self._printed = printed
@@ -67,7 +69,10 @@ class RosLauncher:
         self._spawn = spawn or _thread
         self._find_vitals = vitals
         self._heard = heard
-        self._listener = Listener(self._started, self._output, self._exited, self._over, self._ending, self._fault)
+        self._every = every
+        self._listener = Listener(
+            self._started, self._output, self._exited, self._missing, self._over, self._ending, self._fault
+        )
         self._lock = threading.RLock()
         self._held: dict[str, _Held] = {}
         self._by_action: dict[Any, _Held] = {}
@@ -77,6 +82,7 @@ class RosLauncher:
         self._timeline = LaunchTimeline()
         self._problem = ""
         self._info = LaunchInfo()
+        self._delayed = 0
         self._dirty = self._closed = False
 
     def info(self) -> LaunchInfo:
@@ -86,12 +92,16 @@ class RosLauncher:
             if self._dirty:
                 self._dirty = False
                 processes = tuple(each.process.info for each in self._held.values())
-                self._info = LaunchInfo(tuple(self._files), processes, self._timeline.events, self._problem)
+                events = self._timeline.events
+                self._info = LaunchInfo(tuple(self._files), processes, events, self._problem, self._delayed)
             return self._info
 
     def _look(self) -> None:
         """Measure what no event tells."""
         now = time.monotonic()
+        delayed = sum(run.delayed_starts for run in self._runs)
+        self._dirty |= delayed != self._delayed
+        self._delayed = delayed
         for held in self._held.values():
             info = held.process.info
             if held.output is not None and held.process.alive:
@@ -107,10 +117,10 @@ class RosLauncher:
     def _look_at(self, held: _Held, usage: Usage, now: float) -> None:
         before = usage.busy_s
         usage.look(now)
-        self._dirty |= held.process.uses(usage.share, usage.memory)
+        self._dirty |= held.process.uses(usage.share, usage.memory) or held.process.stands(usage.stopped)
         if before < BUSY_S <= usage.busy_s:
             label = held.process.info.label
-            self._tell(f"{label} has kept a processor busy for {BUSY_S:g} s, without a break", Severity.WARN)
+            self._tell(f"{label} has computed for {BUSY_S:g} s without waiting", Severity.WARN)
 
     def _tell(self, text: str, severity: Severity = Severity.INFO) -> None:
         self._timeline.tell(text, severity)
@@ -232,6 +242,8 @@ class RosLauncher:
         def failed(why: str) -> None:
             self._ended(held, why)
 
+        if held.run.ending:  # another run of the same file may be there, of what was started again before
+            held.run = next((run for run in self._runs if run.title == held.run.title and not run.ending), held.run)
         if not held.run.ending:
             held.run.start(make, failed)
             return
@@ -245,7 +257,7 @@ class RosLauncher:
         with self._lock:
             held = self._by_action.get(event.action) or self._found(run, event, context)
             held.vitals, held.usage = vitals, Usage(vitals, time.monotonic()) if vitals else None
-            held.output = ProcessOutput(event.process_name, self._record, self._printed, self._heard)
+            held.output = ProcessOutput(event.process_name, self._record, self._printed, self._heard, self._every)
             order = held.process.started(event.process_name, event.pid, nodes)
             times = held.process.info.restarts
             self._tell(f"{held.process.info.label} started{f' again ({times})' if times else ''}, pid {event.pid}")
@@ -286,6 +298,15 @@ class RosLauncher:
             text = f"{held.process.info.label} ended, exit code {event.returncode}"
             self._tell(text, Severity.ERROR if bad else Severity.INFO)
             self._order(held, order)
+
+    def _missing(self, run: LaunchRun, event: Any, context: Any) -> None:
+        label = f"{event.package}/{event.executable}"
+        with self._lock:
+            key = f"{label}@{len(self._held)}"
+            process = LaunchedProcess(key, label, run.tree.place(event.action, context))
+            process.missing(event.reason)
+            self._held[key] = _Held(process, run, None, Recipe([], label, {}, "", is_node=True, package=event.package))
+            self._tell(f"{label} is missing: {event.reason}", Severity.WARN)
 
     def _over(self, action: Any) -> None:
         with self._lock:
@@ -336,8 +357,18 @@ def _thread(target: Callable[[], None], file: str) -> threading.Thread:
 
 def _node_names(action: Any) -> tuple[str, ...]:
     """The ROS names of the nodes in a process, where the action tells them."""
-    name = getattr(action, "expanded_node_name", "")
-    namespace = getattr(action, "expanded_node_namespace", "")
+    if not hasattr(action, "expanded_node_name"):
+        return _full_node_name(action)
+    name, namespace = action.expanded_node_name, getattr(action, "expanded_node_namespace", "")
     if not name or "<" in name:
         return ()
     return (f"{'' if '<' in namespace else namespace.rstrip('/')}/{name}",)
+
+
+def _full_node_name(action: Any) -> tuple[str, ...]:
+    """The same of a launch_ros that tells it by `node_name`; placeholders stand for what the program itself decides."""
+    try:
+        name = str(getattr(action, "node_name", ""))
+    except RuntimeError:  # it was not executed
+        return ()
+    return (name,) if name and "<" not in name else ()

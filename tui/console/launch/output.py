@@ -53,9 +53,11 @@ class ProcessOutput:
         record: Add,
         printed: Callable[[int, str, str], None],
         heard: Callable[[str], bool] = lambda name: True,
+        every: Add | None = None,
     ) -> None:
-        """`heard` says whether `/rosout` has brought a line of the logger of that name."""
+        """`heard` says whether `/rosout` has brought a line of the logger of that name; `every` is given all lines."""
         self._record = record
+        self._every = every
         self._undecided = Undecided(record, heard)
         self._streams = {stderr: Printed(label, printed, stderr=stderr) for stderr in (False, True)}
         self._readers = {stderr: OutputReader(self.logged, each.line) for stderr, each in self._streams.items()}
@@ -66,6 +68,8 @@ class ProcessOutput:
 
     def logged(self, record: Record, on_rosout: bool | None) -> None:
         """Take a line that a logger wrote; None where its writer could not tell whether it went out on `/rosout`."""
+        if self._every is not None:
+            self._every(*record)
         if on_rosout is None:
             self._undecided.wait(record)
         elif not on_rosout:

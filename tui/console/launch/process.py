@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 from concurrent.futures import Future
 from dataclasses import replace
 from enum import Enum
@@ -13,8 +14,10 @@ INTERRUPTED = (0, -2, -15, 130)
 """Exit codes of a process that ended as it was asked to."""
 KILLED = -9
 
+FROZEN = "is frozen by a signal or a debugger, and hears nothing until SIGCONT"
+
 STARTS = ("start", "restart")
-ENDED = (ProcessState.EXITED, ProcessState.CRASHED, ProcessState.ABANDONED)
+ENDED = (ProcessState.EXITED, ProcessState.CRASHED, ProcessState.ABANDONED, ProcessState.MISSING)
 
 
 class Order(Enum):
@@ -57,6 +60,8 @@ class LaunchedProcess:
 
     def _refusal(self, verb: str) -> str:
         state, label = self.info.state, self.info.label
+        if state is ProcessState.MISSING:
+            return f"{label} is not here: {self.info.problem}"
         if verb == "start" and state is ProcessState.RUNNING:
             return f"{label} runs already"
         if verb in STARTS and state is ProcessState.STARTING:
@@ -106,6 +111,10 @@ class LaunchedProcess:
             return Order.SHUT_DOWN
         self._settle(STARTS, Answer(True, f"{self.info.label} runs, pid {pid}"))
         return Order.NOTHING
+
+    def missing(self, why: str) -> None:
+        """Its executable is not here, and the launch goes on without it."""
+        self.info = replace(self.info, state=ProcessState.MISSING, problem=why)
 
     def exited(self, code: int, respawns: bool, fault: str = "") -> Order:
         """It has ended; `respawns` says that launch will start it again by itself, `fault` which exception it left."""
@@ -162,6 +171,13 @@ class LaunchedProcess:
         self.info = replace(self.info, cpu=cpu, memory=memory)
         return True
 
+    def stands(self, stopped: bool) -> bool:
+        """Note whether it is frozen; whether that is news."""
+        if stopped is (self.info.problem == FROZEN) or not self._alive:
+            return False
+        self.info = replace(self.info, problem=FROZEN if stopped else "")
+        return True
+
     def _settle(self, verbs: tuple[str, ...], answer: Answer) -> None:
         due = [outcome for verb, outcome in self._waiting if verb in verbs]
         self._waiting = [each for each in self._waiting if each[0] not in verbs]
@@ -172,4 +188,13 @@ class LaunchedProcess:
 def _reason(code: int) -> str:
     if code == KILLED:
         return f"was killed (exit code {code})"
+    if code < 0:
+        return f"was ended by {_signal(-code)} (exit code {code}); its last lines are in the log"
     return f"ended with exit code {code}; its last lines are in the log"
+
+
+def _signal(number: int) -> str:
+    try:
+        return signal.Signals(number).name
+    except ValueError:  # one of those for real time
+        return f"signal {number}"

@@ -8,9 +8,12 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from bot_console.tui.console.launch.delayed import delayed_starts
 from bot_console.tui.console.launch.fault import fault_text
 from bot_console.tui.console.launch.tree import LaunchTree
 
+MISSING = "launch_ros.events.NodeMissing"
+"""The name of the event of a node that is left out; ROS 2 has none, so it is not imported."""
 CAUGHT = "Caught exception in launch (see debug for traceback): "
 
 
@@ -24,6 +27,8 @@ class Listener:
     """With `ProcessIO`."""
     exited: Callable[[Any], None]
     """With `ProcessExited`."""
+    missing: Callable[[LaunchRun, Any, Any], None]
+    """With `NodeMissing`, where the launch has such events, and the launch context."""
     over: Callable[[Any], None]
     """With an action that has ended and that launch will not start again."""
     ending: Callable[[LaunchRun, str], None]
@@ -60,7 +65,7 @@ class LaunchRun:
         try:
             source.get_launch_description(LaunchContext())  # once more below, but from memory
         except (Exception, SystemExit) as error:  # a launch file is a program: whatever it raises is its reader's
-            return self.fault(error)
+            return fault_text(error, path, reading=True)
         return self._run([IncludeLaunchDescription(source, launch_arguments=arguments.items())])
 
     def run_action(self, make: Callable[[], Any], failed: Callable[[str], None]) -> str:
@@ -91,10 +96,12 @@ class LaunchRun:
         return fault_text(error, self.path, self.tree.file_of)
 
     def _handlers(self) -> Iterable[Any]:
-        from launch.actions import IncludeLaunchDescription, RegisterEventHandler
+        from launch.actions import IncludeLaunchDescription, OpaqueFunction, RegisterEventHandler
         from launch.event_handlers import OnExecutionComplete, OnProcessExit, OnProcessIO, OnProcessStart, OnShutdown
 
         heard = self._listener
+
+        from launch import EventHandler
 
         def harmless(hear: Callable[[Any, Any], None]) -> Callable[..., None]:
             def handle(event: Any, context: Any = None) -> None:
@@ -113,8 +120,17 @@ class LaunchRun:
             target_action=is_include,
             on_completion=harmless(lambda event, context: self.tree.included(event.action)),
         )
+        missing = harmless(lambda event, context: heard.missing(self, event, context))
+
+        def tell_missing(context: Any) -> None:
+            missing(context.locals.event, context)
+
         handlers = (
             includes,
+            EventHandler(
+                matcher=lambda event: event.name == MISSING,
+                entities=[OpaqueFunction(function=tell_missing)],
+            ),
             OnProcessStart(on_start=harmless(self._started)),
             OnProcessIO(on_stdout=printed, on_stderr=printed),
             OnProcessExit(on_exit=harmless(lambda event, context: heard.exited(event))),
@@ -139,6 +155,11 @@ class LaunchRun:
         self._reason = event.reason
         failed = event.reason.startswith(CAUGHT)  # which is told with file and line when it is over
         self._listener.ending(self, "" if failed else event.reason)
+
+    @property
+    def delayed_starts(self) -> int:
+        """How many starts are put off to a later time."""
+        return 0 if self._service is None else delayed_starts(self._service)
 
     def start(self, make: Callable[[], Any], failed: Callable[[str], None]) -> None:
         """Run what `make` gives, out of the scope of whatever the launch file has set; `failed` is told why not."""

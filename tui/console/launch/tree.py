@@ -28,7 +28,7 @@ class LaunchTree:
                 continue
             self._parents[id(entity)] = (entity, parent)
             if not isinstance(entity, IncludeLaunchDescription):
-                self._add(_below(entity), entity)
+                self._add(below(entity), entity)
 
     def _chain(self, entity: Any) -> Iterator[Any]:
         """What an entity stands in, innermost first."""
@@ -58,7 +58,8 @@ class LaunchTree:
         return (self._title, *reversed(names))
 
 
-def _below(entity: Any) -> Iterator[Any]:
+def below(entity: Any) -> Iterator[Any]:
+    """The entities that an entity holds, whether or not they are ever visited."""
     yield from getattr(entity, "entities", None) or ()
     yield from entity.get_sub_entities() if hasattr(entity, "get_sub_entities") else ()
     yield from entity.describe_sub_entities()

@@ -9,6 +9,10 @@ PERIOD = 1.0
 """Seconds over which a processor share is measured."""
 
 
+STATE_PERIOD = 0.5
+"""Seconds between two looks at whether it is frozen."""
+
+
 class Vitals(Protocol):
     """One running process, looked at from outside."""
 
@@ -16,8 +20,16 @@ class Vitals(Protocol):
         """Processor time that it has used, in s; None where the system does not tell."""
         ...
 
+    def wanted_seconds(self) -> float | None:
+        """How long (s) it has run or waited for a processor, and for nothing else; None where that is not told."""
+        ...
+
     def memory_bytes(self) -> int | None:
         """What it holds in main memory; None where the system does not tell, or where it has none of its own."""
+        ...
+
+    def is_stopped(self) -> bool:
+        """Whether it is frozen (SIGSTOP, a debugger, a suspended job)."""
         ...
 
     def hangs_in(self) -> str:
@@ -26,7 +38,7 @@ class Vitals(Protocol):
 
 
 BUSY_SHARE = 0.9
-"""The share of a processor from which a process counts as one that never waits."""
+"""The share of wall time from which a process counts as one that never waits, on a processor or for one."""
 
 FindVitals: TypeAlias = Callable[[int], "Vitals | None"]
 """Finds the vitals of a process by its pid, right after it was started; None where there are none."""
@@ -39,25 +51,35 @@ class Usage:
         self._vitals = vitals
         self._at = now
         self._used = vitals.cpu_seconds()
+        self._wanted = vitals.wanted_seconds()
         self.share: float | None = None
         """1.0 is one whole processor, in whole percent; None as long as it is not known."""
         self.memory: int | None = None
         """MB (10^6 bytes), with two digits from 100 on so that it stands still while nothing happens."""
+        self.stopped = False
+        """Whether it is frozen."""
+        self._asked = now
         self.busy_s = 0.0
-        """How long (s) it has used nearly a whole processor, or more, without a break."""
+        """How long (s) it has not waited for anything but a processor."""
 
     def look(self, now: float) -> None:
         """Measure, if it is time to, at a moment in steady s."""
+        if now - self._asked >= STATE_PERIOD:
+            self._asked, self.stopped = now, self._vitals.is_stopped()
         passed = now - self._at
         if passed < PERIOD:
             return
-        used = self._vitals.cpu_seconds()
-        known = used is not None and self._used is not None
-        self.share = round(max(0.0, (used or 0.0) - (self._used or 0.0)) / passed, 2) if known else None
-        self.busy_s = self.busy_s + passed if (self.share or 0.0) >= BUSY_SHARE else 0.0
-        self._at, self._used = now, used
+        used, wanted = self._vitals.cpu_seconds(), self._vitals.wanted_seconds()
+        self.share = _share(self._used, used, passed)
+        busy = max(self.share or 0.0, _share(self._wanted, wanted, passed) or 0.0) >= BUSY_SHARE
+        self.busy_s = self.busy_s + passed if busy else 0.0
+        self._at, self._used, self._wanted = now, used, wanted
         held = self._vitals.memory_bytes()
         self.memory = None if held is None else _steady(held)
+
+
+def _share(before: float | None, after: float | None, passed: float) -> float | None:
+    return None if before is None or after is None else round(max(0.0, after - before) / passed, 2)
 
 
 def _steady(held: int) -> int:

@@ -20,6 +20,8 @@ LOOK_S = 0.1
 """Seconds between two looks at what has changed."""
 LINES_KEPT = 1000
 """Lines of output that a console which comes later is given."""
+FACTS_KEPT = 10_000
+"""Facts, of a declared parameter each, that such a console is given."""
 
 Printed = Callable[[int, str, str], None]
 
@@ -61,11 +63,13 @@ class _Console:
 class LaunchHost:
     """A launcher and the consoles that steer it. Methods may be called from any thread."""
 
-    def __init__(self, make: Callable[[Add, Printed], HostedService]) -> None:
-        """`make` is given what takes log records and what takes printed lines."""
+    def __init__(self, make: Callable[[Add, Printed], HostedService], also: Printed | None = None) -> None:
+        """`make` is given what takes log records and what takes printed lines; `also` takes printed lines, too."""
+        self._also = also
         self._lock = threading.RLock()
         self._consoles: list[_Console] = []
         self._lines: deque[Message] = deque(maxlen=LINES_KEPT)
+        self._facts: deque[Message] = deque(maxlen=FACTS_KEPT)
         self.over = threading.Event()
         """Set when everything was ended: because a console asked for it, or the one that owns this host has gone."""
         self._replies: deque[tuple[_Console, Message]] = deque()
@@ -79,7 +83,7 @@ class LaunchHost:
         console = _Console(owner)
         console.channel = Channel(connection, partial(self._received, console), partial(self._lost, console))
         with self._lock:
-            for each in self._lines:
+            for each in (*self._facts, *self._lines):
                 console.channel.send(each, spare=True)
             self._consoles.append(console)
         console.channel.start()
@@ -90,13 +94,30 @@ class LaunchHost:
 
     def printed(self, severity: int, name: str, text: str) -> None:
         """Pass a line on to all consoles."""
+        self._also_told(severity, name, text)
         self._line({"printed": [severity, name, text]})
 
+    def learn(self, kind: str, facts: Mapping[str, Any]) -> None:
+        """Pass a fact of a program or a launch on to all consoles."""
+        self._pass_on({"fact": [kind, dict(facts)]}, self._facts, spare=False)
+
+    def noticed(self, severity: int, name: str, text: str) -> None:
+        """Pass on what is told of a process, which no flood of its lines drowns."""
+        self._also_told(severity, name, text)
+        self._pass_on({"printed": [severity, name, text]}, self._facts, spare=False)
+
+    def _also_told(self, severity: int, name: str, text: str) -> None:
+        if self._also is not None:
+            self._also(severity, name, text)
+
     def _line(self, message: Message) -> None:
+        self._pass_on(message, self._lines, spare=True)
+
+    def _pass_on(self, message: Message, kept: deque[Message], *, spare: bool) -> None:
         with self._lock:
-            self._lines.append(message)
+            kept.append(message)
             for each in self._consoles:
-                each.channel.send(message, spare=True)
+                each.channel.send(message, spare=spare)
 
     def _look(self) -> None:
         """Tell what is new; alone in doing so, or an older state might come after a newer one."""

@@ -21,6 +21,7 @@ def of_info(info: LaunchInfo, timeline_from: int) -> dict[str, Any]:
     return {
         "files": list(info.files),
         "problem": info.problem,
+        "delayed": info.delayed,
         "processes": [{**asdict(each), "state": each.state.value} for each in info.processes],
         "timeline": [
             [each.seq, each.stamp, each.text, int(each.severity)] for each in info.timeline if each.seq >= timeline_from
@@ -38,7 +39,7 @@ def to_info(data: Mapping[str, Any], before: LaunchInfo, kept: int) -> LaunchInf
         processes.append(same if same is not None and same == process else process)
     events = (LaunchEvent(seq, stamp, text, Severity(severity)) for seq, stamp, text, severity in data["timeline"])
     timeline = (*before.timeline, *events)[-kept:]
-    return LaunchInfo(tuple(data["files"]), tuple(processes), timeline, data["problem"])
+    return LaunchInfo(tuple(data["files"]), tuple(processes), timeline, data["problem"], data.get("delayed", 0))
 
 
 def _process(data: Mapping[str, Any]) -> ProcessInfo:

@@ -18,6 +18,7 @@ from bot_console.tui.console.launch.timeline import KEPT
 from bot_console.tui.console.launch_host.channel import Channel, Message
 from bot_console.tui.console.launch_host.plain import to_arguments, to_info
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo, ProcessInfo, ProcessState, Severity
+from bot_console.tui.console.parameters.provenance import Learn
 from bot_console.tui.console.protocol import Answer
 
 GONE = "the launch host has ended, and with it all that it had started"
@@ -31,9 +32,19 @@ class HostedLauncher:
     """The stand-in of a launch host. Methods may be called from any thread."""
 
     def __init__(
-        self, connection: socket.socket, record: Add, printed: Callable[[int, str, str], None], *, owner: bool = True
+        self,
+        connection: socket.socket,
+        record: Add,
+        printed: Callable[[int, str, str], None],
+        *,
+        learn: Learn = lambda kind, facts: None,
+        owner: bool = True,
     ) -> None:
-        """An owner's `close` ends what runs, that of any other console only the connection."""
+        """`learn` is given what programs and launches tell of parameters.
+
+        An owner's `close` ends what runs, that of any other console only the connection.
+        """
+        self._learn = learn
         self._record = record
         self._printed = printed
         self._owner = owner
@@ -45,6 +56,11 @@ class HostedLauncher:
         self._gone = threading.Event()
         self._channel = Channel(connection, self._received, self._lost)
         self._channel.start()
+
+    @property
+    def is_gone(self) -> bool:
+        """Whether the host has ended, or hung up."""
+        return self._gone.is_set()
 
     def info(self) -> LaunchInfo:
         """What is known now; the same object until something changes."""
@@ -136,6 +152,8 @@ class HostedLauncher:
         elif "printed" in message:
             severity, name, text = message["printed"]
             self._printed(severity, name, text)
+        elif "fact" in message:
+            self._learn(*message["fact"])
         elif "dropped" in message:
             self._printed(Severity.WARN, "launch", f"{message['dropped']} lines were dropped: they came too fast")
         else:

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 
 import numpy as np
 import numpy.typing as npt
-from bot_console.tui.console.logs.patterns import Pattern, Spans
+from bot_console.tui.console.logs.hits import hits
 from bot_console.tui.console.logs.store import LogSegment, LogStore
 from bot_console.tui.console.model import LogFilter, Severity
 from bot_console.tui.console.query import NodeTerm, parse
 
 Mask = npt.NDArray[np.bool_]
 Rows = npt.NDArray[np.int64]
-SPARSE = 64
-"""Hits in one text after which runs of lines are looked for instead of single places."""
 
 
 class LogSearch:
@@ -26,12 +23,16 @@ class LogSearch:
         self._query = parse(which.words)
         self._hidden_nodes = which.hidden_nodes
         wanted = self._query.severities - which.hidden_severities
+        levels = [level for level in Severity if level in wanted and level >= which.minimum]
         self._levels = np.zeros(256, np.bool_)
-        self._levels[[level for level in Severity if level in wanted and level >= which.minimum]] = True
+        self._levels[levels] = True
+        self._least = levels[0] if levels and levels == [each for each in Severity if each >= levels[0]] else None
+        """The severity from which on all pass, where it is as simple as that: a comparison is cheaper than a table."""
 
     def passing(self, segment: LogSegment, begin: int, end: int) -> Rows:
         """Numbers, rising, of the records from index `begin` to before `end` of a segment that pass."""
-        mask = self._levels[segment.severity[begin:end]]
+        severity = segment.severity[begin:end]
+        mask = self._levels[severity] if self._least is None else severity >= self._least
         nodes = segment.node[begin:end]
         if self._hidden_nodes:
             mask &= self._by_name(lambda name: name not in self._hidden_nodes)[nodes]
@@ -51,54 +52,6 @@ class LogSearch:
 
     def _by_name(self, test: Callable[[str], bool]) -> Mask:
         return np.array([test(name) for name in self._names.items], np.bool_)
-
-
-def hits(pattern: Pattern, blob: bytes, ends: Rows) -> Mask:
-    """In which of the texts a pattern is found; `ends` says where each text ends in the blob, its newline included."""
-    found = np.zeros(len(ends), np.bool_)
-    at = 0
-    for count, row in enumerate(_rows(pattern.first, blob, ends)):
-        found[row] = True
-        at = int(ends[row])
-        if count == SPARSE and pattern.word is not None:
-            places = [match.start() for match in re.finditer(pattern.word, blob[at:].lower())]
-            found[np.searchsorted(ends, np.array(places, np.int64) + at, side="right")] = True
-            break
-        if count == SPARSE and pattern.run is not None:
-            _mark_runs(pattern.run, blob, ends, at, found)
-            break
-    return found
-
-
-def _rows(first: Spans, blob: bytes, ends: Rows) -> Iterator[int]:
-    """The texts with a match, one search for each; a match that runs on into the next text is looked at again."""
-    at = 0
-    while at < len(blob):
-        span = first(blob, at)
-        if span is None or span[0] >= len(blob):
-            return
-        row = int(np.searchsorted(ends, span[0], side="right"))
-        begin, end = int(ends[row - 1]) if row else 0, int(ends[row])
-        if span[1] < end or first(blob[begin : end - 1], 0) is not None:
-            yield row
-        at = end
-
-
-def _mark_runs(run: Spans, blob: bytes, ends: Rows, at: int, found: Mask) -> None:
-    """Mark the texts from `at` on that have a matching line; one search for each run of such lines."""
-    spans: list[tuple[int, int]] = []
-    while at < len(blob) and (span := run(blob, at)) is not None:
-        spans.append(span)
-        at = span[1]
-    if not spans:
-        return
-    places = np.array(spans, np.int64)
-    firsts = np.searchsorted(ends, places[:, 0], side="right")
-    lasts = np.searchsorted(ends, places[:, 1] - 1, side="right")
-    steps = np.zeros(len(ends) + 1, np.int64)
-    np.add.at(steps, firsts, 1)
-    np.add.at(steps, lasts + 1, -1)
-    found |= np.cumsum(steps[:-1]) > 0
 
 
 def matching(store: LogStore, which: LogFilter, after: int = 0, limit: int | None = None) -> list[int]:

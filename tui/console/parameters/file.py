@@ -10,7 +10,7 @@ from pathlib import Path
 from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree, Value
 from bot_console.tui.console.parameters.patch import Values, compare, patched
 from bot_console.tui.console.parameters.text import SMALLEST, sections
-from bot_console.tui.save_file import NotSaved, save_file
+from bot_console.tui.files.save_file import NotSaved, save_file
 
 BUILT_IN = ("use_sim_time", "start_type_description_service")
 _MARKS = ((codecs.BOM_UTF8, "utf-8"), (codecs.BOM_UTF16_LE, "utf-16-le"), (codecs.BOM_UTF16_BE, "utf-16-be"))
@@ -30,8 +30,18 @@ class Saved:
         return told + "".join(f"; left out: {each}" for each in self.left_out)
 
 
-def save(path: Path, trees: Mapping[str, ParameterTree], nodes: tuple[str, ...] = ()) -> Saved:
+def save(
+    path: Path,
+    trees: Mapping[str, ParameterTree],
+    nodes: tuple[str, ...] = (),
+    *,
+    only_changed: bool = False,
+    title: str = "",
+) -> Saved:
     """Write the parameters of some nodes (default: all); raises `NotSaved`, and what was there has stayed.
+
+    With `only_changed` only those that differ from their declared value, else start value. `title` is a comment line
+    that a new file begins with.
 
     In an existing file the values that stand there are replaced in place and the others are added.
     """
@@ -39,7 +49,7 @@ def save(path: Path, trees: Mapping[str, ParameterTree], nodes: tuple[str, ...] 
     left_out: list[str] = []
     for tree in trees.values():
         for each in tree.parameters if not nodes or tree.node in nodes else ():
-            if each.value is None or each.name in BUILT_IN or each.read_only:
+            if each.value is None or each.name in BUILT_IN or each.read_only or (only_changed and not each.changed):
                 continue
             if reason := _unwritable(each):
                 left_out.append(f"{each.node} {each.name} {reason}")
@@ -47,7 +57,7 @@ def save(path: Path, trees: Mapping[str, ParameterTree], nodes: tuple[str, ...] 
                 values.setdefault(tree.node, {})[each.name] = each.value
     if not values:
         raise NotSaved("there is no parameter to save" + "".join(f"; {each}" for each in left_out))
-    _write(path, values)
+    _write(path, values, title)
     return Saved(sum(map(len, values.values())), tuple(left_out))
 
 
@@ -61,7 +71,7 @@ def _unwritable(parameter: ParameterInfo) -> str:
     return "is too near to zero for the readers of ROS parameter files" if tiny else ""
 
 
-def _write(path: Path, values: Values) -> None:
+def _write(path: Path, values: Values, title: str) -> None:
     try:
         content = path.read_bytes() if path.is_file() else b""
     except OSError as error:
@@ -69,7 +79,7 @@ def _write(path: Path, values: Values) -> None:
     try:
         mark, encoding, text = _decoded(content)
         before = sections(text)
-        new = mark + patched(text, values).encode(encoding)
+        new = mark + patched(text or title, values).encode(encoding)
         save_file(path, new, lambda written: compare(before, sections(_decoded(written)[2]), values))
     except ValueError as error:
         why = "it is no text" if isinstance(error, UnicodeDecodeError) else str(error)

@@ -8,9 +8,10 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from bot_console.tui.console.model import Change, ChangeSource, JournalState, Value
+from bot_console.tui.console.parameters.history import History
 from bot_console.tui.console.parameters.unsaved import Unsaved
 
-OURS = (ChangeSource.EDIT, ChangeSource.PROFILE, ChangeSource.FILE)
+OURS = (ChangeSource.EDIT, ChangeSource.PROFILE, ChangeSource.FILE, ChangeSource.HISTORY)
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,17 +32,26 @@ class Step:
     """The active profile before and after, where it became another one."""
 
 
-class Journal:
-    """A bounded list of changes numbered from 0, with the steps that can be undone and redone."""
+EARLIER = 5_000
+"""Changes of earlier runs that are shown."""
 
-    def __init__(self, capacity: int = 10_000) -> None:
+
+class Journal:
+    """A bounded list of changes numbered from 0, with the steps that can be undone and redone.
+
+    With a history every change is kept for later runs, and those of earlier runs stand before the first one.
+    """
+
+    def __init__(self, capacity: int = 10_000, history: History | None = None) -> None:
+        self._history = history
+        self._earlier = history.earlier(EARLIER) if history else ()
         self._changes: deque[Change] = deque(maxlen=capacity)
         self._end = 0
         self._undo: deque[Step] = deque(maxlen=1_000)
         self._redo: list[Step] = []
         self._unsaved = Unsaved()
         self._lock = threading.Lock()
-        self._state = JournalState()
+        self._state = JournalState(problem=history.problem if history else "")
 
     @property
     def state(self) -> JournalState:
@@ -49,12 +59,25 @@ class Journal:
         return self._state
 
     def record(
-        self, stamp: int, node: str, name: str, values: tuple[Value, Value], source: ChangeSource, refusal: str = ""
+        self,
+        stamp: int,
+        node: str,
+        name: str,
+        values: tuple[Value, Value],
+        source: ChangeSource,
+        refusal: str = "",
+        by: str = "",
     ) -> None:
-        """Add one entry; `values` are the old and the new one, `refusal` the reason when it was refused."""
+        """Add one entry; `values` are the old and the new one, `refusal` the reason when it was refused.
+
+        It is on its way to the disk before it is seen. Called by one thread at a time.
+        """
         old, new = values
+        change = Change(self._end, stamp, node, name, old, new, source, not refusal, refusal, by)
+        if self._history:
+            self._history.add(change)  # outside of the lock, so that nobody who reads waits for the disk
         with self._lock:
-            self._changes.append(Change(self._end, stamp, node, name, old, new, source, not refusal, refusal))
+            self._changes.append(change)
             self._end += 1
             self._renew()
 
@@ -99,11 +122,19 @@ class Journal:
             self._renew()
 
     def after(self, seq: int) -> Sequence[Change]:
-        """Entries numbered `seq` and up, oldest first."""
+        """Entries numbered `seq` and up, oldest first; from a number below 0 on with those of earlier runs."""
         with self._lock:
             first = self._end - len(self._changes)
-            return list(self._changes)[max(0, seq - first) :]
+            here = list(self._changes)[max(0, seq - first) :]
+        return here if seq >= 0 else [*self._earlier[seq:], *here]
+
+    def close(self) -> None:
+        """Let go of the history."""
+        if self._history:
+            self._history.close()
 
     def _renew(self) -> None:
         first = self._end - len(self._changes)
-        self._state = JournalState(first, self._end, first, bool(self._undo), bool(self._redo), self._unsaved.names)
+        problem = self._history.problem if self._history else ""
+        steps = bool(self._undo), bool(self._redo)
+        self._state = JournalState(first, self._end, first, *steps, self._unsaved.names, problem)

@@ -12,6 +12,7 @@ from typing import Any
 from bot_console.tui.console.calls import Calls, NoAnswer
 from bot_console.tui.console.model import ChangeSource, GraphInfo, Kind, NodeInfo, ParameterInfo, ParameterTree, Value
 from bot_console.tui.console.parameters.origin import origin_text
+from bot_console.tui.console.parameters.provenance import Provenance
 from bot_console.tui.console.values import from_message, info
 from rcl_interfaces.msg import Parameter, ParameterEvent, ParameterValue
 from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters
@@ -37,7 +38,8 @@ class ParameterMirror:
     first sight; it gives back who has made the change.
     """
 
-    def __init__(self, node: Node, calls: Calls, changed: Changed) -> None:
+    def __init__(self, node: Node, calls: Calls, changed: Changed, provenance: Provenance | None = None) -> None:
+        self._provenance = provenance or Provenance()
         self.trees: Mapping[str, ParameterTree] = MappingProxyType({})
         self._calls = calls
         self._changed = changed
@@ -110,7 +112,7 @@ class ParameterMirror:
         described = await self._calls.ask(DescribeParameters, f"{node}/describe_parameters", request)
         values = await self._values(node, names)
         return [
-            info(node, value, descriptor, self.get(node, descriptor.name))
+            self._provenance.applied(info(node, value, descriptor, self.get(node, descriptor.name)))
             for descriptor, value in zip(described.descriptors, values, strict=False)
         ]
 
@@ -125,6 +127,14 @@ class ParameterMirror:
             single = await self._calls.ask(GetParameters, service, GetParameters.Request(names=[name]))
             values.append(single.values[0] if single.values else ParameterValue())
         return values
+
+    async def refresh(self, node: str) -> None:
+        """More is known of where a node's values come from; in the thread that serves the node."""
+        tree = self.trees.get(node)
+        if tree is not None:
+            told = tuple(self._provenance.applied(each) for each in tree.parameters)
+            if told != tree.parameters:
+                self._publish({**self.trees, node: replace(tree, parameters=told)})
 
     def _look_again(self) -> None:
         if self._waiting:

@@ -15,6 +15,8 @@ SET_BY = {
     ChangeSource.REDO: "set here by redo",
     ChangeSource.PROFILE: "set here by a profile",
     ChangeSource.FILE: "set here from a file",
+    ChangeSource.HISTORY: "set here from the history",
+    ChangeSource.ROLLBACK: "put back here, since another node refused",
     ChangeSource.OTHER: "set by another program or the node",
 }
 

@@ -10,6 +10,7 @@ from typing import Any, TypeAlias, cast
 
 from bot_console.tui.console.model import Value
 from bot_console.tui.console.parameters import yaml_tree
+from bot_console.tui.console.parameters.node_keys import means
 from bot_console.tui.console.parameters.text import KEYWORD, Section, block_text, inline_text, sections, value_at
 from bot_console.tui.console.parameters.yaml_tree import Scalar, Sequence, YamlTree, read_tree
 
@@ -169,8 +170,7 @@ def _given(found: list[Section], node: str) -> dict[str, tuple[str, Scalar | Seq
         merged.setdefault(section.key, {}).update({name: (section.key, at) for name, at in section.places.items()})
     given: dict[str, tuple[str, Scalar | Sequence]] = {}
     for key, places in merged.items():
-        pattern = re.escape(key).replace(r"/\*\*", r"(?:/\w+)*").replace(r"/\*", r"/\w+")
-        if re.fullmatch(pattern, node):
+        if means(key, node):
             given.update(places)
     return given
 

@@ -1,31 +1,64 @@
-"""Profiles: named ROS parameter files that can be applied to the running system."""
+"""Profiles: named ROS parameter files that can be applied to the running system, and launch files with arguments."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
+from typing import Any, cast
 
-from bot_console.tui.console.model import ParameterTree, Profile, ProfileDifference
+import yaml
+from bot_console.tui.console.model import ParameterTree, Profile, ProfileDifference, Value
+from bot_console.tui.console.parameters.node_keys import is_wildcard, means
 from bot_console.tui.console.parameters.patch import same
 from bot_console.tui.console.parameters.safety import takes_safety
-from bot_console.tui.console.parameters.text import NOTHING, sections, value_at
+from bot_console.tui.console.parameters.text import KEYWORD, NOTHING, sections, value_at
 from bot_console.tui.console.values import refusal
 
 AT_RESET = "at reset"
 """A parameter whose description says so needs a reset of the world to take effect."""
+LARGEST = 4_000_000
+"""Bytes of a file that is looked into."""
 
 
-def find(folders: Iterable[Path]) -> tuple[Profile, ...]:
-    """The profiles of some folders, by file name; a file that cannot be read is a profile with a problem."""
-    files = sorted({path.stem: path for folder in folders for path in sorted(folder.glob("*.yaml"))}.items())
-    return tuple(load(path) for _, path in files)
+def find(folders: Iterable[Path], *, mixed: Iterable[Path] = ()) -> tuple[Profile, ...]:
+    """The profiles of some folders, by name; a file that cannot be read is a profile with a problem.
+
+    `mixed` are folders that hold other YAML files as well, of which nothing is said. Of files with one name that of the
+    first folder has it; the others are called by their package or folder, too.
+    """
+    found: dict[str, Profile] = {}
+    for folder, sure in (*((each, True) for each in folders), *((each, False) for each in mixed)):
+        for path in sorted(each for each in folder.glob("*.y*ml") if each.suffix in (".yaml", ".yml")):
+            if sure or _is_profile(path):
+                profile = load(path)
+                where = folder.parent.name if folder.name == "config" else folder.name
+                name = profile.name if profile.name not in found else f"{profile.name} ({where})"
+                found.setdefault(name, _named(profile, name))
+    return tuple(profile for _, profile in sorted(found.items()))
+
+
+def _named(profile: Profile, name: str) -> Profile:
+    from dataclasses import replace
+
+    return replace(profile, name=name)
+
+
+def _is_profile(path: Path) -> bool:
+    try:
+        return path.stat().st_size <= LARGEST and KEYWORD in path.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError):
+        return False
 
 
 def load(path: Path) -> Profile:
     """Read a ROS parameter file as a profile; its first comment line is the title."""
     try:
         text = path.read_text(encoding="utf-8-sig")
+        title = next((line[1:].strip() for line in text.splitlines() if line.startswith("#")), "")
+        launch = _launch_profile(path, title, text)
+        if launch is not None:
+            return launch
         values = {
             (section.key, name): value_at(name, place)
             for section in sections(text)
@@ -39,27 +72,67 @@ def load(path: Path) -> Profile:
         return Profile(path.stem, str(path), problem=str(error))
     if not values:
         return Profile(path.stem, str(path), problem=NOTHING)
-    first = next((line[1:].strip() for line in text.splitlines() if line.startswith("#")), "")
     world = values.get(("/simulator", "world"), "")
-    return Profile(path.stem, str(path), first, MappingProxyType(values), str(world))
+    return Profile(path.stem, str(path), title, MappingProxyType(values), str(world))
+
+
+def _launch_profile(path: Path, title: str, text: str) -> Profile | None:
+    """A launch file with arguments: `launch: FILE` and `arguments:` below it; None for a parameter file."""
+    if not any(line.startswith("launch:") for line in text.splitlines()):
+        return None
+    try:
+        data = cast("dict[Any, Any]", yaml.safe_load(text))
+    except yaml.YAMLError as error:
+        raise ValueError(f"not YAML: {getattr(error, 'problem', None) or error}") from None
+    launch: Any = data.get("launch")
+    arguments: Any = data.get("arguments") or {}
+    if not isinstance(launch, str) or not isinstance(arguments, dict):
+        raise ValueError("a launch profile has the lines 'launch: FILE' and 'arguments:' with 'name: value' below it")
+    file = path.parent / Path(launch).expanduser()
+    given = {str(name): _argument(value) for name, value in cast("dict[Any, Any]", arguments).items()}
+    problem = "" if file.is_file() else f"there is no launch file {file}"
+    return Profile(path.stem, str(path), title, problem=problem, launch=str(file), arguments=MappingProxyType(given))
+
+
+def _argument(value: Any) -> str:
+    return str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def differences(profile: Profile, trees: Mapping[str, ParameterTree]) -> Sequence[ProfileDifference]:
     """What a profile would change in the running system, with the refusals that the descriptors foretell.
 
-    Nodes of the profile that do not run are left out; a node that runs but lacks a parameter is a refusal.
+    Keys that mean no running node are left out, see `unmatched`; a parameter that a node lacks is unknown, but where
+    the key is a wildcard the value is simply not for that node.
     """
     found: list[ProfileDifference] = []
-    for (node, name), then in profile.values.items():
-        tree = trees.get(node)
-        if tree is None:
-            continue
-        parameter = tree.get(name)
-        now = parameter.value if parameter else None
-        if parameter and same(now, then):
-            continue
-        _, why = refusal(parameter, then)
-        reset = bool(parameter and AT_RESET in parameter.description)
-        unsafe = takes_safety(parameter, now, then) if parameter else ""
-        found.append(ProfileDifference(node, name, now, then, why, reset, unsafe))
+    for node, tree in trees.items():
+        for name, (key, then) in _given(profile, node).items():
+            parameter = tree.get(name)
+            if parameter is None:
+                if not is_wildcard(key):
+                    why = refusal(None, then)[1]
+                    found.append(ProfileDifference(node, name, None, then, why, unknown=True))
+                continue
+            now = parameter.value
+            if same(now, then):
+                continue
+            _, why = refusal(parameter, then)
+            reset = AT_RESET in parameter.description
+            unsafe = takes_safety(parameter, now, then)
+            found.append(ProfileDifference(node, name, now, then, why, reset, unsafe))
     return found
+
+
+def _given(profile: Profile, node: str) -> dict[str, tuple[str, Value]]:
+    """What a node gets of a profile, with the key that says so; of two keys the later one counts, as in ROS."""
+    given: dict[str, tuple[str, Value]] = {}
+    for (key, name), value in profile.values.items():
+        if means(key, node):
+            given[name] = (key, value)
+    return given
+
+
+def unmatched(profile: Profile, trees: Mapping[str, ParameterTree]) -> tuple[str, ...]:
+    """The keys of a profile that mean no running node."""
+    keys = dict.fromkeys(key for key, _ in profile.values)
+    return tuple(key for key in keys if not any(means(key, node) for node in trees))

@@ -75,6 +75,19 @@ def takes_safety(parameter: ParameterInfo, before: Value, after: Value) -> str:
     return ""
 
 
+def foretold(parameter: ParameterInfo) -> str:
+    """Which change of a parameter would take from the robot's safety, and what; empty when none would."""
+    name = parameter.name.rpartition(".")[2]
+    for rule in SWITCHES if isinstance(parameter.value, bool) else NUMBERS:
+        if rule.fits(name, parameter.description):
+            if isinstance(parameter.value, bool):
+                return f"{'true' if rule.worse is Worse.ON else 'false'} {rule.worse.value}"
+            if isinstance(parameter.value, (int, float)):
+                return f"a {'smaller' if rule.worse is Worse.LOWER else 'greater'} value {rule.worse.value}"
+            return ""
+    return ""
+
+
 def _is_worse(worse: Worse, before: Value, after: Value) -> bool:
     if isinstance(before, bool) or isinstance(after, bool):
         return before is not after and after is (worse is Worse.ON)

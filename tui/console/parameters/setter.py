@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 import time
-from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from bot_console.tui.console.calls import Calls, NoAnswer
 from bot_console.tui.console.model import ChangeSource, SetOutcome, Value
+from bot_console.tui.console.parameters.expected import Expected, Wish
 from bot_console.tui.console.parameters.journal import Journal, Move, Step
 from bot_console.tui.console.parameters.mirror import ParameterMirror
 from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.values import refusal, to_message
 from rcl_interfaces.msg import Parameter, SetParametersResult
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
-
-EXPECTED = 200
-"""How many announcements of our own sets may be outstanding."""
 
 
 class ParameterSetter:
@@ -29,74 +26,98 @@ class ParameterSetter:
         self._journal = journal
         self.profile = ""
         """The profile that was applied last and not undone."""
-        self._expected: deque[tuple[str, str, Value, ChangeSource]] = deque(maxlen=EXPECTED)
+        self._expected = Expected()
 
     def announced(self, node: str, name: str, old: Value, new: Value) -> ChangeSource:
         """A parameter event came: ours when it was expected, else a change made elsewhere; who has made it."""
-        source = ChangeSource.OTHER
-        for each in self._expected:
-            if each[:2] == (node, name) and each[2] == new:
-                source = each[3]
-                self._expected.remove(each)
-                break
-        if old != new or source is not ChangeSource.OTHER:
-            self._journal.record(time.time_ns(), node, name, (old, new), source)
+        wish = self._expected.announced(node, name, new)
+        source = wish.source if wish else ChangeSource.OTHER
+        if old != new or wish:
+            self._journal.record(time.time_ns(), node, name, (old, new), source, by=wish.by if wish else "")
         return source
 
     async def set(
         self, node: str, values: Mapping[str, Value], source: ChangeSource, *, atomically: bool = False
     ) -> tuple[SetOutcome, ...]:
         """Ask a node to take values; never raises, every failure is an outcome. What is taken can be undone."""
-        outcomes, move = await self._moved(node, values, source, atomically=atomically)
+        outcomes, move = await self._moved(_wishes(node, values, source), atomically=atomically)
         if move.after:
             self._journal.did(Step((move,)), source)
         return outcomes
 
     async def apply(self, name: str, wanted: Mapping[str, Mapping[str, Value]]) -> tuple[SetOutcome, ...]:
-        """Set a profile's values, by node, all or nothing for each; one undo takes all of them back.
-
-        The profile is the active one when nothing was refused.
-        """
-        outcomes: list[SetOutcome] = []
-        moves: list[Move] = []
-        for node, values in wanted.items():
-            found, move = await self._moved(node, values, ChangeSource.PROFILE, atomically=True)
-            outcomes += found
-            moves += [move] if move.after else []
+        """Set a profile's values as `set_all` does; the profile is the active one when nothing was refused."""
         before = self.profile
+        outcomes, moves = await self._all_or_nothing(wanted, ChangeSource.PROFILE, name)
         if all(each.accepted for each in outcomes):
             self.profile = name
         if moves:
             renamed = (before, self.profile) if self.profile != before else None
-            self._journal.did(Step(tuple(moves), renamed), ChangeSource.PROFILE)
-        return tuple(outcomes)
+            self._journal.did(Step(moves, renamed), ChangeSource.PROFILE)
+        return outcomes
 
-    async def _moved(
-        self, node: str, values: Mapping[str, Value], source: ChangeSource, *, atomically: bool
-    ) -> tuple[tuple[SetOutcome, ...], Move]:
+    async def set_all(
+        self, wanted: Mapping[str, Mapping[str, Value]], source: ChangeSource, by: str
+    ) -> tuple[SetOutcome, ...]:
+        """Set values on several nodes, all of them or none; one undo takes all of them back."""
+        outcomes, moves = await self._all_or_nothing(wanted, source, by)
+        if moves:
+            self._journal.did(Step(moves), source)
+        return outcomes
+
+    async def _all_or_nothing(
+        self, wanted: Mapping[str, Mapping[str, Value]], source: ChangeSource, by: str
+    ) -> tuple[tuple[SetOutcome, ...], tuple[Move, ...]]:
+        """The outcomes, and what of it can be taken back: everything, or what could not be taken back at once."""
+        outcomes: list[SetOutcome] = []
+        moves: list[Move] = []
+        # ROS has no transaction over nodes. Who is going to refuse is asked first: nobody else has moved then.
+        for node in sorted(wanted, key=lambda each: not self._will_refuse(each, wanted[each])):
+            found, move = await self._moved(_wishes(node, wanted[node], source, by), atomically=True)
+            outcomes += found
+            moves += [move] if move.after else []
+            bad = next((each for each in found if not each.accepted), None)
+            if bad:
+                told = f"not set, since {bad.node} refused {bad.name}: {bad.reason}"
+                stuck = await self._taken_back(moves, told)
+                return _none_of(wanted, outcomes, stuck, told), tuple(each for each in moves if each.node in stuck)
+        return tuple(outcomes), tuple(moves)
+
+    def _will_refuse(self, node: str, values: Mapping[str, Value]) -> bool:
+        return any(refusal(self._mirror.get(node, name), value)[1] for name, value in values.items())
+
+    async def _taken_back(self, moves: Sequence[Move], why: str) -> Mapping[str, str]:
+        """Put the values before back; what nodes said that refused that."""
+        stuck: dict[str, str] = {}
+        for move in reversed(moves):
+            outcomes = await self._set(_wishes(move.node, move.before, ChangeSource.ROLLBACK, why), atomically=True)
+            stuck.update({each.node: each.reason for each in outcomes if not each.accepted})
+        return stuck
+
+    async def _moved(self, wishes: Sequence[Wish], *, atomically: bool) -> tuple[tuple[SetOutcome, ...], Move]:
         """What became of each value, and what of it can be taken back."""
-        before = {name: self._value(node, name) for name in values}
-        outcomes = await self._set(node, values, source, atomically=atomically)
+        before = {each.name: self._value(each.node, each.name) for each in wishes}
+        outcomes = await self._set(wishes, atomically=atomically)
         taken = {each.name: each.value for each in outcomes if each.accepted}
+        node = wishes[0].node if wishes else ""
         return outcomes, Move(node, {name: before[name] for name in taken}, taken)
 
-    async def _set(
-        self, node: str, values: Mapping[str, Value], source: ChangeSource, *, atomically: bool
-    ) -> tuple[SetOutcome, ...]:
-        before = {name: self._value(node, name) for name in values}
+    async def _set(self, wishes: Sequence[Wish], *, atomically: bool) -> tuple[SetOutcome, ...]:
+        """Ask one node for all of some wishes."""
+        before = {each.name: self._value(each.node, each.name) for each in wishes}
         try:
-            messages = [self._message(node, name, value) for name, value in values.items()]
+            messages = [self._message(each) for each in wishes]
         except ValueError as error:
-            return self._all_refused(node, values, before, source, ("console", str(error)))
-        expected = [(node, name, value, source) for name, value in values.items()]
-        self._expected.extend(expected)
+            return self._all_refused(wishes, before, ("console", str(error)))
+        for each in wishes:
+            self._expected.add(each)
         try:
-            results = await self._ask(node, messages, atomically)
+            results = await self._ask(wishes[0].node, messages, atomically) if wishes else ()
         except NoAnswer as error:
-            return self._all_refused(node, values, before, source, ("node", str(error)))
+            return self._all_refused(wishes, before, ("node", str(error)))
         outcomes: list[SetOutcome] = []
-        for entry, result in zip(expected, results, strict=False):
-            outcomes.append(self._outcome(entry, before[entry[1]], result.successful, result.reason))
+        for wish, result in zip(wishes, results, strict=False):
+            outcomes.append(self._outcome(wish, before[wish.name], result.successful, result.reason))
         return tuple(outcomes)
 
     async def _ask(self, node: str, messages: Sequence[Parameter], atomically: bool) -> Sequence[SetParametersResult]:
@@ -109,38 +130,32 @@ class ParameterSetter:
         )
         return answer.results
 
-    def _outcome(
-        self, entry: tuple[str, str, Value, ChangeSource], old: Value, accepted: bool, reason: str
-    ) -> SetOutcome:
-        node, name, value, source = entry
+    def _outcome(self, wish: Wish, old: Value, accepted: bool, reason: str) -> SetOutcome:
         if accepted:
-            return SetOutcome(node, name, value, True)
-        if entry in self._expected:
-            self._expected.remove(entry)
+            return SetOutcome(wish.node, wish.name, wish.value, True)
+        self._expected.forget(wish)
         why = reason or "the node gave no reason"
-        by = refusal(self._mirror.get(node, name), value)[0] or "callback"
-        self._journal.record(time.time_ns(), node, name, (old, value), source, why)
-        return SetOutcome(node, name, value, False, why, by)
+        by = refusal(self._mirror.get(wish.node, wish.name), wish.value)[0] or "callback"
+        self._refused(wish, old, why)
+        return SetOutcome(wish.node, wish.name, wish.value, False, why, by)
 
     def _all_refused(
-        self,
-        node: str,
-        values: Mapping[str, Value],
-        before: Mapping[str, Value],
-        source: ChangeSource,
-        why: tuple[str, str],
+        self, wishes: Sequence[Wish], before: Mapping[str, Value], why: tuple[str, str]
     ) -> tuple[SetOutcome, ...]:
-        for name, value in values.items():
-            self._journal.record(time.time_ns(), node, name, (before[name], value), source, why[1])
-        return tuple(SetOutcome(node, name, value, False, why[1], why[0]) for name, value in values.items())
+        for each in wishes:
+            self._refused(each, before[each.name], why[1])
+        return tuple(SetOutcome(each.node, each.name, each.value, False, why[1], why[0]) for each in wishes)
+
+    def _refused(self, wish: Wish, old: Value, why: str) -> None:
+        self._journal.record(time.time_ns(), wish.node, wish.name, (old, wish.value), wish.source, why, wish.by)
 
     def _value(self, node: str, name: str) -> Value:
         known = self._mirror.get(node, name)
         return known.value if known else None
 
-    def _message(self, node: str, name: str, value: Value) -> Parameter:
-        known = self._mirror.get(node, name)
-        return to_message(name, value, known.kind) if known else to_message(name, value)
+    def _message(self, wish: Wish) -> Parameter:
+        known = self._mirror.get(wish.node, wish.name)
+        return to_message(wish.name, wish.value, known.kind) if known else to_message(wish.name, wish.value)
 
     async def undo(self) -> Answer:
         """Take the last accepted change of this console back."""
@@ -159,7 +174,7 @@ class ParameterSetter:
         refused: list[SetOutcome] = []
         for move in step.moves:
             values = _values(move, source)
-            outcomes = await self._set(move.node, values, source, atomically=len(values) > 1)
+            outcomes = await self._set(_wishes(move.node, values, source), atomically=len(values) > 1)
             bad = [each for each in outcomes if not each.accepted]
             (left if bad else done).append(move)
             refused += bad[:1]
@@ -173,6 +188,27 @@ class ParameterSetter:
         if refused:
             return Answer(False, "; ".join(f"{each.node} {each.name}: {each.reason}" for each in refused))
         return Answer(True, f"{source.value}: {_text(step, source)}")
+
+
+def _wishes(node: str, values: Mapping[str, Value], source: ChangeSource, by: str = "") -> tuple[Wish, ...]:
+    return tuple(Wish(node, name, value, source, by) for name, value in values.items())
+
+
+def _none_of(
+    wanted: Mapping[str, Mapping[str, Value]], asked: Sequence[SetOutcome], stuck: Mapping[str, str], told: str
+) -> tuple[SetOutcome, ...]:
+    """The outcomes where not all was taken: refusals as they are, and nothing else taken but what did not go back."""
+    known = {(each.node, each.name): each for each in asked}
+    outcomes: list[SetOutcome] = []
+    for node, values in wanted.items():
+        for name, value in values.items():
+            outcome = known.get((node, name))
+            if outcome is None or (outcome.accepted and node not in stuck):
+                outcome = SetOutcome(node, name, value, False, told, "console")
+            elif outcome.accepted:
+                outcome = replace(outcome, reason=f"could not be taken back: {stuck[node]}")
+            outcomes.append(outcome)
+    return tuple(outcomes)
 
 
 def _values(move: Move, source: ChangeSource) -> Mapping[str, Value]:

@@ -33,7 +33,7 @@ class Series:
         end = self._end
         begin = max(cursor, end - self._capacity, 0)
         where = np.arange(begin, end) % self._capacity
-        return Samples(self._times[where], self._values[where], end)  # type: ignore[arg-type]
+        return Samples(self._times[where], self._values[where], end)  # type: ignore[arg-type] -- numpy numbers count as numbers
 
 
 class NotPlottable(Exception):

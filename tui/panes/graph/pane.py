@@ -2,31 +2,41 @@
 
 from __future__ import annotations
 
+import time
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from itertools import product
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from bot_console.tui import keymap
-from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo
+from bot_console.tui.console.graph.findings import findings
+from bot_console.tui.console.model import ConsoleSnapshot, GraphInfo
+from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.query import parse
+from bot_console.tui.files.save_file import save_file
+from bot_console.tui.format import counted
+from bot_console.tui.panes.graph.details import ITEM, PANE, TYPE, details, finding_options, narrowed
 from bot_console.tui.panes.graph.export import exported
+from bot_console.tui.panes.graph.journey import Journey
+from bot_console.tui.panes.graph.namespaces import SPACE, namespace_of, outermost
 from bot_console.tui.panes.graph.view import (
+    ACTION,
+    SERVICE,
     TOPIC,
     GraphView,
     Mode,
     Shown,
-    ends_of,
-    node_of,
+    is_link,
+    matches,
     shown,
     summary,
-    types_of,
 )
 from bot_console.tui.panes.pane import Pane
-from bot_console.tui.save_file import save_file
-from bot_console.tui.screens.facts import FactsScreen, Section
 from bot_console.tui.widgets.diagram_view import LARGE, DiagramView
-from bot_console.tui.widgets.prompt.common import filter_line
+from bot_console.tui.widgets.prompt.filtered import Narrowed
 from bot_console.tui.widgets.prompt.line import Prompt
+from bot_console.tui.widgets.prompt.question import Choice, Line, Option
 from bot_console.tui.widgets.words import Words
 from textual.app import ComposeResult
 
@@ -34,16 +44,28 @@ TOO_LARGE = 2.5
 """From this many times the size of the pane on, topics with one end only are left out until they are asked for."""
 
 
-class GraphPane(Pane):
+MANY = 40
+"""Nodes from which on namespaces are folded until a person unfolds them."""
+RATE_PERIOD = 2.0
+"""Seconds between two looks at the rates."""
+
+
+class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOverride] # Textual's HELP
     """Who talks to whom."""
 
     TITLE = "Graph"
     HELP = (
         "Nodes are boxes, topics stand on the lines; an arrow leads from a publisher through the topic to each\n"
         "subscription. The way back of a loop runs below. What is linked to the selected item is coloured; a topic\n"
-        "that nobody publishes or nobody listens to is orange."
+        "that nobody publishes or nobody listens to is orange; where QoS does not match so that nothing arrives, the\n"
+        "line is red and the topic marked ✗. Namespaces fold into boxes, by themselves where there are many nodes.\n"
+        "Enter lists everything about the item, to go on to; w says what is odd in words."
     )
     BINDINGS = keymap.bindings("graph")
+
+    clock: Callable[[], float] = staticmethod(time.monotonic)
+    """Seconds of a steady clock; tests give one that they step."""
+    SCOPES: ClassVar[tuple[str, ...]] = ("find", "narrowed", "diagram")
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
@@ -51,8 +73,14 @@ class GraphPane(Pane):
         self._problem = ""
         self._view = GraphView()
         self._mode: Mode | None = None
-        self._words = ""
         self._shown = Shown(graph=DiagramView.EMPTY)
+        self._snapshot = ConsoleSnapshot()
+        self._journey = Journey()
+        self._folds: frozenset[str] | None = None
+        """Namespaces that a person has folded; None: as it seems best."""
+        self._rates: dict[str, str] | None = None
+        """What is written behind the names of topics; None: nothing is measured."""
+        self._looked = 0.0
 
     def compose(self) -> ComposeResult:
         """The picture, a line on what is selected, a prompt."""
@@ -70,21 +98,62 @@ class GraphPane(Pane):
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Draw the graph anew when it is another object."""
+        self._snapshot = snapshot
         if snapshot.graph is not self._info or snapshot.problem != self._problem:
             self._info = snapshot.graph
             self._problem = snapshot.problem
             self._draw()
 
     def _draw(self) -> None:
-        if self._info is None:
+        info = self._info
+        if info is None:
             return
-        for mode in (self._mode,) if self._mode else (Mode.ALL, Mode.ACTIVE):
-            self._view = replace(self._view, mode=mode)
-            self._shown = shown(self._info, self._view)
-            self._picture.show(self._shown.graph, self._shown.dead_ends)
-            if self._picture.excess <= TOO_LARGE or len(self._shown.graph.items) > LARGE:
+        nodes = [each.name for each in info.nodes if not each.hidden]
+        folded = self._folds if self._folds is not None else outermost(nodes) if len(nodes) > MANY else frozenset[str]()
+        self._view = replace(self._view, folded=folded, focus=self._journey.now)
+        modes = (self._mode,) if self._mode else (Mode.ALL, Mode.ACTIVE)
+        sizes: list[tuple[float, Mode, bool]] = []
+        for mode, short in product(modes, (False, True)):
+            excess = self._try(info, mode, short)
+            sizes.append((excess, mode, short))
+            if excess <= 1.0 or len(self._shown.graph.items) > LARGE:
                 break
+        else:
+            # Nothing fits: whole names, and fewer topics only where that is much too large.
+            whole = [each for each in sizes if not each[2]]
+            _, mode, short = next((each for each in whole if each[0] <= TOO_LARGE), whole[-1])
+            self._try(info, mode, short)
         self._tell()
+
+    def _try(self, info: GraphInfo, mode: Mode, short: bool) -> float:
+        """Draw it so; how many times larger than the pane it is then."""
+        self._view = replace(self._view, mode=mode, short=short)
+        self._shown = shown(info, self._view, self._rates or {})
+        self._picture.show(self._shown.graph, self._shown.dead_ends, self._shown.faults)
+        return self._picture.excess
+
+    def tick(self) -> None:
+        """Write rates where they are wanted and the pane is seen; measure nothing otherwise."""
+        if self._rates is None or not self.display:
+            if self._looked:
+                self._looked = 0.0
+                self.console.traffic.measure([], "graph")
+            return
+        now = self.clock()
+        if now - self._looked < RATE_PERIOD:
+            return
+        self._looked = now
+        topics = [each.id.removeprefix(TOPIC) for each in self._shown.graph.items if each.id.startswith(TOPIC)]
+        self.console.traffic.measure(topics, "graph")
+        known = self.console.traffic.measured()
+        rates = {topic: _rate(known[topic].rate) for topic in topics if topic in known}
+        if rates != self._rates:
+            self._rates = rates
+            self._draw()
+
+    def let_go(self) -> None:
+        """Measure no more."""
+        self.console.traffic.measure([], "graph")
 
     def on_resize(self) -> None:
         """Choose anew what fits."""
@@ -94,8 +163,12 @@ class GraphPane(Pane):
         """Say what is selected, and what is left out."""
         info = self._info or GraphInfo()
         parts = [self._view.mode.value] if self._view.mode is not Mode.ALL else []
-        parts += [f"/{self._words}"] if self._words else []
-        parts += [f"{self._shown.hidden} hidden"] if self._shown.hidden else []
+        parts += [f"/{self.words}"] if self.words else []
+        focus = self._journey.now
+        parts += [f"around {focus.item.removeprefix(TOPIC)}, {counted(focus.hops, 'hop')}"] if focus.item else []
+        odd = len(findings(info)) if info.nodes else 0
+        parts += [f"w {counted(odd, 'finding')}"] if odd else []
+        parts += [f"{self._shown.every - self._shown.hidden} of {self._shown.every}"] if self._shown.hidden else []
         self.caption(" · ".join(parts))
         if self._shown.graph.items:
             text = summary(info, self._picture.selected)
@@ -122,76 +195,127 @@ class GraphPane(Pane):
         self._view = replace(self._view, **{what: not getattr(self._view, what)})
         self._draw()
 
-    def action_filter(self) -> None:
-        """Ask for a filter."""
-        self.ask(filter_line(self._words, self._apply))
+    def ask_words(self, line: Line) -> None:
+        """Ask at the foot of the pane."""
+        self.query_one(Prompt).ask(line)
 
-    def action_clear_filter(self) -> None:
-        """Show everything again."""
-        self._apply("")
-
-    def _apply(self, words: str) -> None:
-        self._words = words
+    def filter_is(self, words: str) -> None:
+        """Draw what passes, and what is linked to it."""
         self._view = replace(self._view, query=parse(words))
         self._draw()
+
+    def find(self, words: str, step: int) -> bool:
+        """Select the next node or topic whose own name matches."""
+        query = parse(words)
+        return self._picture.find(lambda item: matches(item, query), step)
+
+    def stands_on_match(self, words: str) -> bool:
+        """Whether the selected one matches."""
+        return bool(self._picture.selected) and matches(self._picture.selected, parse(words))
 
     def action_turn_picture(self) -> None:
         """Another direction of the arrows."""
         self._picture.action_turn()
 
     def action_detail(self) -> None:
-        """Show all about the selected node or topic."""
+        """List all about the selected item, to go on to; unfold a box."""
         item, info = self._picture.selected, self._info
         if not item or info is None:
             return
-        if item.startswith(TOPIC):
-            name = item.removeprefix(TOPIC)
-            self.host.push_screen(FactsScreen(name, topic_facts(info, name)))
+        if item.startswith(SPACE):
+            self.action_fold(False)
+            return
+        name = item.partition(":")[2] if is_link(item) else item
+        options = details(self._snapshot, item)
+        self._offer(name, options, "Nothing has these words.")
+
+    def action_findings(self) -> None:
+        """List what is odd."""
+        self._offer("What is odd", finding_options(self._info or GraphInfo()), "Nothing is odd.")
+
+    def _offer(self, title: str, options: Sequence[Option], empty: str) -> None:
+        self.ask(Choice(title, self._go, find=narrowed(options), hint="words; enter goes there", empty=empty))
+
+    def _go(self, where: str) -> None:
+        """Go where an option leads."""
+        if where.startswith(ITEM):
+            self._go_to_item(where.removeprefix(ITEM))
+        elif where.startswith(PANE):
+            pane, _, name = where.removeprefix(PANE).partition(" ")
+            self.post_message(self.PaneWanted(pane, name))
+        elif where.startswith(TYPE):
+            self.post_message(self.LineWanted(f"ros2 interface show {where.removeprefix(TYPE)}"))
+
+    def _go_to_item(self, item: str) -> None:
+        """Select an item; what is not drawn now becomes the focus."""
+        if item not in self._picture.places:
+            services = self._view.services or item.startswith((SERVICE, ACTION))
+            self._view = replace(self._view, debug=True, services=services)
+            self._mode = Mode.ALL
+            self._folds = frozenset()
+            self._journey.go(item)
+            self._draw()
+        self._picture.choose(item)
+
+    def go_to(self, name: str) -> None:
+        """Select a node or a topic."""
+        self._go_to_item(name)
+
+    def action_focus(self) -> None:
+        """Draw only what is linked to the selected item; a hop more the next time."""
+        if self._picture.selected:
+            self._journey.go(self._picture.selected)
+            self._draw()
+
+    def action_journey(self, where: str) -> None:
+        """The focus of before, or of after that."""
+        if self._journey.back() if where == "back" else self._journey.forth():
+            self._draw()
+            if self._journey.now.item:
+                self._picture.choose(self._journey.now.item)
         else:
-            self.host.push_screen(FactsScreen(item, node_facts(info, item)))
+            self.notify("There is nothing further back." if where == "back" else "There is nothing further on.")
+
+    def action_fold(self, closed: bool) -> None:
+        """Fold the namespace of the selected node, or unfold the selected box."""
+        item, folded = self._picture.selected, self._view.folded
+        space = item.removeprefix(SPACE)
+        if item.startswith(SPACE):
+            space = namespace_of(space) if closed else space
+        else:
+            space = "" if is_link(item) or not closed else namespace_of(item)
+        if not space:
+            self.notify("It is in no namespace." if closed else "Only a folded namespace can be unfolded.")
+            return
+        self._folds = folded | {space} if closed else folded - {space}
+        self._draw()
+        self._picture.choose(SPACE + space)
+
+    def action_fold_all(self) -> None:
+        """Fold every namespace, or unfold all."""
+        nodes = [each.name for each in (self._info or GraphInfo()).nodes if not each.hidden]
+        self._folds = frozenset() if self._view.folded else outermost(nodes)
+        if not self._folds and not self._view.folded:
+            self.notify("No namespace has two nodes or more.")
+        self._draw()
+
+    def action_rates(self) -> None:
+        """Measure rates and write them on the topics, or no more."""
+        self._rates = {} if self._rates is None else None
+        self.tick()
+        self._draw()
 
     def action_export(self) -> None:
         """Ask where to export to."""
         self.ask_file("export to (.txt .mmd .dot)", "graph.mmd", self._save)
 
-    def _save(self, path: Path) -> str:
+    def _save(self, path: Path) -> Answer:
         save_file(path, exported(self._shown.graph, self._picture.drawing, path.suffix))
-        return f"graph saved to {path}"
+        return Answer(True, f"graph saved to {path}")
 
 
-def node_facts(info: GraphInfo, name: str) -> list[Section]:
-    """Everything known of a node."""
-    node = node_of(info, name)
-    if node is None:
-        return [("The node has left.", (name,))]
-    return [
-        ("Publishers", _lines(node.publishers)),
-        ("Subscriptions", _lines(node.subscriptions)),
-        ("Action servers", _lines(node.action_servers)),
-        ("Action clients", _lines(node.action_clients)),
-        ("Services", _lines(node.services)),
-        ("Service clients", _lines(node.clients)),
-    ]
-
-
-def topic_facts(info: GraphInfo, name: str) -> list[Section]:
-    """Everything known of a topic."""
-    publishers, subscribers = ends_of(info, name)
-    qos = {
-        (node.name, kind): each.qos
-        for node in info.nodes
-        for kind, ends in (("p", node.publishers), ("s", node.subscriptions))
-        for each in ends
-        if each.name == name
-    }
-    types = types_of(info, name)
-    return [
-        ("Type" if len(types) < 2 else "Types: more than one, so not all of them hear each other", types),
-        ("Publishers", [f"{each}  {qos.get((each, 'p'), '')}" for each in publishers] or ["nobody"]),
-        ("Subscriptions", [f"{each}  {qos.get((each, 's'), '')}" for each in subscribers] or ["nobody"]),
-    ]
-
-
-def _lines(ends: tuple[Endpoint, ...]) -> list[str]:
-    width = max((len(each.name) for each in ends), default=0)
-    return [f"{each.name.ljust(width)}  {', '.join(each.types)}  {each.qos}".rstrip() for each in ends]
+def _rate(rate: float | None) -> str:
+    """A rate so that the picture need not be drawn anew for each tremble."""
+    if rate is None:
+        return ""
+    return f"{rate:.1f} Hz" if rate < 9.5 else f"{rate:.2g} Hz" if rate < 95 else f"{rate:.0f} Hz"

@@ -2,19 +2,27 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
+from types import MappingProxyType
 
+from bot_console.tui.console.graph.qos import mismatches
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.query import Query
 from bot_console.tui.format import counted, harmless
+from bot_console.tui.panes.graph.journey import Focus, around
+from bot_console.tui.panes.graph.namespaces import SPACE, box_of, folded_edges
 from bot_console.tui.widgets.diagram.graph import Digraph, Item
 
 DEBUG_TOPICS = ("/rosout", "/parameter_events", "/statistics", "/rosout_agg", "/diagnostics_agg")
 """Topics of every node, and of tools: with them each drawing is a knot."""
 
-TOPIC = "topic:"
-LONGEST = 40
+TOPIC, SERVICE, ACTION = "topic:", "service:", "action:"
+LINKS = (TOPIC, SERVICE, ACTION)
+"""How the ids of items begin that stand between nodes."""
+LONGEST, SHORT = 40, 16
 
 
 class Mode(Enum):
@@ -34,6 +42,13 @@ class GraphView:
     debug: bool = False
     dead_sinks: bool = True
     leaves: bool = True
+    services: bool = False
+    """Whether services and actions are drawn, too."""
+    folded: frozenset[str] = frozenset()
+    """Namespaces that are drawn as one box."""
+    focus: Focus = field(default_factory=Focus)
+    short: bool = False
+    """Whether names are cut to their last token."""
 
 
 @dataclass(frozen=True)
@@ -43,27 +58,104 @@ class Shown:
     graph: Digraph
     dead_ends: frozenset[str] = frozenset()
     hidden: int = 0
+    """Nodes and topics that are not drawn."""
+
+    every: int = 0
+    """Nodes and topics that there are."""
+
+    faults: frozenset[tuple[str, str]] = frozenset()
+    """Edges on which nothing arrives, since the QoS of their ends does not match."""
 
 
-def shown(info: GraphInfo, view: GraphView) -> Shown:
-    """Choose nodes and topics, and turn them into items and edges."""
+def shown(info: GraphInfo, view: GraphView, rates: Mapping[str, str] = MappingProxyType({})) -> Shown:
+    """Choose nodes and topics, and turn them into items and edges; `rates` are written behind the names of topics."""
     nodes = [each for each in info.nodes if view.debug or not each.hidden]
-    edges = [(node.name, TOPIC + each.name) for node in nodes for each in node.publishers]
-    edges += [(TOPIC + each.name, node.name) for node in nodes for each in node.subscriptions]
-    topics = {each.name for each in info.topics} | {a.removeprefix(TOPIC) for e in edges for a in e if _is_topic(a)}
+    edges = _edges(nodes, view)
+    topics = {TOPIC + each.name for each in info.topics} | {each for edge in edges for each in edge if is_link(each)}
     everything = len(nodes) + len(topics)
-    kept = {TOPIC + each for each in topics if view.debug or not is_debug(each)}
-    sources = {b for _, b in edges}
-    sinks = {a for a, _ in edges}
+    kept = {each for each in topics if view.debug or not is_debug(each.partition(":")[2])}
+    sources, sinks = {b for _, b in edges}, {a for a, _ in edges}
     dead_ends = frozenset(each for each in kept if each not in sources or each not in sinks)
-    kept = {each for each in kept if _wanted(each, view, sources, sinks, edges)}
+    counts = Counter(each for edge in edges for each in edge)
+    kept = {each for each in kept if _wanted(each, view, sources, sinks, counts)}
     ids = _filtered({each.name for each in nodes} | kept, edges, view.query)
     edges = [(a, b) for a, b in edges if a in ids and b in ids]
+    faults = {
+        (TOPIC + topic, subscriber)
+        for topic in (each.removeprefix(TOPIC) for each in ids if each.startswith(TOPIC))
+        for _, subscriber, _ in mismatches(info, topic)
+    }
     hidden = everything - len(ids)
+    if view.folded:
+        drawn, inside = folded_edges(edges, view.folded, {each for each in ids if is_link(each)})
+        edges = sorted(drawn)
+        ids = {each if is_link(each) else box_of(each, view.folded) for each in ids - inside}
+        faults = {(topic, box_of(node, view.folded)) for topic, node in faults if topic in ids}
+    if view.focus.item:
+        near = around(view.focus, edges)
+        hidden += len(ids - near)
+        ids &= near
+        edges = [(a, b) for a, b in edges if a in ids and b in ids]
     if view.mode is Mode.NODES:
-        return Shown(_nodes_only([each for each in ids if not _is_topic(each)], edges), hidden=hidden)
-    items = tuple(Item(each, _label(each), not _is_topic(each), int(_is_topic(each))) for each in sorted(ids))
-    return Shown(Digraph(items, tuple(sorted(edges))), dead_ends & ids, hidden)
+        graph = _nodes_only([each for each in ids if not is_link(each)], edges, _Labels(info, view, {}, ids, set()))
+        return Shown(graph, hidden=hidden, every=everything)
+    label = _Labels(info, view, rates, ids, {topic for topic, _ in faults})
+    items = tuple(Item(each, label.of(each), not is_link(each), int(is_link(each))) for each in sorted(ids))
+    return Shown(Digraph(items, tuple(sorted(edges))), dead_ends & ids, hidden, everything, frozenset(faults))
+
+
+def _edges(nodes: list[NodeInfo], view: GraphView) -> list[tuple[str, str]]:
+    edges = [(node.name, TOPIC + each.name) for node in nodes for each in node.publishers]
+    edges += [(TOPIC + each.name, node.name) for node in nodes for each in node.subscriptions]
+    if not view.services:
+        return edges
+    asked = {each.name for node in nodes for each in node.clients}
+    for node in nodes:
+        own = f"{node.name}/"
+        served = (each.name for each in node.services if each.name in asked or not each.name.startswith(own))
+        edges += [(SERVICE + name, node.name) for name in served]
+        edges += [(node.name, SERVICE + each.name) for each in node.clients]
+        edges += [(ACTION + each.name, node.name) for each in node.action_servers]
+        edges += [(node.name, ACTION + each.name) for each in node.action_clients]
+    return edges
+
+
+class _Labels:
+    """What stands on each item."""
+
+    def __init__(
+        self, info: GraphInfo, view: GraphView, rates: Mapping[str, str], ids: Collection[str], faulty: Collection[str]
+    ) -> None:
+        self._rates = rates
+        self._faulty = faulty
+        self._short = view.short
+        self._tokens = Counter(_last(each) for each in ids)
+        self._members = (
+            Counter(box_of(each.name, view.folded) for each in info.nodes) if view.folded else Counter[str]()
+        )
+
+    def of(self, item: str) -> str:
+        """The label of an item."""
+        if item.startswith(SPACE):
+            return f"▸ {self._name(item.removeprefix(SPACE))}  {counted(self._members[item], 'node')}"
+        if not is_link(item):
+            return self._name(item)
+        kind, _, name = item.partition(":")
+        text = self._name(name) if kind == "topic" else f"{kind[:3]} {self._name(name)}"
+        text = f"✗ {text}" if item in self._faulty else text
+        rate = self._rates.get(name, "") if kind == "topic" else ""
+        return f"{text} {rate}" if rate else text
+
+    def _name(self, name: str) -> str:
+        text = harmless(name)
+        if self._short and self._tokens[_last(name)] == 1 and "/" in text[1:]:
+            text = "…/" + text.rpartition("/")[2]
+        longest = SHORT if self._short else LONGEST
+        return text if len(text) <= longest else text[: longest // 2] + "…" + text[-longest // 2 + 1 :]
+
+
+def _last(item: str) -> str:
+    return item.rpartition("/")[2]
 
 
 def is_debug(topic: str) -> bool:
@@ -71,21 +163,19 @@ def is_debug(topic: str) -> bool:
     return topic in DEBUG_TOPICS or "/_" in topic
 
 
-def _is_topic(item: str) -> bool:
-    return item.startswith(TOPIC)
+def is_link(item: str) -> bool:
+    """Whether an item stands between nodes: a topic, a service, an action."""
+    return item.startswith(LINKS)
 
 
-def _label(item: str) -> str:
-    text = harmless(item.removeprefix(TOPIC))
-    return text if len(text) <= LONGEST else text[: LONGEST // 2] + "…" + text[-LONGEST // 2 + 1 :]
-
-
-def _wanted(topic: str, view: GraphView, sources: set[str], sinks: set[str], edges: list[tuple[str, str]]) -> bool:
+def _wanted(topic: str, view: GraphView, sources: set[str], sinks: set[str], counts: Mapping[str, int]) -> bool:
+    if not topic.startswith(TOPIC):
+        return True
     if view.mode is Mode.ACTIVE and (topic not in sources or topic not in sinks):
         return False
     if not view.dead_sinks and topic not in sinks:
         return False
-    return view.leaves or sum(topic in each for each in edges) > 1
+    return view.leaves or counts[topic] > 1
 
 
 def _filtered(ids: set[str], edges: list[tuple[str, str]], query: Query) -> set[str]:
@@ -93,31 +183,41 @@ def _filtered(ids: set[str], edges: list[tuple[str, str]], query: Query) -> set[
     if not query.terms:
         return ids
     excluding, positive = query.part(exclude=True), query.part(exclude=False)
-    allowed = {each for each in ids if excluding.matches(*_words(each))}
-    found = {each for each in allowed if positive.matches(*_words(each))}
+    allowed = {each for each in ids if matches(each, excluding)}
+    found = {each for each in allowed if matches(each, positive)}
     if positive.terms:
         found |= {b for a, b in edges if a in found} | {a for a, b in edges if b in found}
     return found & allowed
 
 
+def matches(item: str, query: Query) -> bool:
+    """Whether a node or a topic passes a filter by its own name."""
+    return query.matches(*_words(item))
+
+
 def _words(item: str) -> tuple[str, str]:
-    return ("", item) if not _is_topic(item) else (item.removeprefix(TOPIC), "")
+    return (item.partition(":")[2], "") if is_link(item) else ("", item.removeprefix(SPACE))
 
 
-def _nodes_only(nodes: list[str], edges: list[tuple[str, str]]) -> Digraph:
+def _nodes_only(nodes: list[str], edges: list[tuple[str, str]], label: _Labels) -> Digraph:
     published: dict[str, list[str]] = {}
     for a, b in edges:
-        if _is_topic(b):
+        if is_link(b):
             published.setdefault(b, []).append(a)
-    links = {(source, b) for a, b in edges if _is_topic(a) for source in published.get(a, ())}
-    return Digraph(tuple(Item(each, _label(each)) for each in sorted(nodes)), tuple(sorted(links)))
+    links = {(source, b) for a, b in edges if is_link(a) for source in published.get(a, ())}
+    return Digraph(tuple(Item(each, label.of(each)) for each in sorted(nodes)), tuple(sorted(links)))
 
 
 def summary(info: GraphInfo, item: str) -> str:
     """One line on a node or a topic."""
     if not item:
         return ""
-    if _is_topic(item):
+    if item.startswith(SPACE):
+        return harmless(f"{item.removeprefix(SPACE)}  enter or + unfolds it")
+    if item.startswith((SERVICE, ACTION)):
+        kind, _, name = item.partition(":")
+        return harmless(f"{kind} {name}  {' '.join(server_types(info, item))}")
+    if item.startswith(TOPIC):
         name = item.removeprefix(TOPIC)
         publishers, subscribers = ends_of(info, name)
         kinds = types_of(info, name)
@@ -129,6 +229,19 @@ def summary(info: GraphInfo, item: str) -> str:
     parts = [f"publishes {len(node.publishers)}", f"subscribes {len(node.subscriptions)}"]
     parts += [f"{counted(len(node.services), 'service')}", f"{counted(len(node.clients), 'client')}"]
     return harmless(f"{item}  {', '.join(parts)}")
+
+
+def server_types(info: GraphInfo, item: str) -> list[str]:
+    """The types of a service or action, and who serves it."""
+    kind, _, name = item.partition(":")
+    found: dict[str, None] = {}
+    servers: list[str] = []
+    for node in info.nodes:
+        for each in node.services if kind == "service" else node.action_servers:
+            if each.name == name:
+                found.update(dict.fromkeys(each.types))
+                servers.append(node.name)
+    return [*found, "served by " + (", ".join(servers) or "nobody")]
 
 
 def warning(publishers: list[str], subscribers: list[str]) -> str:

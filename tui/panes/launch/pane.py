@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Future
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -14,10 +15,12 @@ from bot_console.tui.console.model import ConsoleSnapshot, LaunchEvent, LaunchIn
 from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.query import Query, parse
 from bot_console.tui.format import clock_text, counted, harmless
-from bot_console.tui.panes.launch.rows import ProcessRows, rows
-from bot_console.tui.panes.pane import Pane
+from bot_console.tui.panes.launch.rows import ProcessRows, matches, rows
+from bot_console.tui.panes.list_pane import ListPane
+from bot_console.tui.panes.pane import answer_of
 from bot_console.tui.screens.facts import FactsScreen
 from bot_console.tui.widgets.picture import Line, Picture
+from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Form, Option
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.words import Words
@@ -29,7 +32,7 @@ EVENTS = 4
 STYLES = {Severity.WARN: "warn", Severity.ERROR: "error", Severity.FATAL: "error"}
 
 
-class LaunchPane(Pane):
+class LaunchPane(ListPane):
     """Processes of all launch files."""
 
     TITLE = "Launch"
@@ -44,19 +47,29 @@ class LaunchPane(Pane):
         super().__init__(*args, **kwargs)
         self._info: LaunchInfo | None = None
         self._why_not = ""
+        self._elsewhere = ""
         self._problem = ""
         self._read = ""
         self._folded: frozenset[tuple[str, ...]] = frozenset()
+        self._query = Query()
 
     def compose(self) -> ComposeResult:
         """The tree, a line on the process at the cursor, the newest events."""
         yield ProcessRows()
         yield Words(id="launch-status")
         yield Picture(id="launch-events")
+        yield Prompt(id="launch-prompt")
 
     @property
     def _list(self) -> ProcessRows:
         return self.query_one(ProcessRows)
+
+    def go_to(self, name: str) -> None:
+        """Go to the process of a node."""
+        rows = self._list.rows
+        at = next((index for index, each in enumerate(rows) if each.process and name in each.process.nodes), None)
+        if at is not None:
+            self._list.cursor = at
 
     def focus_target(self) -> None:
         """The tree takes the keys."""
@@ -67,30 +80,24 @@ class LaunchPane(Pane):
         why_not = snapshot.capabilities.launch or (
             "" if self.launcher else "this console was started without a launcher"
         )
+        self._elsewhere = snapshot.capabilities.launched_elsewhere
         state = (snapshot.launch, why_not, snapshot.problem)
         if state[0] is not self._info or state[1:] != (self._why_not, self._problem):
             self._info, self._why_not, self._problem = state
             self._arrange()
 
     def _arrange(self) -> None:
-        info, shown = self._info or LaunchInfo(), self._list
-        at, old = shown.current, shown.rows
-        shown.rows = rows(info, self._folded)
-        if at is not None and len(old) != len(shown.rows):
-            key = at.process.key if at.process else at.group
-            places = (
-                each for each, row in enumerate(shown.rows) if (row.process.key if row.process else row.group) == key
-            )
-            shown.set_reactive(RowList.cursor, next(places, min(shown.cursor, max(0, len(shown.rows) - 1))))
-        if len(old) == len(shown.rows):
-            for index, (before, after) in enumerate(zip(old, shown.rows, strict=True)):
-                if before != after:
-                    shown.row_changed(index)
-        else:
-            shown.rows_changed()
-            shown.show_cursor()
+        info = self._info or LaunchInfo()
+        there = tuple(each for each in info.processes if matches(each, self._query))
+        self._list.exchange(rows(replace(info, processes=there), self._folded))
+        self.tell_filter(len(there), len(info.processes))
         self._tell()
         self._show_events()
+
+    def filter_is(self, words: str) -> None:
+        """Show the processes that pass."""
+        self._query = parse(words)
+        self._arrange()
 
     def _show_events(self) -> None:
         info = self._info or LaunchInfo()
@@ -104,8 +111,10 @@ class LaunchPane(Pane):
             text = self._why_not
         elif info.problem and info.problem != self._read:
             text = info.problem
+        elif row is None and info.processes:
+            text = "Nothing matches the filter; escape takes it away."
         elif row is None:
-            text = self._problem or "Nothing was launched yet; o opens a launch file."
+            text = self._problem or self._elsewhere or "Nothing was launched yet; o opens a launch file."
         elif row.process is None:
             text = f"{' / '.join(row.group)}  {counted(row.count, 'process').replace('processs', 'processes')}"
         else:
@@ -183,10 +192,9 @@ class LaunchPane(Pane):
         return f"{who} ended meanwhile; nothing was done."
 
     def _answered(self, done: Future[Answer]) -> None:
-        error = done.exception()
-        answer = Answer(False, str(error)) if error else done.result()
+        answer = answer_of(done)
         if not answer.ok:
-            self.notify(answer.text, severity="warning", markup=False)
+            self.tell(answer)
 
     def action_open(self) -> None:
         """Choose a launch file, fill in its arguments, run it."""

@@ -6,8 +6,9 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from bot_console.tui.console.model import LaunchInfo, ProcessInfo, ProcessState
+from bot_console.tui.console.query import Query
 from bot_console.tui.format import cut, harmless
-from bot_console.tui.widgets.row_list import RowList
+from bot_console.tui.widgets.item_list import ItemList
 from rich.cells import cell_len
 from rich.segment import Segment
 from rich.style import Style
@@ -18,6 +19,7 @@ STATES = {
     ProcessState.STOPPING: ("◐", "warn"),
     ProcessState.EXITED: ("○", "dim"),
     ProcessState.CRASHED: ("✗", "error"),
+    ProcessState.MISSING: ("∅", "warn"),
     ProcessState.ABANDONED: ("⚠", "warn"),
 }
 
@@ -62,6 +64,12 @@ def rows(info: LaunchInfo, folded: Collection[tuple[str, ...]] = ()) -> list[Row
     return found
 
 
+def matches(process: ProcessInfo, query: Query) -> bool:
+    """Whether a process passes a filter, by its name, state and groups, and by any of its nodes."""
+    text = " ".join((process.label, process.state.value, *process.group, *process.nodes))
+    return any(query.matches(text, node) for node in process.nodes or ("",))
+
+
 def _together(processes: Sequence[ProcessInfo]) -> list[ProcessInfo]:
     """Processes sorted so that each group stands together, below the processes beside it; else as they came."""
     first: dict[tuple[str, ...], int] = {}
@@ -76,21 +84,17 @@ def _inside(group: tuple[str, ...], folded: Collection[tuple[str, ...]]) -> bool
     return any(group[:depth] in folded for depth in range(1, len(group) + 1))
 
 
-class ProcessRows(RowList):
+class ProcessRows(ItemList[Row]):
     """The rows of the tree."""
 
-    def __init__(self) -> None:
-        super().__init__()
-        self.rows: list[Row] = []
+    def key(self, item: Row) -> object:
+        """A row is about a process, or about a group."""
+        return item.process.key if item.process else item.group
 
-    @property
-    def current(self) -> Row | None:
-        """The row at the cursor."""
-        return self.rows[self.cursor] if self.cursor < len(self.rows) else None
-
-    def row_count(self) -> int:
-        """How many rows there are."""
-        return len(self.rows)
+    def matches(self, index: int, query: Query) -> bool:
+        """Whether a process matches a filter; groups are no matches."""
+        process = self.rows[index].process
+        return process is not None and matches(process, query)
 
     def _style(self, name: str) -> Style:
         return self.get_component_rich_style(f"row-list--{name}", partial=True)

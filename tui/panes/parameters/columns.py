@@ -12,6 +12,8 @@ from rich.cells import cell_len
 BAR = 12
 """Cells of the slider."""
 
+MARKS = 2
+"""Cells of the marks before a name."""
 GAP = 2
 VALUE = 8
 """Cells that a value has at least."""
@@ -60,7 +62,7 @@ def shown_value(row: Row) -> str:
 
 def columns(need: Measures, width: int) -> Columns:
     """Share a width (cells): the names take what the longest needs, and leave a value its place."""
-    room = width - 1
+    room = width - MARKS
     name = max(1, min(need.name, room - GAP - VALUE))
     left = room - name - GAP
     value = max(0, min(need.number, left))

@@ -2,25 +2,53 @@
 
 from __future__ import annotations
 
-from bot_console.tui.console.model import ParameterInfo, SetOutcome
+from collections.abc import Sequence
+
+from bot_console.tui.console.model import ParameterInfo, SetOutcome, Value
+from bot_console.tui.console.parameters.lint import faults
+from bot_console.tui.console.parameters.safety import foretold
 from bot_console.tui.format import command_of, harmless, range_text, value_text
 from rich.text import Text
 
 REFUSED_BY = {"descriptor": "by its descriptor", "callback": "by the node", "console": "here"}
 
 
-def details(parameter: ParameterInfo, refused: SetOutcome | None) -> Text:
-    """A refusal first, then description, facts, and the command that does the same."""
+def details(
+    parameter: ParameterInfo, refused: SetOutcome | None, staged: Value = None, marks: Sequence[str] = ()
+) -> Text:
+    """A refusal first, what is marked, description, what would take from safety, facts, and the command.
+
+    `marks` are what the marks of the row mean, in words.
+    """
     text = Text(no_wrap=False, overflow="fold")
     if refused is not None:
         by = REFUSED_BY.get(refused.refused_by, "")
         head = f"✗ {harmless(value_text(refused.value))} refused{f' {by}' if by else ''}: "
         text.append(f"{head}{harmless(refused.reason)}\n", "bold")
-    text.append(harmless(parameter.description) or "(no description)")
+    if staged is not None:
+        text.append(f"→ {harmless(value_text(staged))} is marked; a applies, x drops the mark\n", "bold")
+    text.append(harmless(parameter.description) or "(nobody says what it is for)")
+    if risk := foretold(parameter):
+        text.append(f"\n⚠ {risk}", "bold")
     facts = [parameter.kind.word, range_text(parameter.range, parameter.kind), harmless(parameter.constraints)]
     facts.append("read only" if parameter.read_only else "")
-    facts.append(f"start value {harmless(value_text(parameter.default))}" if parameter.changed else "")
+    facts.append(_default(parameter))
     facts.append(harmless(parameter.origin))
+    facts += marks
+    facts += faults(parameter)
     text.append("\n" + " · ".join(each for each in facts if each), "dim")
     text.append("\n" + harmless(command_of(parameter, parameter.value)), "dim italic")
     return text
+
+
+def _default(parameter: ParameterInfo) -> str:
+    """What was declared, and where; else the value first seen, where it is another one now."""
+    value = harmless(value_text(parameter.default))
+    if parameter.declared_at:
+        return f"declared {value} in {harmless(short_place(parameter.declared_at))}"
+    return f"start value {value}" if parameter.changed else ""
+
+
+def short_place(place: str) -> str:
+    """`folder/file.py:12` of a longer path: which of many files of one name it is."""
+    return "/".join(place.replace("\\", "/").split("/")[-2:])

@@ -1,28 +1,36 @@
-"""Which rows the parameter pane shows: nodes, groups of dotted names, parameters. Pure."""
+"""Which rows the parameter pane shows: namespaces, nodes, groups of names, parameters. Pure."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+import re
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 from bot_console.tui.console.model import ParameterInfo, ParameterTree
 from bot_console.tui.console.query import Query
 
 BUILT_IN = ("use_sim_time", "start_type_description_service")
 BUILT_IN_PREFIX = "qos_overrides."
+_SEPARATOR = re.compile(r"[./]")
 
 
-@dataclass(frozen=True)
+@dataclass(slots=True)  # not frozen: thousands are made at each key of a filter, and freezing is what costs
 class Row:
-    """A line of the tree: a node, a group, or a parameter; `depth` is its indentation."""
+    """A line of the tree: a namespace, a node, a group, or a parameter; `depth` is its indentation."""
 
     node: str
+    """The node, or the namespace."""
     name: str = ""
     depth: int = 0
     parameter: ParameterInfo | None = None
     problem: str = ""
     count: int = 0
     folded: bool = False
+    fold: str = ""
+    """What is closed and opened by this name; empty for a parameter."""
+    title: str = ""
+    """How a namespace or a node is written below its namespace."""
 
 
 @dataclass(frozen=True)
@@ -32,44 +40,199 @@ class View:
     query: Query = field(default_factory=Query)
     only_changed: bool = False
     built_in: bool = False
-    folded: Collection[str] = ()
+    folded: Collection[str] = frozenset()
+
+
+class TreeRows:
+    """Makes rows; those of a node whose parameters and view are the same objects as before are not made anew."""
+
+    def __init__(self) -> None:
+        self._view: View | None = None
+        self._made: dict[str, tuple[ParameterTree, int, list[Row]]] = {}
+        self._sorted: dict[str, _Sorted] = {}
+
+    def rows(self, trees: Mapping[str, ParameterTree], view: View) -> list[Row]:
+        """All rows, in the order in which they stand."""
+        if view != self._view:
+            self._made.clear()
+            self._view = view
+        found: list[Row] = []
+        filtering = bool(view.query.terms) or view.only_changed
+        spaces = _spaces(tuple(trees))
+        shown: dict[str, list[Row]] = {}
+        for name, tree in trees.items():
+            made = self._node(name, tree, len(spaces[name]), spaces[name][-1] if spaces[name] else "", view)
+            if not filtering or made[0].count:
+                shown[name] = made
+        counts: dict[str, int] = {}
+        for name, made in shown.items():
+            for space in spaces[name]:
+                counts[space] = counts.get(space, 0) + made[0].count
+        open_spaces: tuple[str, ...] = ()
+        for name, made in shown.items():
+            hidden = False
+            for depth, space in enumerate(spaces[name]):
+                if not hidden and open_spaces[depth : depth + 1] != (space,):
+                    above = spaces[name][depth - 1] if depth else ""
+                    found.append(_space_row(space, depth, above, counts[space], f"{space}/" in view.folded))
+                hidden = hidden or f"{space}/" in view.folded
+            open_spaces = spaces[name]
+            if not hidden:
+                found += made
+        return found
+
+    def _node(self, name: str, tree: ParameterTree, depth: int, space: str, view: View) -> list[Row]:
+        known = self._made.get(name)
+        if known and known[0] is tree and known[1] == depth:
+            return known[2]
+        ordered = self._sorted.get(name)
+        if ordered is None or ordered.tree is not tree:
+            ordered = self._sorted[name] = _Sorted(tree)
+        parameters = ordered.passing(view)
+        folded = name in view.folded
+        title = name.removeprefix(f"{space}/") if space else ""
+        made = [Row(name, "", depth, None, tree.problem, len(parameters), folded, name, title)]
+        if not folded:
+            made += _below(name, parameters, 0, depth + 1, view.folded)
+        self._made[name] = (tree, depth, made)
+        return made
 
 
 def rows(trees: Mapping[str, ParameterTree], view: View) -> list[Row]:
     """All rows, in the order in which they stand."""
-    found: list[Row] = []
-    for name, tree in trees.items():
-        shown = [each for each in tree.parameters if wanted(each, view)]
-        filtering = bool(view.query.terms) or view.only_changed
-        if filtering and not shown:
-            continue
-        folded = name in view.folded
-        found.append(Row(name, problem=tree.problem, count=len(shown), folded=folded))
-        if not folded:
-            found += _below(name, shown)
+    return TreeRows().rows(trees, view)
+
+
+def _space_row(space: str, depth: int, above: str, count: int, folded: bool) -> Row:
+    title = space.removeprefix(f"{above}/") if above else space
+    return Row(space, "", depth, None, "", count, folded, f"{space}/", f"{title}/")
+
+
+@lru_cache(maxsize=4)
+def _spaces(nodes: tuple[str, ...]) -> dict[str, tuple[str, ...]]:
+    """The namespaces that each node stands in, outermost first; only those with several nodes are worth a row."""
+    counts: dict[str, int] = {}
+    for node in nodes:
+        for space in _above(node):
+            counts[space] = counts.get(space, 0) + 1
+    found: dict[str, tuple[str, ...]] = {}
+    for node in nodes:
+        spaces = [space for space in _above(node) if counts[space] > 1]
+        # Of namespaces that hold the same nodes the innermost one stands for all.
+        found[node] = tuple(
+            each for at, each in enumerate(spaces) if at + 1 == len(spaces) or counts[spaces[at + 1]] < counts[each]
+        )
     return found
 
 
-def wanted(parameter: ParameterInfo, view: View) -> bool:
-    """Whether the view shows a parameter."""
+def _above(node: str) -> list[str]:
+    parts = node.split("/")[1:-1]
+    return ["/" + "/".join(parts[: end + 1]) for end in range(len(parts))]
+
+
+class _Sorted:
+    """The parameters of a node in the order of the rows, with the texts that a filter looks at."""
+
+    def __init__(self, tree: ParameterTree) -> None:
+        self.tree = tree
+        self._parameters = sorted(tree.parameters, key=lambda each: _order(each.name))
+        self._texts = [_text(each) for each in self._parameters]
+        self._lower = [each.lower() for each in self._texts]
+
+    def passing(self, view: View) -> list[ParameterInfo]:
+        """Those that a view shows."""
+        found: Iterable[int] = range(len(self._parameters))
+        if view.query.terms:
+            found = self._matching(view.query, found)
+        parameters = (self._parameters[at] for at in found)
+        return [each for each in parameters if _kept(each, view)]
+
+    def _matching(self, query: Query, found: Iterable[int]) -> Iterable[int]:
+        """What passes each word, as `Query.matches` has it, but the node's name is looked at once."""
+        node = self.tree.node
+        if any(term.stands_in(node) is term.exclude for term in query.nodes):
+            return ()
+        for term in query.texts:
+            if term.name is not None and term.name.stands_in(node):
+                if term.exclude:
+                    return ()
+                continue
+            plain = term.pattern.plain
+            if plain is not None:
+                found = [at for at in found if (plain in self._lower[at]) is not term.exclude]
+            else:
+                found = [at for at in found if term.pattern.search(self._texts[at]) is not term.exclude]
+        return found
+
+
+def _kept(parameter: ParameterInfo, view: View) -> bool:
+    """Whether a parameter is shown, whatever the filter."""
     if view.only_changed and not parameter.changed:
         return False
-    if not view.built_in and (parameter.name in BUILT_IN or parameter.name.startswith(BUILT_IN_PREFIX)):
-        return False
-    return view.query.matches(f"{parameter.name} {parameter.description}", parameter.node)
+    return view.built_in or not (parameter.name in BUILT_IN or parameter.name.startswith(BUILT_IN_PREFIX))
 
 
-def _below(node: str, parameters: list[ParameterInfo]) -> Iterator[Row]:
-    """Parameters by name, with a row above each group of at least two that share a dotted prefix."""
-    counts: dict[str, int] = {}
-    for each in parameters:
-        prefix = each.name.rpartition(".")[0]
-        counts[prefix] = counts.get(prefix, 0) + 1
-    group = ""
-    for each in sorted(parameters, key=lambda one: (one.name.rpartition(".")[0], one.name)):
-        prefix, _, last = each.name.rpartition(".")
-        grouped = bool(prefix) and counts[prefix] > 1
-        if grouped and prefix != group:
-            yield Row(node, prefix, 1, count=counts[prefix])
-        group = prefix if grouped else group
-        yield Row(node, last if grouped else each.name, 2 if grouped else 1, each)
+def matches(parameter: ParameterInfo, query: Query) -> bool:
+    """Whether a parameter passes a filter, by its name, what it is for, and its node."""
+    return query.matches(_text(parameter), parameter.node)
+
+
+def _text(parameter: ParameterInfo) -> str:
+    return f"{parameter.name} {parameter.description}"
+
+
+@lru_cache(maxsize=20_000)
+def _parts(name: str) -> tuple[str, ...]:
+    """The levels of a name: `lidar.front/noise` is three."""
+    return tuple(_SEPARATOR.split(name))
+
+
+@lru_cache(maxsize=20_000)
+def _order(name: str) -> tuple[tuple[bool, str], ...]:
+    """Names by their levels, what stands on a level before what stands below it."""
+    *groups, last = _parts(name)
+    return (*((True, each) for each in groups), (False, last))
+
+
+def _below(
+    node: str, parameters: Sequence[ParameterInfo], level: int, depth: int, folded: Collection[str]
+) -> Iterator[Row]:
+    """Parameters that share their first levels, with a row above each group of at least two that share one more."""
+    at = 0
+    while at < len(parameters):
+        first = parameters[at]
+        parts = _parts(first.name)
+        end = at + 1
+        if len(parts) > level + 1:
+            while end < len(parameters) and _shares(parameters[end], parts, level):
+                end += 1
+        group = parameters[at:end]
+        if len(group) > 1:
+            yield from _group(node, group, level, depth, folded)
+        else:
+            yield Row(node, first.name[_start(first.name, level) :], depth, first)
+        at = end
+
+
+def _group(node: str, group: Sequence[ParameterInfo], level: int, depth: int, folded: Collection[str]) -> Iterator[Row]:
+    """A group that shares one more level, or several of them at once."""
+    parts = _parts(group[0].name)
+    deepest = level + 1
+    while len(parts) > deepest + 1 and all(_shares(each, parts, deepest) for each in group):
+        deepest += 1
+    prefix = group[0].name[: _start(group[0].name, deepest)]
+    fold = f"{node}:{prefix}"
+    closed = fold in folded
+    yield Row(node, prefix[_start(prefix, level) :], depth, None, "", len(group), closed, fold)
+    if not closed:
+        yield from _below(node, group, deepest, depth + 1, folded)
+
+
+def _shares(parameter: ParameterInfo, parts: tuple[str, ...], level: int) -> bool:
+    other = _parts(parameter.name)
+    return len(other) > level + 1 and other[level] == parts[level]
+
+
+def _start(name: str, level: int) -> int:
+    """Where a level of a name begins."""
+    return sum(len(each) + 1 for each in _parts(name)[:level])

@@ -4,40 +4,68 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from bot_console.tui.console.model import ParameterInfo, SetOutcome
+from bot_console.tui.console.model import ChangeSource, ParameterInfo, SetOutcome, Value
+from bot_console.tui.console.parameters.origin import SET_BY
+from bot_console.tui.console.query import Query
 from bot_console.tui.format import cut, harmless, value_text
-from bot_console.tui.panes.parameters.columns import BAR, GAP, Measures, columns, measured, shown_value
-from bot_console.tui.panes.parameters.rows import Row
-from bot_console.tui.widgets.row_list import RowList
+from bot_console.tui.panes.parameters.columns import BAR, GAP, MARKS, Measures, columns, measured, shown_value
+from bot_console.tui.panes.parameters.rows import Row, matches
+from bot_console.tui.widgets.item_list import ItemList
 from rich.segment import Segment
 from rich.style import Style
+from textual.events import Click
+from textual.message import Message
 
 
-class ParameterRows(RowList):
+class ParameterRows(ItemList[Row]):
     """The rows of the tree."""
+
+    class Slid(Message):
+        """The slider of a parameter was clicked, at a share (0 to 1) of its range."""
+
+        def __init__(self, parameter: ParameterInfo, share: float) -> None:
+            super().__init__()
+            self.parameter = parameter
+            self.share = share
+
+    class Pressed(Message):
+        """A row that was chosen already was clicked."""
+
+        def __init__(self, row: Row) -> None:
+            super().__init__()
+            self.row = row
 
     def __init__(self) -> None:
         super().__init__()
-        self.rows: Sequence[Row] = []
         self.refused: dict[tuple[str, str], SetOutcome] = {}
         """The refusals that are still marked, by node and parameter."""
 
+        self.staged: dict[tuple[str, str], Value] = {}
+        """Values that are marked and not sent, by node and parameter."""
+        self.unsaved: frozenset[tuple[str, str]] = frozenset()
+        """The values that are in no file."""
+        self.moved: frozenset[tuple[str, str]] = frozenset()
+        """The values that are not those of the start."""
+        self.flashing: dict[tuple[str, str], float] = {}
+        """The values that have just changed, and until when (s) that is shown."""
+
         self._measures = Measures()
 
-    def row_count(self) -> int:
-        """How many rows there are."""
-        return len(self.rows)
+    def key(self, item: Row) -> object:
+        """A row is about a node, a group or a parameter, whatever its value."""
+        return item.node, item.name, item.parameter.name if item.parameter else ""
 
-    @property
-    def current(self) -> Row | None:
-        """The row at the cursor."""
-        return self.rows[self.cursor] if self.rows and self.cursor < len(self.rows) else None
+    def exchange(self, rows: Sequence[Row], *, stay: bool = True) -> None:
+        """Show other rows; where the columns have moved all of them are drawn."""
+        before, self._measures = self._measures, measured(rows)
+        super().exchange(rows, stay=stay)
+        if self._measures != before:
+            self.refresh()
 
-    def take(self, rows: Sequence[Row]) -> bool:
-        """Show other rows from now on; tells whether the columns have moved, so that all must be drawn."""
-        before, self.rows = self._measures, rows
-        self._measures = measured(rows)
-        return self._measures != before
+    def matches(self, index: int, query: Query) -> bool:
+        """Whether a parameter matches a filter; its node and its group are no matches."""
+        parameter = self.rows[index].parameter
+        return parameter is not None and matches(parameter, query)
 
     def row(self, index: int, width: int) -> list[Segment]:
         """A node, a group or a parameter."""
@@ -50,10 +78,11 @@ class ParameterRows(RowList):
         return self.get_component_rich_style(f"row-list--{name}", partial=True)
 
     def _head(self, row: Row) -> list[Segment]:
+        arrow, indent = "▸" if row.folded else "▾", "  " * row.depth
         if row.name:
-            return [Segment(f"{'  ' * row.depth}{harmless(row.name)}.", self._style("dim"))]
-        arrow = "▸" if row.folded else "▾"
-        head = Segment(f"{arrow} {harmless(row.node)}", self._style("head"))
+            count = f"  {row.count}" if row.folded else ""
+            return [Segment(f"{indent}{arrow} {harmless(row.name)}{count}", self._style("dim"))]
+        head = Segment(f"{indent}{arrow} {harmless(row.title or row.node)}", self._style("head"))
         if row.problem:
             return [head, Segment(f"  {harmless(row.problem)}", self._style("warn"))]
         return [head, Segment(f"  {row.count}", self._style("dim"))]
@@ -61,19 +90,24 @@ class ParameterRows(RowList):
     def _parameter(self, row: Row, parameter: ParameterInfo, width: int) -> list[Segment]:
         own = columns(self._measures, width)
         name = cut("  " * row.depth + harmless(row.name), own.name, pad=True)
-        mark = "•" if parameter.changed else " "
+        key = (parameter.node, parameter.name)
+        mark = "".join(sign if here else " " for sign, here in self.signs(parameter))
         segments = [Segment(f"{mark}{name}{' ' * GAP}", self._style("strong" if parameter.changed else "plain"))]
-        left = max(0, width - 1 - own.name - GAP)
+        left = max(0, width - MARKS - own.name - GAP)
         value, dim = shown_value(row), self._style("dim")
-        refused = self.refused.get((parameter.node, parameter.name))
+        refused = self.refused.get(key)
         if refused:
             value = cut(value, min(own.value, left), pad=True)
             why = f"✗ {harmless(value_text(refused.value))}: {harmless(refused.reason)}"
             room = max(0, left - own.value - GAP)
             return [*segments, Segment(value + " " * GAP), Segment(cut(why, room), self._style("error"))]
+        if key in self.staged:
+            unit = f" {parameter.unit}" if parameter.unit else ""
+            text = f"{harmless(value_text(parameter.value))} → {harmless(value_text(self.staged[key]))}{unit}"
+            return [*segments, Segment(cut(text, left), self._style("good"))]
         slider = bar(parameter) if own.bar else ""
         tail = slider or ("read only" if parameter.read_only else "")
-        segments.append(self._value(value, own.value, left, parameter.read_only, bool(tail)))
+        segments.append(self._value(value, own.value, left, parameter, bool(tail)))
         used = segments[-1].cell_length
         if tail:
             segments.append(Segment(cut(" " * GAP + tail, left - used), dim))
@@ -83,10 +117,37 @@ class ParameterRows(RowList):
             segments.append(Segment(" " * (start - used) + cut(harmless(parameter.description), own.description), dim))
         return segments
 
-    def _value(self, value: str, column: int, left: int, read_only: bool, more: bool) -> Segment:
+    def signs(self, parameter: ParameterInfo) -> tuple[tuple[str, bool], ...]:
+        """The marks of a parameter, each with whether it has it."""
+        key = (parameter.node, parameter.name)
+        from_elsewhere = parameter.origin.startswith(SET_BY[ChangeSource.OTHER])
+        first = ("•", True) if parameter.changed else ("◦", key in self.moved)
+        return (first, ("*", True) if key in self.unsaved else ("~", from_elsewhere))
+
+    def _value(self, value: str, column: int, left: int, parameter: ParameterInfo, more: bool) -> Segment:
         """A value in its column if something stands beside it and it fits, else in all the room there is."""
         text = cut(value, column, pad=True) if more and len(value) <= column else cut(value, left)
-        return Segment(text, self._style("dim") if read_only else None)
+        if (parameter.node, parameter.name) in self.flashing:
+            return Segment(text, self._style("good") + Style(reverse=True))
+        return Segment(text, self._style("dim") if parameter.read_only else None)
+
+    def on_click(self, event: Click) -> None:
+        """A click chooses the row; on the slider it sets the value, on what is chosen it opens or edits."""
+        index = event.y + self.scroll_offset.y
+        if not 0 <= index < self.row_count():
+            return
+        chosen, row = index == self.cursor, self.rows[index]
+        self.cursor = index
+        if row.parameter is None:
+            if chosen or event.x < 2 * row.depth + 2:
+                self.post_message(self.Pressed(row))
+            return
+        own = columns(self._measures, self.across)
+        begin = MARKS + own.name + GAP + own.value + GAP
+        if own.bar and bar(row.parameter) and begin <= event.x < begin + BAR and not row.parameter.read_only:
+            self.post_message(self.Slid(row.parameter, (event.x - begin) / (BAR - 1)))
+        elif chosen:
+            self.post_message(self.Pressed(row))
 
 
 def bar(parameter: ParameterInfo) -> str:

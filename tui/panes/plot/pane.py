@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, JournalState
+from bot_console.tui.console.protocol import Answer
+from bot_console.tui.format import clock_text, cut
 from bot_console.tui.opening import matching
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.plot.parts import DEFAULTS, WINDOWS, Timeline, limits_of, wrong_limits
+from bot_console.tui.panes.plot.responses import Responses, wrong_formula
 from bot_console.tui.widgets.picture import Line, Picture
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Line as Asked
@@ -18,6 +21,9 @@ from textual.app import ComposeResult
 
 LEAST_FRAME = 8
 """Lines from which on a frame with axes leaves room for the trace."""
+
+SCORED = ("rise", "overshoot", "settling", "error")
+"""The figures of a response that a score may name."""
 
 EMPTY = "No curves. Press a and name one: /topic/field, or /node:parameter."
 
@@ -29,13 +35,17 @@ class PlotPane(Pane):
     HELP = (
         "Numbers over time: a field of a topic such as /odom/twist.twist.linear.x or /scan/ranges[0], or a parameter\n"
         "such as /robot_navigator:max_speed. ▲ on the time axis marks a changed parameter, ✗ a refused one. A value\n"
-        "that is not finite leaves a gap. Space pauses the picture; left and right then move through time."
+        "that is not finite leaves a gap. Space pauses the picture; left and right then move through time. , and . go\n"
+        "from mark to mark and say what was changed there. o lays the responses to set A and set B over each other,\n"
+        "with rise time (10 to 90 %), overshoot, settling time (5 %) and steady error against the reference."
     )
     BINDINGS = keymap.bindings("plot")
+    SCOPES: ClassVar[tuple[str, ...]] = ()
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
         self._timeline = Timeline(self.console)
+        self._responses = Responses(self.console)
         self._chosen = 0
         self._strips = False
         self._touched = False
@@ -70,7 +80,9 @@ class PlotPane(Pane):
             self._take_expected(snapshot)
         if snapshot.journal is not self._journal:
             self._journal = snapshot.journal
-            self._timeline.marks_of(self.console.changes())
+            changes = self.console.changes()
+            self._timeline.marks_of(changes)
+            self._responses.read(changes)
         self.tick(force=True)
 
     def _add_defaults(self) -> None:
@@ -118,9 +130,12 @@ class PlotPane(Pane):
         if width < 16 or height < 2:
             return
         if not curves:
-            picture.set_lines([()] * ((height - 1) // 2) + [((EMPTY[:width].center(width), "dim"),)])
+            picture.set_lines([()] * ((height - 1) // 2) + [((cut(EMPTY, width).center(width), "dim"),)])
             return
-        picture.set_lines(self._lines(width, height, strips))
+        if self._responses.shown:
+            picture.set_lines(self._responses.draw(curves, self._chosen, self._timeline.window, (width, height)))
+        else:
+            picture.set_lines(self._lines(width, height, strips))
         if not strips:
             from bot_console.tui.panes.plot.view import legend as line
 
@@ -140,9 +155,61 @@ class PlotPane(Pane):
             return plot_view.strips(timeline.curves, axes, width, height, self._chosen)
         return plot_view.framed(timeline.curves, timeline.marks, axes, width, height)
 
+    def time_moved(self, stamp: int | None) -> None:
+        """Show another moment, and what was changed then."""
+        self._timeline.look_at(stamp)
+        if self.display and self.is_mounted:
+            self.draw()
+
+    def action_mark(self, step: int) -> None:
+        """Go to the next changed parameter on the time axis, or back to the one before."""
+        time = self._timeline.next_mark(step)
+        if time is None:
+            self.notify("No further change of a parameter is marked.")
+            return
+        stamps = {self.console.plot_time(each.stamp): each.stamp for each in self.console.changes()}
+        self.time_cursor.move(stamps.get(time), self)
+        self.time_moved(stamps.get(time))
+
+    def action_now(self) -> None:
+        """Look at what is now again."""
+        self.time_cursor.move(None, self)
+        self.time_moved(None)
+
+    def _at_cursor(self) -> str:
+        """What was changed at the moment that is looked at."""
+        timeline, across = self._timeline, self.query_one("#plot-picture", Picture).size.width
+        marks = timeline.axes(across).marks_at_cursor(timeline.marks, across)
+        stamp = self.time_cursor.stamp
+        return "  ".join([f"◆ {clock_text(stamp)}" if stamp is not None else "◆", *(each.text for each in marks)])
+
+    def action_responses(self) -> None:
+        """The responses to set A and set B over each other, or the curves again."""
+        self._responses.shown = not self._responses.shown
+        self.draw()
+
+    def action_reference(self) -> None:
+        """Take the chosen curve for what a response should follow, or not any more."""
+        path = self.paths[self._chosen] if self.paths else ""
+        self._responses.reference = "" if path == self._responses.reference else path
+        self.draw()
+
+    def action_score(self) -> None:
+        """Ask for a score of responses."""
+        label = f"score, of {', '.join(SCORED)} (such as overshoot + 0.5*settling)"
+        self.ask(Asked(label, self._score_is, text=self._responses.formula, check=wrong_formula))
+
+    def _score_is(self, formula: str) -> None:
+        self._responses.formula = formula.strip()
+        self.draw()
+
     def _status(self) -> str:
         timeline = self._timeline
+        if self._responses.shown:
+            return self._responses.caption(timeline.curves, self._chosen)
         parts = [f"{timeline.window:g} s"]
+        if timeline.cursor is not None:
+            parts.append(self._at_cursor())
         if timeline.paused_at is not None:
             parts.append("paused" + (f", {timeline.new_samples} new" if timeline.new_samples else ""))
         if timeline.limits:
@@ -251,13 +318,13 @@ class PlotPane(Pane):
         """Ask where the picture goes."""
         self.ask_file("save picture to (.txt .html)", "plot.html", self._save_picture)
 
-    def _save_samples(self, path: Path) -> str:
+    def _save_samples(self, path: Path) -> Answer:
         from bot_console.tui.panes.plot.save import samples
 
-        return f"{samples(path, self._timeline.curves)} samples saved to {path}"
+        return Answer(True, f"{samples(path, self._timeline.curves)} samples saved to {path}")
 
-    def _save_picture(self, path: Path) -> str:
+    def _save_picture(self, path: Path) -> Answer:
         from bot_console.tui.panes.plot.save import picture
 
         picture(path, self._timeline.curves, self._timeline.axes(120))
-        return f"picture saved to {path}"
+        return Answer(True, f"picture saved to {path}")

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from bot_console.tui.console.model import Change
 from bot_console.tui.console.protocol import Console
+from bot_console.tui.format import value_text
 
 if TYPE_CHECKING:
     from bot_console.tui.panes.plot.curves import Curve
@@ -39,6 +40,8 @@ class Timeline:
         self.limits: tuple[float, float] | None = None
         self.paused_at: float | None = None
         self.new_samples = 0
+        self.cursor: float | None = None
+        """The moment that is looked at, s."""
 
     def add(self, path: str) -> None:
         """One more curve, in the first free colour."""
@@ -73,7 +76,30 @@ class Timeline:
             return
         from bot_console.tui.panes.plot.view import Mark
 
-        self.marks = [Mark(self._console.plot_time(each.stamp), not each.accepted) for each in changes]
+        self.marks = [
+            Mark(self._console.plot_time(each.stamp), not each.accepted, change_text(each)) for each in changes
+        ]
+
+    def look_at(self, stamp: int | None) -> None:
+        """Hold the window so that it shows a moment (ns since the epoch); at None let it follow again."""
+        if stamp is None:
+            self.cursor = self.paused_at = None
+            self.new_samples = 0
+            return
+        if self.paused_at is None:
+            self.pause()
+        self.cursor = self._console.plot_time(stamp)
+        end = self.paused_at or 0.0
+        edge = self.window / 20
+        if not end - self.window + edge <= self.cursor <= end - edge:
+            self.paused_at = self.cursor + self.window / 2
+
+    def next_mark(self, step: int) -> float | None:
+        """The time of the next mark after the cursor, or before it; None where there is none."""
+        times = sorted({each.time for each in self.marks})
+        at = self.cursor if self.cursor is not None else self.newest()
+        later = [each for each in times if (each > at if step > 0 else each < at)]
+        return None if not later else later[0] if step > 0 else later[-1]
 
     def pause(self) -> None:
         """Hold the window where it is, or let it follow again."""
@@ -100,7 +126,14 @@ class Timeline:
             end = math.floor(self.paused_at / cell) * cell
         else:
             end = math.ceil(self.newest() / step - 1e-6) * step
-        return Axes(end - self.window, end, self.limits)
+        return Axes(end - self.window, end, self.limits, self.cursor)
+
+
+def change_text(change: Change) -> str:
+    """A change in few words: the parameter, its value, and the reason of a refusal."""
+    if not change.accepted:
+        return f"✗ {change.name} {value_text(change.new)}: {change.reason}"
+    return f"▲ {change.name} {value_text(change.old)} → {value_text(change.new)}"
 
 
 def limits_of(text: str) -> tuple[float, float] | None:

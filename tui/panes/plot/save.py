@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from bot_console.tui.files.save_file import save_file
 from bot_console.tui.panes.plot.curves import Curve
 from bot_console.tui.panes.plot.view import Axes
-from bot_console.tui.save_file import save_file
 
 SIZE = (120, 34)
 """Cells of the saved picture."""
@@ -34,7 +34,7 @@ def samples(path: Path, curves: Sequence[Curve]) -> int:
 def picture(path: Path, curves: Sequence[Curve], axes: Axes) -> None:
     """Write what is seen as `.html`, else as plain text; raises `NotSaved`."""
     # plotext takes longer to import than all panes together, and is needed here alone.
-    import plotext  # pyright: ignore[reportMissingTypeStubs]
+    import plotext  # pyright: ignore[reportMissingTypeStubs] -- it has no stubs
 
     kit: Any = plotext
     kit.terminal.limit(False, False)

@@ -22,10 +22,11 @@ HUGE = 1e300
 
 @dataclass(frozen=True)
 class Mark:
-    """A parameter change (or a refusal) on the time axis (s)."""
+    """A parameter change (or a refusal) on the time axis (s), and what it was."""
 
     time: float
     refused: bool = False
+    text: str = ""
 
 
 @dataclass(frozen=True)
@@ -35,6 +36,21 @@ class Axes:
     start: float
     end: float
     limits: tuple[float, float] | None = None
+    cursor: float | None = None
+    """The moment that is looked at."""
+    since: bool = False
+    """Whether times are told from the left edge on, instead of back from now."""
+
+    def column(self, time: float, across: int) -> int | None:
+        """The cell of a moment; None where it is not seen."""
+        if not self.start <= time <= self.end:
+            return None
+        return min(across - 1, int((time - self.start) / (self.end - self.start) * across))
+
+    def marks_at_cursor(self, marks: Sequence[Mark], across: int) -> list[Mark]:
+        """The marks in the cell of the cursor."""
+        at = None if self.cursor is None else self.column(self.cursor, across)
+        return [] if at is None else [each for each in marks if self.column(each.time, across) == at]
 
 
 def framed(curves: Sequence[Curve], marks: Sequence[Mark], axes: Axes, width: int, height: int) -> list[Line]:
@@ -138,18 +154,26 @@ def _time_axis(marks: Sequence[Mark], axes: Axes, across: int) -> list[Line]:
     axis = ["─"] * across
     labels = [" "] * (LABEL + across)
     for count in range(math.floor(span / step + 1e-9) + 1):
-        ago = count * step
+        ago = span - count * step if axes.since else count * step
         column = min(across - 1, round((1 - ago / span) * (across - 1)))
         axis[column] = "┬"
-        text = "now" if ago == 0 else f"-{short_number(ago, step)}s"
+        if axes.since:
+            text = f"{short_number(span - ago, step)}s"
+        else:
+            text = "now" if ago == 0 else f"-{short_number(ago, step)}s"
         begin = min(LABEL + column - len(text) // 2, LABEL + across - len(text))
         if begin >= 0:
             labels[begin : begin + len(text)] = text
     for mark in marks:
-        if axes.start <= mark.time <= axes.end:
-            column = min(across - 1, int((mark.time - axes.start) / span * across))
+        if (column := axes.column(mark.time, across)) is not None:
             axis[column] = "✗" if mark.refused else ("▲" if axis[column] != "✗" else "✗")
-    return [((" " * (LABEL - 1) + "╰" + "".join(axis), "dim"),), (("".join(labels), "dim"),)]
+    edge = " " * (LABEL - 1) + "╰"
+    at = None if axes.cursor is None else axes.column(axes.cursor, across)
+    if at is None:
+        line: Line = ((edge + "".join(axis), "dim"),)
+    else:
+        line = ((edge + "".join(axis[:at]), "dim"), ("◆", "accent"), ("".join(axis[at + 1 :]), "dim"))
+    return [line, (("".join(labels), "dim"),)]
 
 
 def legend(curve: Curve, axes: Axes, width: int, chosen: bool) -> Line:

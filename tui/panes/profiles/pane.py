@@ -8,12 +8,18 @@ from functools import partial
 from typing import Any
 
 from bot_console.tui import keymap
-from bot_console.tui.console.model import ConsoleSnapshot, Profile, ProfileDifference, SetOutcome
+from bot_console.tui.console.model import ConsoleSnapshot, ProcessState, Profile, ProfileDifference, SetOutcome
+from bot_console.tui.console.parameters.node_keys import means
 from bot_console.tui.console.protocol import Answer
+from bot_console.tui.console.query import Query, parse
 from bot_console.tui.format import counted, value_text
-from bot_console.tui.panes.pane import Pane
+from bot_console.tui.panes.list_pane import ListPane
+from bot_console.tui.panes.pane import answer_of
+from bot_console.tui.panes.profiles.replacement import Replacement
 from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, entries
-from bot_console.tui.widgets.prompt.question import Confirmation
+from bot_console.tui.widgets.prompt.common import wrong_path
+from bot_console.tui.widgets.prompt.line import Prompt
+from bot_console.tui.widgets.prompt.question import Confirmation, Line
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.words import Words
 from textual.app import ComposeResult
@@ -22,14 +28,15 @@ MOST = 6
 """Profiles that are seen at once."""
 
 
-class ProfilesPane(Pane):
+class ProfilesPane(ListPane):
     """Named parameter files, and what each would change now."""
 
     TITLE = "Profiles"
     HELP = (
         "A profile is a ROS parameter file with the settings for one environment. Below the list stands what it would\n"
-        "change, and what would be refused. a sets the values live, all or nothing for each node; w also resets the\n"
-        "simulator into the profile's world."
+        "change, and what would be refused. a sets the values live, all or nothing over all nodes; w also resets the\n"
+        "simulator into the profile's world. o opens any parameter file the same way, S saves what runs as a profile.\n"
+        "A launch profile takes the place of the running system, after a question."
     )
     BINDINGS = keymap.bindings("profiles")
 
@@ -40,6 +47,7 @@ class ProfilesPane(Pane):
         self._outcomes: dict[tuple[str, str], SetOutcome] = {}
         self._told = ""
         self._held = False
+        self._query = Query()
 
     def compose(self) -> ComposeResult:
         """The profiles, the differences, a line that sums them up."""
@@ -47,6 +55,7 @@ class ProfilesPane(Pane):
         yield Words(id="profile-head")
         yield DifferenceRows()
         yield Words(id="profile-status")
+        yield Prompt(id="profile-prompt")
 
     @property
     def _list(self) -> ProfileRows:
@@ -60,17 +69,30 @@ class ProfilesPane(Pane):
         """Take new profiles in, and work the differences out anew when a parameter has changed."""
         before, self._snapshot = self._snapshot, snapshot
         shown = self._list
-        if shown.show(snapshot):
+        if self._take_in():
             shown.styles.height = max(1, min(len(snapshot.profiles), MOST))
         elif snapshot.parameters is before.parameters and snapshot.problem == before.problem:
             return
         self._compare()
 
+    def _take_in(self) -> bool:
+        """Show the profiles that pass the filter; whether these are others than before."""
+        every = self._snapshot.profiles
+        there = [each for each in every if self._query.matches(f"{each.name} {each.title} {each.world} {each.path}")]
+        self.tell_filter(len(there), len(every))
+        return self._list.show(there, self._snapshot.active_profile, self._snapshot.profile_changes)
+
+    def filter_is(self, words: str) -> None:
+        """Show the profiles that pass."""
+        self._query = parse(words)
+        if self._take_in():
+            self.action_again()
+
     def _compare(self) -> None:
         profile = self._list.current
         if profile is not None and not self._held:
             self._differences = () if profile.problem else self.console.profile_differences(profile.name)
-        self.query_one(DifferenceRows).show(entries(self._differences, self._outcomes))
+        self.query_one(DifferenceRows).exchange(entries(self._differences, self._outcomes))
         self.query_one("#profile-head", Words).say(self._head(profile))
         self.query_one("#profile-status", Words).say(self._told or self._summary(profile))
 
@@ -81,18 +103,34 @@ class ProfilesPane(Pane):
         return f"{profile.name}{world}  {profile.path}"
 
     def _summary(self, profile: Profile | None) -> str:
+        if profile is None and self._snapshot.profiles:
+            return "Nothing matches the filter; escape takes it away."
         if profile is None:
             return self._snapshot.problem or "No profiles: no parameter files were found."
         if profile.problem:
             return profile.problem
+        if profile.launch:
+            given = " ".join(f"{name}:={value}" for name, value in profile.arguments.items())
+            return f"a launches {profile.launch} {given}".rstrip() + ", in place of what runs"
+        absent = self._absent(profile)
         if not self._differences:
-            running = any(node in self._snapshot.parameters for node, _ in profile.values)
-            return "Nothing to change: the robot runs on these values." if running else "None of its nodes is running."
-        refused = sum(1 for each in self._differences if each.refusal)
+            running = len(absent) < len({key for key, _ in profile.values})
+            said = "Nothing to change: the robot runs on these values." if running else "None of its nodes is running."
+            return f"{said} Not running: {', '.join(absent)}" if absent and running else said
+        unknown = sum(each.unknown for each in self._differences)
+        refused = sum(1 for each in self._differences if each.refusal and not each.unknown)
         reset = any(each.needs_reset for each in self._differences)
-        text = f"{counted(len(self._differences), 'change')}"
+        text = f"{counted(len(self._differences) - unknown, 'change')}"
         text += f", {refused} would be refused" if refused else ""
+        text += f", {unknown} unknown to its node and left out" if unknown else ""
+        text += f", not running: {', '.join(absent)}" if absent else ""
+        text += "; own rules of nodes are asked when it is applied"
         return text + ("; w also resets the simulator into its world" if reset and profile.world else "")
+
+    def _absent(self, profile: Profile) -> list[str]:
+        """The keys of a profile that mean no running node."""
+        keys = dict.fromkeys(key for key, _ in profile.values)
+        return [key for key in keys if not any(means(key, node) for node in self._snapshot.parameters)]
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
         """Another profile: its differences."""
@@ -116,9 +154,16 @@ class ProfilesPane(Pane):
         if profile is None or profile.problem:
             return
         self.action_again()
-        reasons = [f"{each.node} {each.name}: {each.refusal}" for each in self._differences if each.refusal]
+        if profile.launch:
+            self._ask_launch(profile)
+            return
+        reasons = [
+            f"{each.node} {each.name}: {each.refusal}"
+            for each in self._differences
+            if each.refusal and not each.unknown
+        ]
         if reasons:
-            reasons.insert(0, "Would be refused, and with it every value of the same node:")
+            reasons.insert(0, "Would be refused, and with it every other value:")
         reasons += [
             f"⚠ {each.name} {value_text(each.now)} → {value_text(each.then)} {each.unsafe}."
             for each in self._differences
@@ -161,11 +206,67 @@ class ProfilesPane(Pane):
             self._told += "; the simulator was reset" if reset_world else ""
         self._compare()
 
+    def action_open_file(self) -> None:
+        """Ask for a parameter file and show what it would change."""
+        self.ask(Line("parameter file", self._open, check=wrong_path))
+
+    def _open(self, path: str) -> None:
+        answer = self.console.open_profile(path)
+        if not answer.ok:
+            self.notify(answer.text, severity="error", markup=False)
+            return
+        self.set_filter("")
+        self.show(self.console.snapshot())
+        names = [each.name for each in self._list.rows]
+        if answer.text in names:
+            self._list.cursor = names.index(answer.text)
+
+    def action_save_profile(self) -> None:
+        """Ask for a name, then for what the profile is for, and save."""
+        self.ask(Line("save what runs as profile", self._describe_profile, text=self._snapshot.active_profile))
+
+    def _describe_profile(self, name: str) -> None:
+        self.host.call_later(self.ask, Line(f"what {name} is for", partial(self._save_profile, name)))
+
+    def _save_profile(self, name: str, description: str) -> None:
+        self.tell(self.console.save_profile(name.strip(), description))
+
+    def _ask_launch(self, profile: Profile) -> None:
+        """A launch profile takes the place of all that runs."""
+        if self.launcher is None:
+            self.notify("this console was started without a launcher")
+            return
+        running = [each.label for each in self._snapshot.launch.processes if each.state is ProcessState.RUNNING]
+        given = " ".join(f"{name}:={value}" for name, value in profile.arguments.items())
+        reasons = [f"{profile.launch} {given}".rstrip(), "It takes the place of what this console has started:"]
+        reasons += [f"  {each}" for each in running] or ["  nothing"]
+        self.ask(
+            Confirmation(
+                f"Stop them, and launch {profile.name}?",
+                lambda _: self._replace_system(profile),
+                gone=partial(self._gone, profile.name),
+                reasons="\n".join(reasons),
+            )
+        )
+
+    def _replace_system(self, profile: Profile) -> None:
+        launcher = self.launcher
+        if launcher is None:
+            return
+        ended = (ProcessState.EXITED, ProcessState.CRASHED, ProcessState.ABANDONED)
+        keys = [each.key for each in self._snapshot.launch.processes if each.state not in ended]
+        self._told = f"stopping {counted(len(keys), 'process').replace('processs', 'processes')} ..."
+        self._compare()
+        Replacement(launcher, keys, profile, lambda answer: self.host.call_later(self._replaced, answer)).begin()
+
+    def _replaced(self, answer: Answer) -> None:
+        self._told = answer.text
+        self._compare()
+
     def action_undo(self) -> None:
         """Undo the last change made here."""
         self.console.undo().add_done_callback(lambda done: self.host.call_later(self._undone, done))
 
     def _undone(self, done: Future[Answer]) -> None:
-        answer = done.result()
-        self.notify(answer.text, severity="information" if answer.ok else "warning", markup=False)
+        self.tell(answer_of(done))
         self.action_again()

@@ -5,62 +5,64 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from bot_console.tui.console.model import ConsoleSnapshot, Profile, ProfileDifference, SetOutcome, Value
-from bot_console.tui.format import harmless, value_text
-from bot_console.tui.widgets.row_list import RowList
+from bot_console.tui.console.model import Profile, ProfileDifference, SetOutcome, Value
+from bot_console.tui.format import cut, harmless, value_text
+from bot_console.tui.widgets.item_list import ItemList
+from rich.cells import cell_len
 from rich.segment import Segment
 from rich.style import Style
 
+NAME = 16
+"""Cells of the column of profiles, where their names need no more."""
 NAMES = 26
+"""Cells of the column of parameters, where their names need no more."""
 VALUES = 12
+"""Cells of a value, where there is no room for more."""
+NOTE = 12
+"""Cells that are left for what is said about a change."""
 
 
-class ProfileRows(RowList):
+class ProfileRows(ItemList[Profile]):
     """The profiles by name; a dot marks the active one, with the number of its values that the robot does not have."""
 
     def __init__(self) -> None:
         super().__init__()
-        self.profiles: Sequence[Profile] = ()
         self.active = ""
         self.changes = 0
 
-    @property
-    def current(self) -> Profile | None:
-        """The profile at the cursor."""
-        return self.profiles[self.cursor] if self.cursor < len(self.profiles) else None
+    def key(self, item: Profile) -> object:
+        """A profile is its name."""
+        return item.name
 
-    def show(self, snapshot: ConsoleSnapshot) -> bool:
-        """Take new profiles in; whether any came, went or became the active one.
+    def show(self, profiles: Sequence[Profile], active: str, changes: int) -> bool:
+        """Take profiles in; whether any came, went or became the active one.
 
         The cursor goes along with the active profile, so that Enter never means another one by chance.
         """
-        new = snapshot.profiles is not self.profiles or snapshot.active_profile != self.active
+        new = profiles != self.rows or active != self.active
         if new:
-            at = self.current
-            along = at is None or at.name == self.active
-            self.profiles, self.active = snapshot.profiles, snapshot.active_profile
-            self.rows_changed()
-            wanted = self.active if along else at.name if at else ""
-            names = [each.name for each in self.profiles]
-            self.cursor = names.index(wanted) if wanted in names else min(self.cursor, max(0, len(names) - 1))
-        if new or snapshot.profile_changes != self.changes:
-            self.changes = snapshot.profile_changes
+            at, before = self.current, self.active
+            self.active = active
+            self.exchange(profiles)
+            names = [each.name for each in profiles]
+            if (at is None or at.name == before) and active in names:
+                self.cursor = names.index(active)
+        if new or changes != self.changes:
+            self.changes = changes
             self.refresh()
         return new
 
-    def row_count(self) -> int:
-        """How many profiles there are."""
-        return len(self.profiles)
-
     def row(self, index: int, width: int) -> list[Segment]:
         """Mark, name, title or problem."""
-        profile = self.profiles[index]
+        profile = self.rows[index]
         mark = "●" if profile.name == self.active else " "
-        name = f"{mark} {harmless(profile.name)}"
+        longest = max(cell_len(harmless(each.name)) for each in self.rows) + 4
+        room = min(max(longest, NAME), max(NAME, width // 2))
+        name = cut(f"{mark} {harmless(profile.name)}", room - 2)
         style = self.get_component_rich_style("row-list--warn" if profile.problem else "row-list--dim", partial=True)
         changed = f"{self.changes} changed  " if self.changes and profile.name == self.active else ""
         return [
-            Segment(name[:22].ljust(min(16, width))),
+            Segment(name + " " * (room - cell_len(name))),
             Segment(changed, self.get_component_rich_style("row-list--strong", partial=True)),
             Segment(harmless(profile.problem or profile.title), style),
         ]
@@ -79,44 +81,31 @@ class Entry:
     reason: str = ""
 
 
-class DifferenceRows(RowList):
+class DifferenceRows(ItemList[Entry]):
     """What a profile would change, by node."""
 
     can_focus = False
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.entries: Sequence[Entry] = ()
-
-    def show(self, entries: Sequence[Entry]) -> None:
-        """Show these lines from the top."""
-        if entries != self.entries:
-            self.entries = entries
-            self.rows_changed()
-
-    def row_count(self) -> int:
-        """How many lines there are."""
-        return len(self.entries)
 
     def _style(self, name: str) -> Style:
         return self.get_component_rich_style(f"row-list--{name}", partial=True)
 
     def row(self, index: int, width: int) -> list[Segment]:
         """A node, or `name  now → then` with what is to be said about it."""
-        entry = self.entries[index]
+        entry = self.rows[index]
         change = entry.difference
         if entry.reason:
             return [Segment(f"    {harmless(entry.reason)}", self._style("error"))]
         if change is None:
             return [Segment(harmless(entry.node), self._style("head"))]
-        names = min(NAMES, max(12, width // 3))
-        now = harmless(value_text(change.now))[:VALUES] if change.now is not None else "?"
-        then = harmless(value_text(change.then))
+        longest = max(cell_len(harmless(each.difference.name)) for each in self.rows if each.difference) + 4
+        names = max(min(max(longest, NAMES), width - NOTE - 3 * VALUES), 12)
+        now = cut(harmless(value_text(change.now)), VALUES) if change.now is not None else "?"
+        then = cut(harmless(value_text(change.then)), 2 * VALUES)
         note, style = _note(entry, change)
         return [
-            Segment(f"  {harmless(change.name)}"[: names - 1].ljust(names)),
-            Segment(f"{now:>{VALUES}} → ", self._style("dim")),
-            Segment(then[: VALUES * 2].ljust(VALUES), self._style("strong")),
+            Segment(cut(f"  {harmless(change.name)}", names - 2, pad=True) + "  "),
+            Segment(" " * (VALUES - cell_len(now)) + now + " → ", self._style("dim")),
+            Segment(then + " " * (VALUES - cell_len(then)), self._style("strong")),
             Segment(f"  {note}", self._style(style)),
         ]
 
@@ -125,6 +114,8 @@ def _note(entry: Entry, change: ProfileDifference) -> tuple[str, str]:
     outcome = entry.outcome
     if outcome is not None:
         return ("✓ taken", "good") if outcome.accepted else ("✗ refused", "error")
+    if change.unknown:
+        return "unknown to its node, left out", "dim"
     if change.refusal:
         return "✗ would be refused", "error"
     if change.unsafe:
@@ -145,6 +136,6 @@ def entries(
         outcome = outcomes.get((each.node, each.name))
         found.append(Entry(each.node, each, outcome))
         reason = each.refusal if outcome is None else outcome.reason
-        if reason and not (outcome and outcome.accepted):
+        if reason and not each.unknown and not (outcome and outcome.accepted):
             found.append(Entry(each.node, reason=reason))
     return tuple(found)

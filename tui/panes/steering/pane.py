@@ -9,10 +9,24 @@ from typing import Any
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.panes.pane import Pane
-from bot_console.tui.panes.steering.state import DEAD_MAN, DEADMAN_TIMES, LEFT, OWN_REASONS, Steering, greatest_of
+from bot_console.tui.panes.steering.mouse import velocities
+from bot_console.tui.panes.steering.state import (
+    DEAD_MAN,
+    DEADMAN_TIMES,
+    LEFT,
+    Steering,
+    greatest_of,
+    parse_limits,
+    stands_after_steering,
+)
 from bot_console.tui.panes.steering.view import lines
 from bot_console.tui.widgets.picture import Picture
+from bot_console.tui.widgets.prompt.line import Prompt
+from bot_console.tui.widgets.prompt.question import Line
 from textual.app import ComposeResult
+from textual.events import MouseDown, MouseEvent, MouseMove, MouseUp
+
+HELD = "The all-stop holds the robot; see the line below for how it is let go."
 
 
 class SteeringPane(Pane):
@@ -36,10 +50,12 @@ class SteeringPane(Pane):
         self.state = Steering()
         self._snapshot = ConsoleSnapshot()
         self.can_focus = True
+        self._dragging = self._on_pad = False
 
     def compose(self) -> ComposeResult:
-        """One picture."""
+        """One picture, and a line to type limits."""
         yield Picture()
+        yield Prompt(id="steering-prompt")
 
     def focus_target(self) -> None:
         """The pane itself takes the keys."""
@@ -48,10 +64,12 @@ class SteeringPane(Pane):
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Draw what became of the command; the all-stop zeroes it."""
         before, self._snapshot = self._snapshot, snapshot
-        if snapshot.parameters is not before.parameters:
-            self.state.limit(greatest_of(snapshot.parameters.values()))
+        if snapshot.parameters is not before.parameters or snapshot.drive.topic != before.drive.topic:
+            self._limit()
         if snapshot.drive.stopped and not before.drive.stopped and self.state.armed:
             self._steer_no_more()
+        if snapshot.link.silent_s and self.state.armed:
+            self._disarm("Disarmed: the robot does not answer.")
         self._draw()
 
     def _draw(self) -> None:
@@ -60,6 +78,52 @@ class SteeringPane(Pane):
         left = self.state.left(self.clock())
         picture.set_lines(lines(self.state, self._snapshot.drive, left, width, height))
         self.set_class(self.state.armed, "armed")
+
+    def _limit(self) -> None:
+        """The limits that were typed, else those of the robot's parameters."""
+        trees, topic = self._snapshot.parameters.values(), self._snapshot.drive.topic
+        self.state.limit(self.state.typed or greatest_of(trees, topic))
+
+    def action_limits(self) -> None:
+        """Ask for limits."""
+        now = self.state.typed
+        text = f"{now[0]:g} {now[1]:g}" if now else ""
+        self.ask(Line("limits m/s rad/s (empty: the parameters')", self._limits_typed, text=text, check=_wrong_limits))
+
+    def _limits_typed(self, text: str) -> None:
+        self.state.typed = parse_limits(text)
+        self._limit()
+        self._draw()
+
+    def on_mouse_down(self, event: MouseDown) -> None:
+        """Aim at a velocity on a slider, or at both on the pad."""
+        self._dragging = self._aim(event)
+        if self._dragging:
+            self.capture_mouse()
+
+    def on_mouse_move(self, event: MouseMove) -> None:
+        """Aim along."""
+        if self._dragging:
+            self._aim(event)
+
+    def on_mouse_up(self, event: MouseUp) -> None:
+        """Let go: of the pad as of a stick, which goes back to zero."""
+        self.release_mouse()
+        if self._dragging and self._on_pad and self.state.armed:
+            self.action_zero()
+        self._dragging = self._on_pad = False
+
+    def _aim(self, event: MouseEvent) -> bool:
+        picture = self.query_one(Picture)
+        at = event.screen_offset - picture.region.offset
+        found = velocities(picture.lines, at.x, at.y, self.state.greatest)
+        if found is None or not self._ready():
+            return False
+        linear, angular, self._on_pad = found
+        self.state.aim(linear, angular, self.clock())
+        self._send()
+        self._draw()
+        return True
 
     def on_picture_resized(self, event: Picture.Resized) -> None:
         """Draw for the new size."""
@@ -123,7 +187,7 @@ class SteeringPane(Pane):
 
     def _ready(self) -> bool:
         if self._snapshot.drive.stopped:
-            self.notify("The all-stop holds the robot; ! lets it go.", severity="warning")
+            self.notify(HELD, severity="warning")
         elif not self.state.armed:
             self.notify("Steering is not armed; Enter arms it.", severity="warning")
         else:
@@ -139,15 +203,14 @@ class SteeringPane(Pane):
                 "No node subscribes to cmd_vel or cmd_vel_teleop: there is nothing to steer.", severity="warning"
             )
         elif self._snapshot.drive.stopped and not self._own_stop:
-            self.notify("The all-stop holds the robot; ! lets it go.", severity="warning")
+            self.notify(HELD, severity="warning")
         else:
             self._arm()
 
     @property
     def _own_stop(self) -> bool:
         """Whether it was this pane that stopped the robot, so that Enter may take the steering again."""
-        drive = self._snapshot.drive
-        return drive.stop_holder == "this console" and drive.stop_reason in OWN_REASONS
+        return stands_after_steering(self._snapshot.drive)
 
     def _arm(self) -> None:
         """Hold the steering before the lock is released: the robot stands until a key moves it."""
@@ -190,8 +253,26 @@ class SteeringPane(Pane):
         self._send()
         self._draw()
 
+    def action_next_robot(self) -> None:
+        """Steer another robot; what was held is let go first."""
+        drive = self._snapshot.drive
+        if len(drive.robots) < 2:
+            self.notify("No other robot listens for commands.", severity="warning")
+            return
+        self._disarm()
+        at = drive.robots.index(drive.robot) if drive.robot in drive.robots else -1
+        self.console.choose_robot(drive.robots[(at + 1) % len(drive.robots)])
+
     def action_deadman(self) -> None:
         """The next dead-man time."""
         times = DEADMAN_TIMES
         self.state.deadman = times[(times.index(self.state.deadman) + 1) % len(times)]
         self._draw()
+
+
+def _wrong_limits(text: str) -> str:
+    try:
+        parse_limits(text)
+    except ValueError as error:
+        return str(error)
+    return ""

@@ -6,6 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from bot_console.tui.console.model import Kind, ParameterTree
+from bot_console.tui.console.robot.robot_model import DriveInfo
+from bot_console.tui.format import parse_number
 
 STEPS = 20
 """Key presses from standing still to the greatest velocity."""
@@ -17,8 +19,13 @@ GREATEST = (1.0, 3.0)
 """Limits (m/s, rad/s) where no parameter gives any."""
 
 DEAD_MAN, LEFT = "dead-man: no key came", "the steering was left"
-OWN_REASONS = (DEAD_MAN, LEFT)
-"""Why this pane stops the robot; it stands until a person takes the steering again or hands it back."""
+SILENT = "held the steering and fell silent"
+"""Why the robot stops itself when this console was frozen or cut off; see `docs/safety.md`."""
+OWN_REASONS = (DEAD_MAN, LEFT, SILENT)
+"""Why the robot stands after steering, until a person takes the steering again or hands it back."""
+
+MOST = 10.0
+"""The greatest limit that can be typed, m/s and rad/s."""
 
 SPEED_PARAMETER, TURN_PARAMETER = "max_speed", "turn_rate"
 
@@ -33,6 +40,8 @@ class Steering:
     deadman: float = DEADMAN_TIMES[1]
     greatest: tuple[float, float] = GREATEST
     last_key: float = 0.0
+    typed: tuple[float, float] | None = None
+    """Limits that a person has typed, in place of those of the parameters."""
     said_zero: bool = True
     expired: bool = False
     """Whether the dead-man time has run out, and nobody has taken the steering since."""
@@ -66,6 +75,14 @@ class Steering:
         self.linear = _moved(self.linear, linear * steps, self.greatest[0])
         self.angular = _moved(self.angular, angular * steps, self.greatest[1])
 
+    def aim(self, linear: float | None, angular: float | None, now: float) -> None:
+        """Take velocities that were pointed at; None leaves one as it is."""
+        self.last_key, self.expired, self.said_zero = now, False, False
+        if linear is not None:
+            self.linear = round(max(-self.greatest[0], min(linear, self.greatest[0])), 3)
+        if angular is not None:
+            self.angular = round(max(-self.greatest[1], min(angular, self.greatest[1])), 3)
+
     def limit(self, greatest: tuple[float, float]) -> None:
         """Other limits hold: the command stays inside them."""
         self.greatest = greatest
@@ -97,10 +114,31 @@ def _moved(value: float, steps: int, greatest: float) -> float:
     return max(-greatest, min(moved, greatest))
 
 
-def greatest_of(trees: Iterable[ParameterTree]) -> tuple[float, float]:
-    """The limits of speed and turn that the nodes' own parameters give."""
+def stands_after_steering(drive: DriveInfo) -> bool:
+    """Whether the robot stands because of this pane alone, so that one key may take or hand back the steering."""
+    return bool(drive.stops) and all(each.here and each.reason in OWN_REASONS for each in drive.stops)
+
+
+def parse_limits(text: str) -> tuple[float, float] | None:
+    """Limits of speed and turn (m/s, rad/s) from `0.5 1.0`; None for an empty text; raises `ValueError`."""
+    words = text.replace(",", " ").split()
+    if not words:
+        return None
+    if len(words) != 2:
+        raise ValueError("two numbers, such as 0.5 1.0, or nothing for the parameters'")
+    speed, turn = (parse_number(each) for each in words)
+    if not (0 < speed <= MOST and 0 < turn <= MOST):
+        raise ValueError(f"each above 0 and at most {MOST:g}")
+    return speed, turn
+
+
+def greatest_of(trees: Iterable[ParameterTree], topic: str = "") -> tuple[float, float]:
+    """The limits of speed and turn that the parameters of the robot in the topic's namespace give, else of any node."""
     found = {SPEED_PARAMETER: GREATEST[0], TURN_PARAMETER: GREATEST[1]}
-    for tree in trees:
+    space = topic.rpartition("/")[0]
+    every = list(trees)
+    own = [each for each in every if space and each.node.startswith(f"{space}/")]
+    for tree in own or every:
         for parameter in tree.parameters:
             value = parameter.value
             if parameter.name in found and parameter.kind is Kind.DOUBLE and isinstance(value, float) and value > 0:

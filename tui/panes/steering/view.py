@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from bot_console.tui.console.robot_model import DriveInfo
+from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.format import harmless
-from bot_console.tui.panes.steering.state import OWN_REASONS, Steering
+from bot_console.tui.panes.steering.state import Steering, stands_after_steering
+from bot_console.tui.safety.stop_words import held_by
 from bot_console.tui.widgets.picture import Line
 
 BAR = 10
@@ -31,13 +32,15 @@ def lines(state: Steering, drive: DriveInfo, left: float, width: int, height: in
 
 def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
     topic = harmless(drive.topic) or "no robot listens for commands"
+    if len(drive.robots) > 1 and drive.robot in drive.robots:
+        topic += f"  {drive.robots.index(drive.robot) + 1} of {len(drive.robots)}, r steers another"
     if drive.stopped and not drive.stop_confirmed:
         return ((" STOP SENT, NOT CONFIRMED ", "error"), (_unconfirmed(drive), ""))
-    if drive.stopped and drive.stop_holder == "this console" and drive.stop_reason in OWN_REASONS:
+    if drive.stopped and stands_after_steering(drive):
         return ((" STANDS ", "warn"), (" enter steers on, ! hands it back to its program", ""))
     if drive.stopped:
-        who = "" if drive.stop_holder in ("", "this console") else f" by {harmless(drive.stop_holder)}"
-        return ((" ALL STOP ", "error"), (f" the robot is held{who}; ! lets it go", ""))
+        key = "! lets it go" if drive.stopped_here else "! holds it too, once more lets it go"
+        return ((" ALL STOP ", "error"), (f" the robot is held{held_by(drive)}; {key}", ""))
     if state.armed:
         return ((" ● ARMED ", "warn"), (f" keys drive, h hands back  {topic}", "dim"))
     return ((" ○ disarmed ", "dim"), (" enter arms  " if width >= 34 else " ", "strong"), (topic, "dim"))
@@ -111,7 +114,7 @@ def _keys(width: int) -> list[Line]:
         ("w s ↑ ↓", "faster, slower"),
         ("a d ← →", "turn left, right"),
         ("Shift", "ten steps at once"),
-        ("x  z", "zero speed, zero turn"),
+        ("x  c", "zero speed, zero turn"),
         ("space", "stop"),
     )
     return [((f" {keys:<{WORDS}}", "accent"), (text, "dim")) for keys, text in rows] if width >= 30 else []

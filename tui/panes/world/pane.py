@@ -1,4 +1,4 @@
-"""The world pane: map, robot, trail, LIDAR hits."""
+"""The world pane: map, robot, trail, LIDAR hits; or a field of turtles."""
 
 from __future__ import annotations
 
@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.console.robot_model import WorldInfo
+from bot_console.tui.console.robot.robot_model import TurtleField, WorldInfo
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.words import Words
 from textual.app import ComposeResult
 
 if TYPE_CHECKING:
+    from bot_console.tui.panes.world.field import FieldDrawing
     from bot_console.tui.panes.world.view import WorldDrawing
 
 ZOOMS = (1.0, 2.0, 4.0, 8.0)
@@ -30,7 +31,9 @@ class WorldMap(Picture):
         super().__init__()
         self._world = WorldInfo()
         self._drawing: WorldDrawing | None = None
+        self._field_drawing: FieldDrawing | None = None
         self._age = -1
+        self._place = 0
         self.zoom = 1.0
         self.scale = ""
 
@@ -42,10 +45,34 @@ class WorldMap(Picture):
         self._world = replace(world, hits=self._world.hits) if keep else world
         self.draw()
 
+    @property
+    def places(self) -> list[TurtleField | None]:
+        """What can be shown: None for the robot's place, if there is a robot, and each field of turtles."""
+        world = self._world
+        robot: list[TurtleField | None] = [None] if world.pose or world.map or not world.fields else []
+        return robot + list(world.fields)
+
+    @property
+    def field(self) -> TurtleField | None:
+        """The field that is shown; None for the robot's place."""
+        places = self.places
+        return places[self._place % len(places)]
+
+    def next_place(self) -> None:
+        """Show the next one of `places`."""
+        self._place = (self._place + 1) % len(self.places)
+        self.draw()
+
     def draw(self) -> None:
         """Make the lines for the size that there is."""
         width, height = self.size
         if width < 4 or height < 2:
+            return
+        if self.field:
+            from bot_console.tui.panes.world.field import FieldDrawing
+
+            self._field_drawing = self._field_drawing or FieldDrawing()
+            self.set_lines(self._field_drawing.rows(self.field, width, height))
             return
         if self._world == WorldInfo():
             self.set_lines(())
@@ -63,7 +90,10 @@ class WorldPane(Pane):
     """The robot in its world."""
 
     TITLE = "World"
-    HELP = "The map, the robot as an arrow, where it has been, and where its LIDAR beams end. + zooms in, f shows all."
+    HELP = (
+        "The map, the robot as an arrow, where it has been, and where its LIDAR beams end. + zooms in, f shows all. "
+        "A field of turtlesim shows with its turtles and what they draw; n shows the next place."
+    )
     BINDINGS = keymap.bindings("world")
     DEFAULT_CSS = """
     WorldPane #world-facts { height: 1; padding: 0 1; color: $text-muted; background: $surface; }
@@ -102,15 +132,24 @@ class WorldPane(Pane):
 
     def _facts(self) -> None:
         snapshot, world = self._snapshot, self._snapshot.world
-        if world.pose is None and world.map is None:
+        drawn = self.query_one(WorldMap)
+        more = f"  n: next of {len(drawn.places)} places" if len(drawn.places) > 1 else ""
+        if drawn.field:
+            text = _of_turtles(drawn.field) + more
+        elif world.pose is None and world.map is None:
             text = snapshot.capabilities.world or "No map and no pose yet: no node publishes OccupancyGrid or Odometry."
             text = snapshot.problem or text
         else:
             pose = world.pose
             near = "free" if world.nearest is None else f"{world.nearest:.1f} m"
             where = f"x {pose.x:6.1f}  y {pose.y:6.1f}" if pose else "pose unknown"
-            text = f"{where}  {world.speed:+.1f} m/s  nearest {near}  {self.query_one(WorldMap).scale}"
+            text = f"{where}  {world.speed:+.1f} m/s  nearest {near}  {drawn.scale}{more}"
         self.query_one("#world-facts", Words).say(text)
+
+    def action_next_place(self) -> None:
+        """The robot's place, or a field of turtles."""
+        self.query_one(WorldMap).next_place()
+        self._facts()
 
     def action_zoom_map(self, step: int) -> None:
         """Nearer, or farther."""
@@ -126,3 +165,11 @@ class WorldPane(Pane):
         drawn.zoom = 1.0 if drawn.zoom > 1 else 4.0
         drawn.draw()
         self._facts()
+
+
+def _of_turtles(field: TurtleField) -> str:
+    """Where the turtles are, the first ones first: the line may be short."""
+    each = (
+        f"{turtle.name} {turtle.pose.x:.1f}, {turtle.pose.y:.1f} {turtle.speed:.1f} m/s" for turtle in field.turtles
+    )
+    return f"{field.node}: " + "; ".join(each)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from bot_console.tui.console.robot_model import GridMap, Pose, WorldInfo
+from bot_console.tui.console.robot.robot_model import GridMap, Pose, WorldInfo
 from bot_console.tui.widgets.braille import BrailleCanvas, layered
 from bot_console.tui.widgets.picture import Line, Piece
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple, overload
 
 from bot_console.tui.widgets.diagram.flow import RIGHT, Flow
 from bot_console.tui.widgets.diagram.graph import Digraph, Item
@@ -17,8 +18,7 @@ from rich.cells import cell_len
 ATTEMPTS = 6
 
 
-@dataclass(frozen=True)
-class Run:
+class Run(NamedTuple):
     """A piece of a row: where it starts, its text, the item it is part of or the edges whose line it is."""
 
     x: int
@@ -42,7 +42,7 @@ class Place:
 class Drawing:
     """A graph drawn: rows of runs from the left, without overlap, and the place of each item."""
 
-    rows: tuple[tuple[Run, ...], ...] = ()
+    rows: Sequence[tuple[Run, ...]] = ()
     places: Mapping[str, Place] | None = None
     width: int = 0
     edges: tuple[Edge, ...] = ()
@@ -174,7 +174,7 @@ class _Plan:
         boxes = _boxes(places, self.items)
         edge = max([self.at.bottom, *(row + 1 for row in self.lanes.values())])
         width, height = (edge, x) if self.flow.downward else (x, edge)
-        return Drawing(_runs(height, lines, boxes), places, width, (*self.found.forward, *self.found.back))
+        return Drawing(_Rows(height, lines, boxes), places, width, (*self.found.forward, *self.found.back))
 
     def _width(self, column: Iterable[Key]) -> int:
         labels = (self.items[each] for each, kind in column if kind == ITEM)
@@ -193,11 +193,16 @@ class _Plan:
         if trunk.enters is not None:
             start = first - self._gap(trunk.owner, column, widths)
             lines.across(trunk.enters, start, end - 1 if straight else vertical, everything)
-        for row, key in trunk.leaves:
-            own = frozenset({(trunk.owner, key[0])}) if key[1] == ITEM else frozenset(later)
-            origin = trunk.enters if trunk.enters is not None else trunk.down
+        later_edges = frozenset(later)
+        leaves = [
+            (row, key, frozenset({(trunk.owner, key[0])}) if key[1] == ITEM else later_edges)
+            for row, key in trunk.leaves
+        ]
+        origin = trunk.enters if trunk.enters is not None else trunk.down
+        if not straight and origin is not None:
+            lines.branches(vertical, origin, [(row, own) for row, _, own in leaves])
+        for row, key, own in leaves:
             if not straight:
-                lines.down(vertical, origin if origin is not None else row, row, own)
                 lines.across(row, vertical, end - 1, own)
             if key[1] == ITEM:
                 lines.arrow(end - 1, row, own)
@@ -264,11 +269,31 @@ def _centred(text: str, width: int) -> str:
     return " " * (free // 2) + text + " " * (free - free // 2)
 
 
-def _runs(count: int, lines: Lines, boxes: Mapping[int, list[Run]]) -> tuple[tuple[Run, ...], ...]:
-    rows: list[tuple[Run, ...]] = []
-    for y in range(count):
-        runs = list(boxes.get(y, ()))
-        for x, text, edges in lines.row(y):
-            runs.append(Run(x, text, "", edges))
-        rows.append(tuple(sorted(runs, key=lambda run: run.x)))
-    return tuple(rows)
+class _Rows(Sequence[tuple[Run, ...]]):
+    """Rows that are put together when they are looked at: of a large picture few ever are."""
+
+    def __init__(self, count: int, lines: Lines, boxes: Mapping[int, list[Run]]) -> None:
+        self._count = count
+        self._lines = lines
+        self._boxes = boxes
+        self._made: dict[int, tuple[Run, ...]] = {}
+
+    def __len__(self) -> int:
+        return self._count
+
+    @overload
+    def __getitem__(self, index: int, /) -> tuple[Run, ...]: ...
+
+    @overload
+    def __getitem__(self, index: slice, /) -> list[tuple[Run, ...]]: ...
+
+    def __getitem__(self, index: int | slice, /) -> tuple[Run, ...] | list[tuple[Run, ...]]:
+        if isinstance(index, slice):
+            return [self[each] for each in range(*index.indices(self._count))]
+        if not -self._count <= index < self._count:
+            raise IndexError(index)
+        y = index % self._count
+        if y not in self._made:
+            runs = [*self._boxes.get(y, ()), *(Run(x, text, "", edges) for x, text, edges in self._lines.row(y))]
+            self._made[y] = tuple(sorted(runs, key=lambda run: run.x))
+        return self._made[y]

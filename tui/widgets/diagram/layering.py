@@ -62,26 +62,34 @@ def _greedy_order(nodes: Iterable[str], after: Mapping[str, set[str]], gives: Ma
     `gives` decides between equals: the surplus of arrows that leave over arrows that come.
     """
     left = set(nodes)
+    ahead = {each: {one for one in after[each] if one in left} for each in left}
     before: dict[str, set[str]] = {each: set() for each in left}
-    for a, targets in after.items():
+    for a, targets in ahead.items():
         for b in targets:
             before[b].add(a)
     head: list[str] = []
     tail: list[str] = []
+
+    def take(each: str) -> None:
+        left.remove(each)
+        for one in ahead[each]:
+            before[one].discard(each)
+        for one in before[each]:
+            ahead[one].discard(each)
+
     while left:
-        sinks = sorted(each for each in left if not after[each] & left)
-        sources = sorted(each for each in left if not before[each] & left)
+        sources = sorted(each for each in left if not before[each])
+        sinks = [] if sources else sorted(each for each in left if not ahead[each])
         if sources:
             head += sources
-            left -= set(sources)
         elif sinks:
             tail = sinks + tail
-            left -= set(sinks)
         else:
-            surplus = {each: len(after[each] & left) - len(before[each] & left) for each in left}
-            best = min(left, key=lambda each: (-surplus[each], -gives[each], each))
+            best = min(left, key=lambda each: (len(before[each]) - len(ahead[each]), -gives[each], each))
             head.append(best)
-            left.remove(best)
+            sources = [best]
+        for each in sources or sinks:
+            take(each)
     return head + tail
 
 

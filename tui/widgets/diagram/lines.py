@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from bot_console.tui.widgets.diagram.layering import Edge
 
@@ -27,43 +27,89 @@ LETTERS = {
 }
 CROSSING = "┼"
 TURNED = {UP: LEFT, DOWN: RIGHT, LEFT: UP, RIGHT: DOWN}
+TURNS = tuple(sum(turned for stroke, turned in TURNED.items() if strokes & stroke) for strokes in range(16))
+"""Strokes with rows and columns exchanged."""
+BY_STROKES = tuple(LETTERS.get(strokes, " ") for strokes in range(16))
+CROSSED = 16
+"""Instead of strokes: lines of two items meet here."""
+HEAD = 32
+"""Instead of strokes: the head of an arrow."""
+
+Cell = tuple[str, int, frozenset[Edge]]
+"""Whose line it is, its strokes, and the edges it belongs to."""
 
 
 class Lines:
     """Strokes by cell and by the item whose arrows they are; lines of one item join, those of two cross.
 
-    Everything is given for arrows that run to the right; `downward` exchanges rows and columns.
+    Everything is given for arrows that run to the right; `downward` exchanges rows and columns. Cells of one line share
+    one set of edges: a graph of some hundred nodes has a hundred thousand cells.
     """
 
     def __init__(self, downward: bool = False) -> None:
         self._downward = downward
-        self._strokes: dict[int, dict[int, dict[str, int]]] = {}
-        self._edges: dict[tuple[int, int], set[Edge]] = {}
-        self._arrows: set[tuple[int, int]] = set()
+        self._cells: dict[int, dict[int, Cell]] = {}
         self._lanes: dict[str, tuple[int, int, int]] = {}
+        self._unions: dict[tuple[frozenset[Edge], frozenset[Edge]], frozenset[Edge]] = {}
 
-    def _add(self, x: int, y: int, strokes: int, edges: frozenset[Edge]) -> None:
-        if not edges or not strokes:
-            return
+    def _add(self, x: int, y: int, strokes: int, owner: str, edges: frozenset[Edge]) -> None:
         if self._downward:
             x, y = y, x
-            strokes = sum(turned for stroke, turned in TURNED.items() if strokes & stroke)
-        owner = next(iter(edges))[0]
-        cell = self._strokes.setdefault(y, {}).setdefault(x, {})
-        cell[owner] = cell.get(owner, 0) | strokes
-        self._edges.setdefault((x, y), set()).update(edges)
+            strokes = TURNS[strokes] if strokes < CROSSED else strokes
+        row = self._cells.get(y)
+        if row is None:
+            row = self._cells[y] = {}
+        cell = row.get(x)
+        if cell is None:
+            row[x] = owner, strokes, edges
+            return
+        other, before, belongs = cell
+        if HEAD in (before, strokes):
+            strokes = HEAD
+        elif other != owner or before == CROSSED:
+            strokes = CROSSED
+        else:
+            strokes |= before
+        row[x] = owner, strokes, edges if belongs is edges else self._union(belongs, edges)
+
+    def _union(self, a: frozenset[Edge], b: frozenset[Edge]) -> frozenset[Edge]:
+        key = (a, b)
+        found = self._unions.get(key)
+        if found is None:
+            found = self._unions[key] = a if b <= a else b if a <= b else a | b
+        return found
 
     def across(self, y: int, start: int, end: int, edges: frozenset[Edge]) -> None:
         """A horizontal line from `start` to `end`; it ends in the middle of a bend at either place."""
-        for x in range(start, end + 1):
-            left, right = LEFT if x > start else 0, RIGHT if x < end else 0
-            self._add(x, y, left | right, edges)
+        if not edges or start >= end:
+            return
+        owner = next(iter(edges))[0]
+        self._add(start, y, RIGHT, owner, edges)
+        for x in range(start + 1, end):
+            self._add(x, y, LEFT | RIGHT, owner, edges)
+        self._add(end, y, LEFT, owner, edges)
 
     def down(self, x: int, start: int, end: int, edges: frozenset[Edge]) -> None:
         """A vertical line between two rows."""
         top, bottom = min(start, end), max(start, end)
-        for y in range(top, bottom + 1):
-            self._add(x, y, (UP if y > top else 0) | (DOWN if y < bottom else 0), edges)
+        if not edges or top == bottom:
+            return
+        owner = next(iter(edges))[0]
+        self._add(x, top, DOWN, owner, edges)
+        for y in range(top + 1, bottom):
+            self._add(x, y, UP | DOWN, owner, edges)
+        self._add(x, bottom, UP, owner, edges)
+
+    def branches(self, x: int, origin: int, ends: Iterable[tuple[int, frozenset[Edge]]]) -> None:
+        """Vertical lines from one row to many, of one item: each piece belongs to the edges that go on beyond it."""
+        above = sorted((each for each in ends if each[0] < origin), key=lambda each: each[0])
+        below = sorted((each for each in ends if each[0] > origin), key=lambda each: -each[0])
+        for side in (above, below):
+            beyond = frozenset[Edge]()
+            for at, (row, edges) in enumerate(side):
+                beyond = self._union(beyond, edges)
+                nearer = side[at + 1][0] if at + 1 < len(side) else origin
+                self.down(x, row, nearer, beyond)
 
     def lane(self, owner: str, y: int, x: int, edges: frozenset[Edge]) -> None:
         """One more trunk on the way back of an item: draw the line from those before it to this one."""
@@ -74,27 +120,23 @@ class Lines:
 
     def arrow(self, x: int, y: int, edges: frozenset[Edge]) -> None:
         """The head of an arrow."""
-        self._arrows.add((y, x) if self._downward else (x, y))
-        self._add(x, y, LEFT, edges)
+        if edges:
+            self._add(x, y, HEAD, next(iter(edges))[0], edges)
 
     def row(self, y: int) -> Iterator[tuple[int, str, frozenset[Edge]]]:
         """The pieces of one row: where each starts, its text, and the edges it belongs to."""
-        start, text, belongs = 0, "", frozenset[Edge]()
-        for x in sorted(self._strokes.get(y, ())):
-            edges = frozenset(self._edges[x, y])
-            if text and (x != start + len(text) or edges != belongs):
-                yield start, text, belongs
-                text = ""
-            if not text:
+        cells = self._cells.get(y)
+        if not cells:
+            return
+        head = "▼" if self._downward else "▶"
+        start, letters, belongs = 0, list[str](), frozenset[Edge]()
+        for x in sorted(cells):
+            _, strokes, edges = cells[x]
+            if letters and (x != start + len(letters) or (edges is not belongs and edges != belongs)):
+                yield start, "".join(letters), belongs
+                letters = []
+            if not letters:
                 start, belongs = x, edges
-            text += self._letter(x, y)
-        if text:
-            yield start, text, belongs
-
-    def _letter(self, x: int, y: int) -> str:
-        if (x, y) in self._arrows:
-            return "▼" if self._downward else "▶"
-        owners = self._strokes[y][x]
-        if len(owners) > 1:
-            return CROSSING
-        return LETTERS[next(iter(owners.values()))]
+            letters.append(BY_STROKES[strokes] if strokes < CROSSED else CROSSING if strokes == CROSSED else head)
+        if letters:
+            yield start, "".join(letters), belongs

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from bot_console.tui.console.query import parse
-from bot_console.tui.save_file import NotSaved, typed_path
+from bot_console.tui.files.save_file import NotSaved, typed_path
 from bot_console.tui.widgets.prompt.question import Line
 
 
@@ -18,9 +18,9 @@ def wrong_filter(text: str) -> str:
     return ""
 
 
-def filter_line(words: str, apply: Callable[[str], object]) -> Line:
-    """Ask for a filter that is applied while it is typed; giving up takes it away."""
-    return Line("filter", apply, given_up=lambda: apply(""), text=words, check=wrong_filter, typed=apply)
+def filter_line(words: str, apply: Callable[[str], object], then: Callable[[str], object] | None = None) -> Line:
+    """Ask for a filter that is applied while it is typed, `then` called with the last one; giving up takes it away."""
+    return Line("filter", then or apply, given_up=lambda: apply(""), text=words, check=wrong_filter, typed=apply)
 
 
 def file_line(label: str, name: str, then: Callable[[str], object]) -> Line:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
+from bot_console.tui import keymap
 from bot_console.tui.format import harmless
 from bot_console.tui.widgets.prompt.question import Asker, Line
 from textual.app import ComposeResult
+from textual.binding import BindingType
 from textual.containers import Horizontal
-from textual.events import Key
 from textual.suggester import SuggestFromList
 from textual.widget import Widget
 from textual.widgets import Input, Label
@@ -23,6 +26,7 @@ class Prompt(Asker[str], Horizontal):
     Prompt Input:focus { border: none; }
     Prompt .wrong { color: $warning; padding: 0 1; }
     """
+    BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("prompt")]
 
     _line: Line | None = None
     _before: Widget | None = None
@@ -52,7 +56,8 @@ class Prompt(Asker[str], Horizontal):
 
     def _complain(self, text: str) -> str:
         wrong = self._line.check(text) if self._line else ""
-        self.query_one("#prompt-wrong", Label).update(harmless(wrong))
+        said = wrong or (self._line.outlook(text) if self._line else "")
+        self.query_one("#prompt-wrong", Label).update(harmless(said))
         return wrong
 
     def on_input_changed(self, event: Input.Changed) -> None:
@@ -67,11 +72,19 @@ class Prompt(Asker[str], Horizontal):
         if self.is_open and not self._complain(event.value):
             self.answer(event.value)
 
-    def key_escape(self, event: Key) -> None:
-        """Give up; the list that has the keyboard then takes the same key for one of its own, so it ends here."""
-        if self.is_open:
-            event.stop()
+    def on_descendant_blur(self) -> None:
+        """Keep the keyboard when the mouse goes elsewhere in the pane; give up when it goes to another pane."""
+        focused, field = self.screen.focused, self.query_one("#prompt-input", Input)
+        if not self.is_open or focused is None or focused is field:  # nobody has it when the terminal loses it
+            return
+        if self.parent in focused.ancestors:
+            self.screen.set_focus(field)
+        else:
             self.give_up()
+
+    def action_give_up(self) -> None:
+        """Close without an answer."""
+        self.give_up()
 
     def close(self) -> None:
         """Vanish, and give the keyboard back to whom it was taken from."""
@@ -83,3 +96,8 @@ class Prompt(Asker[str], Horizontal):
     def tell(self, why: str) -> None:
         """Say why it closes."""
         self.notify(why, severity="warning", markup=False)
+
+
+def asks(widget: Widget) -> bool:
+    """Whether a prompt is open in a widget: all keys are for the text then."""
+    return any(each.is_open for each in widget.query(Prompt))

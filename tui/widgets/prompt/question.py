@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 from bot_console.tui.console.model import Kind, LaunchArgument, Value
+from bot_console.tui.console.traffic import Payload, Traffic
 
 A = TypeVar("A")
 
@@ -45,6 +46,9 @@ class Line(Question[str]):
     text: str = ""
     check: Callable[[str], str] = _all_well
     """What is wrong with a text, in words; empty when nothing is."""
+
+    outlook: Callable[[str], str] = _all_well
+    """What will come of a text that has nothing wrong with it; said beside the field before it is taken."""
 
     typed: Callable[[str], object] = _nothing
     """Called with each text on the way that has nothing wrong with it."""
@@ -100,6 +104,18 @@ class Elements(Question[Value]):
 
     values: Sequence[bool | int | float | str | bytes] = ()
     kind: Kind = Kind.STRING_ARRAY
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fill(Question[None]):
+    """A message, request or goal to be filled in and sent, as often as the person wants."""
+
+    payload: Payload
+    name: str
+    """Of the topic, service or action."""
+    type: str
+    traffic: Traffic
+    """What sends it."""
 
 
 class Asker(Generic[A]):

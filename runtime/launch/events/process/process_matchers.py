@@ -8,14 +8,18 @@ from typing import Any
 
 def matches_pid(pid: int) -> Callable[[Any], bool]:
     """A predicate: whether an action's process has this number."""
-    return lambda action: (action.process_details or {}).get("pid") == pid
+    return lambda action: _details(action).get("pid") == pid
 
 
 def matches_name(name: str) -> Callable[[Any], bool]:
     """A predicate: whether an action's process has this label."""
-    return lambda action: (action.process_details or {}).get("name") == name
+    return lambda action: _details(action).get("name") == name
 
 
 def matches_executable(executable: str) -> Callable[[Any], bool]:
     """A predicate: whether an action's command begins with this program."""
-    return lambda action: ((action.process_details or {}).get("cmd") or [None])[0] == executable
+    return lambda action: (_details(action).get("cmd") or [None])[0] == executable
+
+
+def _details(action: Any) -> dict[str, Any]:
+    return action.process_details or {}

@@ -9,7 +9,7 @@ import sys
 
 import pytest
 from bot_console.runtime.rmw.zenoh.domain_folder import FolderRefusedError, base_folder, domain_folder
-from bot_console.runtime.rmw.zenoh.session import open_session
+from bot_console.runtime.rmw.zenoh.mesh import open_session
 from bot_console.runtime.rmw.zenoh.sockets import LONGEST_PATH, PathTooLongError
 
 NOBODY = 65534

@@ -1,5 +1,7 @@
 """What comes from other processes: numbers tell what was lost, garbage is dropped and said."""
 
+from types import SimpleNamespace
+
 import pytest
 from bot_console.runtime.process import on_notice
 from bot_console.runtime.rmw.endpoints import Endpoint, NodeId, SubscriptionEndpoint, own, queue_for
@@ -28,7 +30,7 @@ def received():
     subscription = SubscriptionEndpoint(
         endpoint, False, queue_for(QOS), lambda: None, lambda kind, what: events.append((kind, what))
     )
-    return Inlet(None, subscription, "key"), subscription.queue, events
+    return Inlet(SimpleNamespace(lost=0), subscription, "key"), subscription.queue, events
 
 
 def give(inlet, number):

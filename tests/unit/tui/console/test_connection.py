@@ -4,7 +4,7 @@ import itertools
 
 import pytest
 import rclpy
-from bot_console.tui.console import connection
+from bot_console.tui.console import linked_console
 from bot_console.tui.console.connection import RosConsole
 from bot_console.tui.console.graph.watch import GraphWatch
 from rclpy.context import Context
@@ -18,7 +18,7 @@ _domains = itertools.count(8000)
 def domain(monkeypatch):
     number = next(_domains)
     monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
-    monkeypatch.setattr(connection, "LAST_WORD", 0.0)
+    monkeypatch.setattr(linked_console, "LAST_WORD", 0.0)
     return number
 
 
@@ -71,7 +71,6 @@ def test_a_link_that_breaks_says_where_and_refuses_from_then_on(console, idle, m
         raise RuntimeError("the graph is gone")
 
     monkeypatch.setattr(GraphWatch, "look", broken)
-    console._node.node.create_timer(0.0, lambda: GraphWatch.look(None))
     until(lambda: console.snapshot().problem, "the problem")
     assert "the graph is gone" in console.snapshot().problem
     assert "test_connection.py" in console.snapshot().problem

@@ -4,11 +4,11 @@ import itertools
 import math
 
 import pytest
-from bot_console.tui.console import drive_link
-from bot_console.tui.console.drive_link import NO_ARBITER, NO_COMMAND, DriveLink
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.console.robot import drive_link
+from bot_console.tui.console.robot.drive_link import NO_ARBITER, NO_COMMAND, DriveLink
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Twist, TwistStamped
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -162,3 +162,66 @@ def test_the_next_robot_needs_no_arbiter():
     bench.link.drive(1.0, 0.0)
     bench.settle()
     assert bench.got == [("/cmd_vel", 1.0)]
+
+
+STAMPED = "geometry_msgs/msg/TwistStamped"
+
+
+def _robots(*ends: tuple[str, str], clock: bool = False) -> GraphInfo:
+    listened = tuple(Endpoint(topic, (kind,)) for topic, kind in ends)
+    topics = (Endpoint("/clock", ("rosgraph_msgs/msg/Clock",)),) if clock else ()
+    return GraphInfo(nodes=(NodeInfo("/robot", subscriptions=listened),), topics=topics)
+
+
+@pytest.mark.parametrize("simulated", [False, True])
+def test_a_robot_that_wants_stamps_gets_them_and_none_of_ours_in_simulated_time(simulated):
+    bench, got = Bench(), []
+    bench.robot.create_subscription(TwistStamped, "/base/cmd_vel", got.append, 10)
+    bench.link.follow(_robots(("/base/cmd_vel", STAMPED), clock=simulated))
+    bench.link.drive(0.5, -0.25)
+    bench.settle()
+    (message,) = got
+    assert (message.twist.linear.x, message.twist.angular.z) == (0.5, -0.25)
+    assert (message.header.stamp.sec == 0) is simulated
+    bench.settle()
+    assert bench.link.info(None).final == (0.5, -0.25)
+
+
+def test_of_several_robots_one_is_steered_and_all_are_stopped():
+    bench = Bench("/a/cmd_vel", "/bb/cmd_vel", "/elsewhere/velocity")
+    bench.link.follow(_robots(("/bb/cmd_vel", TWIST), ("/a/cmd_vel", TWIST), ("/elsewhere/velocity", TWIST)))
+    info = bench.link.info(None)
+    assert (info.robot, info.robots) == ("/a", ("/a", "/bb", "/elsewhere/velocity"))
+    bench.link.drive(0.5, 0.0)
+    bench.link.choose("/bb")
+    bench.link.drive(0.25, 0.0)
+    bench.settle()
+    assert sorted(bench.got) == [("/a/cmd_vel", 0.0), ("/a/cmd_vel", 0.5), ("/bb/cmd_vel", 0.25)]
+    bench.got.clear()
+    bench.link.stop(True, "ALL STOP")
+    bench.settle()
+    assert set(bench.got) == {("/a/cmd_vel", 0.0), ("/bb/cmd_vel", 0.0)}
+
+
+def test_a_topic_of_another_name_is_driven_only_when_it_is_chosen():
+    bench = Bench("/elsewhere/velocity")
+    bench.link.follow(_robots(("/elsewhere/velocity", TWIST)))
+    bench.link.drive(0.5, 0.0)
+    assert bench.link.info(None).topic == ""
+    bench.link.choose("/elsewhere/velocity")
+    bench.link.drive(0.5, 0.0)
+    bench.link.stop(True, "ALL STOP")
+    bench.settle()
+    assert bench.got[0] == ("/elsewhere/velocity", 0.5)
+    assert set(bench.got[1:]) == {("/elsewhere/velocity", 0.0)}
+
+
+def test_a_robot_that_was_only_looked_at_hears_nothing_when_the_console_leaves():
+    bench = Bench("/cmd_vel")
+    bench.link.close()
+    bench.settle()
+    assert bench.got == []
+    bench.link.drive(0.5, 0.0)
+    bench.link.close()
+    bench.settle()
+    assert bench.got == [("/cmd_vel", 0.5), ("/cmd_vel", 0.0)]

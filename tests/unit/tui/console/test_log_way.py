@@ -7,7 +7,7 @@ from collections import Counter
 
 import pytest
 from bot_console.runtime.importer import install
-from bot_console.tui.cli.session import Launching
+from bot_console.tui.cli.live.launching import Launching
 from bot_console.tui.console.connection import RosConsole
 from bot_console.tui.console.launch.launcher import RosLauncher
 from bot_console.tui.console.model import LogFilter

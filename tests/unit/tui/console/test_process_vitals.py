@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 
 import pytest
-from bot_console.tui.cli.vitals import SystemVitals
+from bot_console.tui.cli.live.vitals import SystemVitals
 from bot_console.tui.console.launch.vitals import Usage
 
 
@@ -14,13 +14,21 @@ class Told:
 
     def __init__(self) -> None:
         self.seconds: float | None = 0.0
+        self.wanted: float | None = None
+        self.stopped = False
         self.bytes: int | None = 20_400_000
 
     def cpu_seconds(self) -> float | None:
         return self.seconds
 
+    def wanted_seconds(self) -> float | None:
+        return self.wanted
+
     def memory_bytes(self) -> int | None:
         return self.bytes
+
+    def is_stopped(self) -> bool:
+        return self.stopped
 
     def hangs_in(self) -> str:
         return ""
@@ -46,6 +54,29 @@ def test_how_long_it_has_not_waited() -> None:
         told.seconds = used
         usage.look(float(second))
     assert usage.busy_s == 1.0
+
+
+def test_one_that_gets_little_of_a_busy_processor_has_not_waited_either() -> None:
+    told = Told()
+    told.wanted = 5.0
+    usage = Usage(told, 0.0)
+    for second, wanted in enumerate((6.0, 7.0, 7.2, 8.2), 1):
+        told.seconds, told.wanted = 0.1 * second, wanted
+        usage.look(float(second))
+    assert (usage.share, usage.busy_s) == (0.1, 1.0)
+
+
+def test_a_frozen_one_is_seen_within_half_a_second() -> None:
+    told = Told()
+    usage = Usage(told, 0.0)
+    told.stopped = True
+    usage.look(0.4)
+    assert not usage.stopped
+    usage.look(0.5)
+    assert usage.stopped
+    told.stopped = False
+    usage.look(1.0)
+    assert not usage.stopped
 
 
 def test_what_nobody_tells_is_not_known() -> None:

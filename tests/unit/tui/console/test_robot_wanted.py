@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 import rclpy
-from bot_console.tui.console.robot_wanted import endpoints, robot_wanted, visible_nodes
+from bot_console.tui.console.robot.robot_wanted import endpoints, robot_wanted, visible_nodes
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from rclpy.context import Context

@@ -6,9 +6,9 @@ import itertools
 from collections.abc import Iterator
 
 import pytest
-from bot_console.tui.console.stop_link import FOLDER, LATCHED, STATUS, StopLink
+from bot_console.tui.console.robot.stop_link import FOLDER, LATCHED, STATUS, StopLink
 from bot_console_robot.emergency_stop import ARBITER, BASE, EmergencyStop
-from diagnostic_msgs.msg import DiagnosticStatus
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from rclpy.clock import Clock, ClockType
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
@@ -68,7 +68,7 @@ def test_it_is_held_when_every_lock_has_said_so(rig: Rig) -> None:
     assert not (rig.link.info.stopped or arbiter.lock.held or base.lock.held)
 
 
-def test_another_console_sees_who_holds_it_and_may_release_it(rig: Rig) -> None:
+def test_another_console_sees_who_holds_it_and_releases_it_by_name_alone(rig: Rig) -> None:
     rig.lock("simulator", BASE, ARBITER)
     other = StopLink(rig.node("other"), "ben")
     rig.settle()
@@ -78,7 +78,44 @@ def test_another_console_sees_who_holds_it_and_may_release_it(rig: Rig) -> None:
     assert (rig.link.info.confirmed, rig.link.info.holder, rig.link.info.reason) == (True, "ben", "my foot")
     rig.link.release()
     rig.settle()
+    assert other.info.stopped, "what another person has stopped stays so"
+    rig.link.release([each.key for each in rig.link.info.stops])
+    rig.settle()
     assert not other.info.stopped
+
+
+def test_two_hold_it_and_each_takes_back_what_is_theirs(rig: Rig) -> None:
+    lock = rig.lock("simulator", BASE, ARBITER)
+    other = StopLink(rig.node("other"), "ben")
+    rig.settle()
+    other.follow([f"{FOLDER}base"])
+    other.stop("my foot")
+    rig.settle()
+    rig.link.stop("the arm swings")
+    assert rig.link.info.stopped and not rig.link.info.confirmed, "held by ben is no answer to us"
+    rig.settle()
+    assert [each.holder for each in rig.link.info.stops] == ["ben", "anna"] and rig.link.info.confirmed
+    other.release()
+    rig.settle()
+    assert lock.lock.held and [each.holder for each in other.info.stops] == ["anna"] and not other.info.here
+    rig.link.release()
+    rig.settle()
+    assert not (lock.lock.held or rig.link.info.stopped)
+
+
+def test_a_lock_that_tells_no_more_than_that_it_is_locked_acknowledges_everybody(rig: Rig) -> None:
+    publisher = rig.node("plain").create_publisher(DiagnosticStatus, "emergency_stop/plain", LATCHED)
+    publisher.publish(DiagnosticStatus(values=[KeyValue(key="locked", value="false")]))
+    rig.settle()
+    rig.link.stop("now")
+    publisher.publish(DiagnosticStatus(values=[KeyValue(key="locked", value="true")]))
+    rig.settle()
+    assert rig.link.info.confirmed and len(rig.link.info.stops) == 1
+    rig.link.release()
+    assert rig.link.releasing, "said again until the lock has heard it"
+    publisher.publish(DiagnosticStatus(values=[KeyValue(key="locked", value="false")]))
+    rig.settle()
+    assert not (rig.link.releasing or rig.link.info.stopped)
 
 
 def test_a_stop_is_repeated_until_a_lock_that_came_late_has_heard_it(rig: Rig) -> None:

@@ -6,6 +6,7 @@ from bot_console.tui.widgets.diagram.drawing import draw
 from bot_console.tui.widgets.diagram.flow import DOWN, RIGHT
 from bot_console.tui.widgets.diagram.graph import Digraph, Item
 from bot_console.tui.widgets.diagram.layering import layers
+from bot_console.tui.widgets.diagram.lines import Lines
 
 
 def graph(*edges: str) -> Digraph:
@@ -72,3 +73,16 @@ def test_lines_of_different_topics_cross_and_never_join() -> None:
         for run in row:
             if run.edges and len({source for source, _ in run.edges}) > 1:
                 assert set(run.text) == {"┼"}
+
+
+def test_a_large_graph_is_drawn_without_sets_of_edges_for_each_cell() -> None:
+    """A topic with hundreds of listeners: the trunk's cells share one set for each piece between two branches."""
+    ends = [(row, frozenset({("hub", f"n{row}")})) for row in range(2, 400, 2)]
+    lines = Lines()
+    lines.branches(5, 0, ends)
+    sets = {id(edges) for row in range(400) for _, _, edges in lines.row(row)}
+    assert len(sets) <= len(ends) + 1
+    single = Lines()
+    for row, edges in ends:
+        single.down(5, 0, row, edges)
+    assert [list(lines.row(row)) for row in range(400)] == [list(single.row(row)) for row in range(400)]

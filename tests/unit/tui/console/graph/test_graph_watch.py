@@ -100,7 +100,7 @@ def test_each_topic_is_asked_about_once(context, node):
 
 
 def test_events_of_the_runtime_lead_to_a_look(context, node):
-    from bot_console.tui.cli.session import graph_events
+    from bot_console.tui.cli.live.session import graph_events
 
     watch = GraphWatch(node, lambda graph: None, graph_events)
     watch.look()

@@ -172,6 +172,19 @@ def test_a_program_that_went_missing_does_not_end_the_launch(bench):
     assert bench.process("waits").state is ProcessState.RUNNING
 
 
+def test_starts_that_are_put_off_are_counted_until_they_have_begun(bench):
+    path = bench.program(WAITS, "waits.py")
+    late = f"Node(executable={path!r})"
+    never = "TimerAction(period=3600.0, actions=[Shutdown()])"
+    event = f"RegisterEventHandler(OnProcessExit(on_exit=[TimerAction(period=3600.0, actions=[{late}])]))"
+    assert bench.run(
+        f"[Node(executable={path!r}), {event}, {never}, TimerAction(period=3600.0, actions=[GroupAction([{late}])]), "
+        f"TimerAction(period=0.01, actions=[{late}])]"
+    ).ok
+    bench.until(lambda: [each.state for each in bench.info.processes] == [ProcessState.RUNNING] * 2, "the second node")
+    bench.until(lambda: bench.info.delayed == 1, "the one that is put off for an hour, and none else")
+
+
 def test_the_tree_names_files_and_groups(bench):
     path = bench.program(WAITS)
     bench.file(f"[Node(executable={path!r}, name='inner')]", "inner.launch.py")
@@ -341,3 +354,25 @@ def test_closing(bench, waiter):
     assert bench.process().state is ProcessState.EXITED
     for answer in (bench.launcher.start(waiter.key), bench.launcher.launch("x", {})):
         assert answer.result(PATIENCE).text == "the console is closing"
+
+
+def test_a_node_that_is_not_here_stands_as_missing_and_the_rest_goes_on(bench):
+    path = bench.program(WAITS, "waits.py")
+    nodes = f"[Node(package='nowhere_cpp', executable='driver', name='d'), Node(executable={path!r}, name='bob')]"
+    assert bench.run(nodes, allow_missing="true").ok
+    bench.until(lambda: len(bench.info.processes) == 2, "both")
+    missing, running = sorted(bench.info.processes, key=lambda each: each.state.value)
+    assert (missing.label, missing.state, missing.group) == (
+        "nowhere_cpp/driver",
+        ProcessState.MISSING,
+        ("system.launch.py",),
+    )
+    assert "package 'nowhere_cpp' not found" in missing.problem and "bot-console compiles nothing" in missing.problem
+    assert running.state is ProcessState.RUNNING
+    refused = bench.do("start", missing)
+    assert not refused.ok and "nowhere_cpp/driver is not here" in refused.text
+
+
+def test_without_that_a_missing_node_ends_the_launch(bench):
+    outcome = bench.run("[Node(package='nowhere_cpp', executable='driver', name='d')]")
+    assert not outcome.ok and "nowhere_cpp" in outcome.text

@@ -12,7 +12,7 @@ import yaml
 from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree, Value
 from bot_console.tui.console.parameters.file import Saved, save
 from bot_console.tui.console.parameters.patch import new_text, patched, same
-from bot_console.tui.save_file import NotSaved
+from bot_console.tui.files.save_file import NotSaved
 
 FILE = """\
 # indoor: slow and careful

@@ -96,3 +96,12 @@ def test_limits_that_make_no_sense_are_refused(text: str) -> None:
 
 def test_limits_are_two_numbers_or_none() -> None:
     assert limits_of("") is None and limits_of("-1 .. 2.5") == (-1.0, 2.5) and limits_of("0, 4") == (0.0, 4.0)
+
+
+@pytest.mark.parametrize(
+    ("value", "shown"),
+    [(3347.0, "3347.00"), (123.456, "123.456"), (99999.0, "99999.0"), (-3347.25, "-3347.2"), (0.5, "0.500")],
+)
+def test_the_legend_writes_numbers_of_many_digits_out(value: float, shown: str) -> None:
+    line = "".join(text for text, _ in legend(curve([value]), Axes(0.0, 2.0), 100, False))
+    assert f" {shown} " in line and "e+" not in line

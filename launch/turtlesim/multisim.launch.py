@@ -1,0 +1,15 @@
+"""Two fields with turtles, each in a namespace of its own."""
+
+from launch_ros.actions import Node
+
+from launch import LaunchDescription
+
+
+def generate_launch_description():
+    """Describe the system."""
+    return LaunchDescription(
+        [
+            Node(namespace=namespace, package="turtlesim", executable="turtlesim_node", output="screen")
+            for namespace in ("turtlesim1", "turtlesim2")
+        ]
+    )

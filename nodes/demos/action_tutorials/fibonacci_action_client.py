@@ -1,0 +1,93 @@
+"""Nodes `fibonacci_action_client`: ask for ten numbers of the sequence, and end with the result."""
+
+from __future__ import annotations
+
+import contextlib
+from dataclasses import dataclass
+from typing import Any
+
+import rclpy
+from action_tutorials_interfaces.action import Fibonacci
+from rclpy.action import ActionClient
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+
+ORDER = 10
+
+
+@dataclass(frozen=True)
+class Words:
+    """What a tutorial's client says; numbers are put after `next` and `result`."""
+
+    accepted: str
+    rejected: str
+    next: str
+    result: str
+    sending: str = ""
+    spaced: bool = False
+    """Whether numbers stand there with blanks between them, not as a list."""
+
+
+PYTHON = Words("Goal accepted :)", "Goal rejected :(", "Received feedback: ", "Result: ")
+CPP = Words(
+    "Goal accepted by server, waiting for result",
+    "Goal was rejected by server",
+    "Next number in sequence received: ",
+    "Result received: ",
+    "Sending goal",
+    spaced=True,
+)
+
+
+class Client(Node):
+    """Sends the goal; `done` when there is a result or a refusal."""
+
+    def __init__(self, words: Words) -> None:
+        super().__init__("fibonacci_action_client")
+        self._words = words
+        self._client = ActionClient(self, Fibonacci, "fibonacci")
+        self.done = False
+
+    def send(self) -> None:
+        """Wait for the server and ask."""
+        self._client.wait_for_server()
+        if self._words.sending:
+            self.get_logger().info(self._words.sending)
+        goal = self._client.send_goal_async(Fibonacci.Goal(order=ORDER), feedback_callback=self._on_feedback)
+        goal.add_done_callback(self._on_answer)
+
+    def _tell(self, text: str, numbers: Any) -> None:
+        listed = " ".join(map(str, numbers)) + " " if self._words.spaced else str(numbers)
+        self.get_logger().info(text + listed)
+
+    def _on_answer(self, answer: Any) -> None:
+        goal = answer.result()
+        self.get_logger().info(self._words.accepted if goal.accepted else self._words.rejected)
+        self.done = not goal.accepted
+        if goal.accepted:
+            goal.get_result_async().add_done_callback(self._on_result)
+
+    def _on_feedback(self, message: Any) -> None:
+        self._tell(self._words.next, message.feedback.partial_sequence)
+
+    def _on_result(self, answer: Any) -> None:
+        self._tell(self._words.result, answer.result().result.sequence)
+        self.done = True
+
+
+def _run(words: Words, args: list[str] | None) -> None:
+    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):
+        client = Client(words)
+        client.send()
+        while not client.done:
+            rclpy.spin_once(client)
+
+
+def main_py(args: list[str] | None = None) -> None:
+    """The one of `action_tutorials_py`."""
+    _run(PYTHON, args)
+
+
+def main_cpp(args: list[str] | None = None) -> None:
+    """The one of `action_tutorials_cpp`."""
+    _run(CPP, args)

@@ -1,0 +1,61 @@
+"""Nodes that add two numbers for others, and clients that ask them once."""
+
+from __future__ import annotations
+
+import contextlib
+from functools import partial
+
+import rclpy
+from bot_console_demos.running import run
+from example_interfaces.srv import AddTwoInts
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+
+
+class Server(Node):
+    """Serves `add_two_ints`."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__(name)
+        self.create_service(AddTwoInts, "add_two_ints", self._add)
+
+    def _add(self, request: AddTwoInts.Request, response: AddTwoInts.Response) -> AddTwoInts.Response:
+        response.sum = request.a + request.b
+        self.get_logger().info(f"Incoming request\na: {request.a} b: {request.b}")
+        return response
+
+
+def _ask(name: str, a: int, b: int, told: str, args: list[str] | None) -> None:
+    """Wait for the server, ask, log what is `told` and the sum, and end."""
+    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException), rclpy.init(args=args):
+        node = rclpy.create_node(name)
+        client = node.create_client(AddTwoInts, "add_two_ints")
+        while not client.wait_for_service(timeout_sec=1.0):
+            node.get_logger().info("service not available, waiting again...")
+        answer = client.call_async(AddTwoInts.Request(a=a, b=b))
+        rclpy.spin_until_future_complete(node, answer)
+        response = answer.result()
+        if response is None:
+            node.get_logger().error(f"service call failed: {answer.exception()}")
+        else:
+            node.get_logger().info(f"Result of add_two_ints: {told}{response.sum}")
+
+
+def serve(args: list[str] | None = None) -> None:
+    """The server of both demo packages."""
+    run(partial(Server, "add_two_ints_server"), args)
+
+
+def ask(args: list[str] | None = None) -> None:
+    """The clients of both demo packages."""
+    _ask("add_two_ints_client", 2, 3, "", args)
+
+
+def serve_minimal(args: list[str] | None = None) -> None:
+    """Both services of `examples_rclpy_minimal_service`."""
+    run(partial(Server, "minimal_service"), args)
+
+
+def ask_minimal(args: list[str] | None = None) -> None:
+    """Every client of `examples_rclpy_minimal_client`."""
+    _ask("minimal_client", 41, 1, "for 41 + 1 = ", args)

@@ -1,0 +1,68 @@
+"""Nodes that log what is said."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from bot_console_demos.running import run
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, qos_profile_sensor_data
+from rclpy.utilities import remove_ros_args
+from std_msgs.msg import String
+
+
+class Listener(Node):
+    """Logs each message, between two brackets or quotes."""
+
+    def __init__(self, name: str, topic: str = "chatter", qos: QoSProfile | int = 10, marks: str = "[]") -> None:
+        super().__init__(name)
+        self._marks = marks
+        self.create_subscription(String, topic, self._on_message, qos)
+
+    def _on_message(self, message: String) -> None:
+        before, after = self._marks
+        self.get_logger().info(f"I heard: {before}{message.data}{after}")
+
+
+class QosListener(Listener):
+    """Says how it subscribes before it begins."""
+
+    def __init__(self, reliable: bool) -> None:
+        super().__init__("listener_qos", qos=10 if reliable else qos_profile_sensor_data)
+        self.get_logger().info("Reliable listener" if reliable else "Best effort listener")
+
+
+class SerializedListener(Node):
+    """Logs each message as the bytes that it travels as."""
+
+    def __init__(self) -> None:
+        super().__init__("serialized_subscriber")
+        self.create_subscription(String, "chatter", self._on_bytes, 10, raw=True)
+
+    def _on_bytes(self, message: bytes) -> None:
+        self.get_logger().info(f'I heard: "{message}"')
+
+
+def main(args: list[str] | None = None) -> None:
+    """The one of both packages."""
+    run(partial(Listener, "listener"), args)
+
+
+def main_best_effort(args: list[str] | None = None) -> None:
+    """The one of `demo_nodes_cpp` that takes what arrives."""
+    run(partial(Listener, "listener", qos=qos_profile_sensor_data), args)
+
+
+def main_qos(args: list[str] | None = None) -> None:
+    """The one of `demo_nodes_py` that takes `--reliable`."""
+    run(partial(QosListener, "--reliable" in remove_ros_args(args)), args)
+
+
+def main_serialized(args: list[str] | None = None) -> None:
+    """The one of `demo_nodes_py` that wants bytes."""
+    run(SerializedListener, args)
+
+
+def main_minimal(args: list[str] | None = None) -> None:
+    """Every subscriber of `examples_rclpy_minimal_subscriber`."""
+    run(partial(Listener, "minimal_subscriber", "topic", marks='""'), args)

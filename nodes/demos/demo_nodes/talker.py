@@ -1,0 +1,72 @@
+"""Nodes that say a greeting again and again; those of C++ count from 1."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+
+from bot_console_demos.running import run
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, qos_profile_sensor_data
+from rclpy.utilities import remove_ros_args
+from std_msgs.msg import String
+
+
+@dataclass(frozen=True)
+class Manner:
+    """How a talker talks; `quote` stands around what it logs, `period` is in s."""
+
+    name: str = "talker"
+    topic: str = "chatter"
+    period: float = 1.0
+    first: int = 0
+    quote: str = '"'
+    qos: QoSProfile | int = 10
+
+
+CPP = Manner(first=1, quote="'", qos=7)
+MINIMAL = Manner("minimal_publisher", "topic", 0.5)
+
+
+class Talker(Node):
+    """Counts greetings."""
+
+    def __init__(self, manner: Manner) -> None:
+        super().__init__(manner.name)
+        self._number, self._quote = manner.first, manner.quote
+        self._messages = self.create_publisher(String, manner.topic, manner.qos)
+        self.create_timer(manner.period, self._tick)
+
+    def _tick(self) -> None:
+        message = String(data=f"Hello World: {self._number}")
+        self._number += 1
+        self.get_logger().info(f"Publishing: {self._quote}{message.data}{self._quote}")
+        self._messages.publish(message)
+
+
+class QosTalker(Talker):
+    """Says how it publishes before it begins."""
+
+    def __init__(self, reliable: bool) -> None:
+        super().__init__(Manner("talker_qos", qos=10 if reliable else qos_profile_sensor_data))
+        self.get_logger().info("Reliable talker" if reliable else "Best effort talker")
+
+
+def main_cpp(args: list[str] | None = None) -> None:
+    """The one of `demo_nodes_cpp`."""
+    run(partial(Talker, CPP), args)
+
+
+def main_py(args: list[str] | None = None) -> None:
+    """The one of `demo_nodes_py`."""
+    run(partial(Talker, Manner()), args)
+
+
+def main_qos(args: list[str] | None = None) -> None:
+    """The one of `demo_nodes_py` that takes `--reliable`."""
+    run(partial(QosTalker, "--reliable" in remove_ros_args(args)), args)
+
+
+def main_minimal(args: list[str] | None = None) -> None:
+    """Every publisher of `examples_rclpy_minimal_publisher`, which differ in how they are written."""
+    run(partial(Talker, MINIMAL), args)

@@ -1,0 +1,1 @@
+"""The package `turtlesim`: turtles that draw, as the first tutorials of ROS 2 want them; no window, no Qt."""

@@ -1,0 +1,71 @@
+"""Single keys from the terminal, without Enter."""
+
+from __future__ import annotations
+
+import os
+import sys
+from types import TracebackType
+from typing import Any
+
+PATIENCE = 0.1
+"""Seconds after which a look for a key gives up."""
+
+
+class NoKeyboard(Exception):
+    """Standard input is no terminal."""
+
+
+class Keyboard:
+    """Gives keys as they are pressed, unseen; use it in a `with`. Raises `NoKeyboard` on the way in."""
+
+    def __enter__(self) -> Keyboard:
+        if sys.stdin is None or not sys.stdin.isatty():
+            raise NoKeyboard
+        if os.name != "nt":
+            import termios
+            import tty
+
+            self._before: Any = termios.tcgetattr(sys.stdin.fileno())
+            tty.setcbreak(sys.stdin.fileno())
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if os.name != "nt":
+            import termios
+
+            termios.tcsetattr(sys.stdin.fileno(), termios.TCSADRAIN, self._before)
+
+    def read(self) -> str:
+        """A byte of what was typed as a letter, so that an arrow is three; empty when nothing came for a while.
+
+        Raises `EOFError` when the terminal is gone.
+        """
+        return _from_windows() if os.name == "nt" else _from_terminal(sys.stdin.fileno())
+
+
+def _from_terminal(file: int) -> str:
+    import select
+
+    if not select.select([file], [], [], PATIENCE)[0]:
+        return ""
+    byte = os.read(file, 1)
+    if not byte:
+        raise EOFError
+    return byte.decode("latin-1")
+
+
+WINDOWS_ARROWS = {"H": "A", "P": "B", "M": "C", "K": "D"}
+"""Second letters of Windows' arrow keys, and those of a terminal's."""
+
+
+def _from_windows() -> str:
+    import time
+
+    keys: Any = __import__("msvcrt")  # its functions are unknown to a type checker on other systems
+    if not keys.kbhit():
+        time.sleep(PATIENCE)
+        return ""
+    key = keys.getwch()
+    return WINDOWS_ARROWS.get(keys.getwch(), "") if key in ("\x00", "\xe0") else key

@@ -1,0 +1,106 @@
+"""How a turtle moves. Pure; step, rounding and walls are those of turtlesim, so that its paths are the same."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+FRAME = 0.016
+"""Seconds of a step."""
+PIXELS = 500
+"""Width and height of the field."""
+METRE = 45.0
+"""Pixels of a metre: the height of a turtle."""
+SIDE = float(np.float32((PIXELS - 1) / METRE))
+"""Width and height of the field in m."""
+COMMAND_LIFE = 1.0
+"""Seconds after which a velocity command is dead."""
+ROTATION_SPEED = 1.0
+"""Turn rate (rad/s) towards the goal of a rotation."""
+ROTATION_TOLERANCE = 0.02
+"""Angle (rad) to the goal at which a rotation is done."""
+PI = 3.14159265
+"""As turtlesim writes it: to the eighth digit, which shows in angles."""
+
+
+def single(value: float) -> float:
+    """A number as a float of 32 bits holds it."""
+    return float(np.float32(value))
+
+
+def normalized(angle: float) -> float:
+    """The same direction between -pi and pi."""
+    return angle - 2.0 * PI * math.floor((angle + PI) / (2.0 * PI))
+
+
+@dataclass
+class Motion:
+    """Place and velocity of a turtle: m from the upper left corner, y downwards; rad counter-clockwise from +x."""
+
+    x: float
+    y: float
+    heading: float
+    forward: float = 0.0
+    sideways: float = 0.0
+    turn: float = 0.0
+
+    @property
+    def position(self) -> tuple[float, float]:
+        """Where the turtle is (m), y upwards, as its pose says."""
+        return self.x, SIDE - self.y
+
+    @property
+    def speed(self) -> float:
+        """How fast it goes (m/s); never negative."""
+        return math.sqrt(self.forward * self.forward + self.sideways * self.sideways)
+
+    def command(self, forward: float, sideways: float, turn: float) -> None:
+        """Move with a velocity (m/s, m/s, rad/s) from the next step on."""
+        self.forward, self.sideways, self.turn = forward, sideways, turn
+
+    def stop(self) -> None:
+        """Stand still."""
+        self.command(0.0, 0.0, 0.0)
+
+    def teleport(self, x: float, y: float, heading: float) -> None:
+        """Be somewhere else at once (m, y upwards, rad); the next step clamps what is outside."""
+        self.x, self.y, self.heading = x, max(0.0, SIDE - y), heading
+
+    def jump(self, distance: float, angle: float) -> None:
+        """Turn by an angle (rad) and go a distance (m) at once."""
+        self.heading += angle
+        self.x += math.cos(self.heading) * distance
+        self.y -= math.sin(self.heading) * distance
+
+    def step(self) -> tuple[float, float] | None:
+        """Move for one frame; where a wall is in the way the place (m, y downwards) that would have been reached."""
+        self.heading = normalized(self.heading + self.turn * FRAME)
+        cosine, sine = math.cos(self.heading), math.sin(self.heading)
+        self.x += cosine * self.forward * FRAME - sine * self.sideways * FRAME
+        self.y -= cosine * self.sideways * FRAME + sine * self.forward * FRAME
+        wanted = self.x, self.y
+        self.x, self.y = (min(max(each, 0.0), SIDE) for each in wanted)
+        return None if (self.x, self.y) == wanted else wanted
+
+
+@dataclass
+class Rotation:
+    """A goal of the action `rotate_absolute`: the direction to face (rad), and where it began."""
+
+    goal: float
+    start: float
+    remaining: float = 0.0
+    delta: float = 0.0
+
+    def drive(self, motion: Motion) -> bool:
+        """Turn the turtle towards the goal; True and a turtle at rest when it faces it."""
+        heading, goal = single(motion.heading), normalized(self.goal)
+        self.remaining = normalized(goal - heading)
+        self.delta = normalized(single(self.start - motion.heading))
+        if abs(normalized(heading - goal)) < ROTATION_TOLERANCE:
+            motion.stop()
+            return True
+        motion.command(0.0, 0.0, math.copysign(ROTATION_SPEED, self.remaining))
+        return False

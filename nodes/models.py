@@ -1,0 +1,36 @@
+"""Makes of robot whose names for frames and joints the simulator can take, so that programs written for them fit."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Model:
+    """Names of frames and joints; heights above the ground and the wheel radius in m."""
+
+    footprint: str = "base_footprint"
+    base: str = "base_link"
+    scan: str = "base_scan"
+    imu: str = "imu_link"
+    wheels: tuple[str, str] = ("wheel_left_link", "wheel_right_link")
+    joints: tuple[str, str] = ("wheel_left_joint", "wheel_right_joint")
+    base_height: float = 0.01
+    scan_height: float = 0.17
+    wheel_radius: float = 0.033
+    scan_from_front: bool = False
+    """Whether beam 0 of a full turn looks straight ahead, not to the back."""
+
+
+MODELS = {
+    "plain": Model(),
+    "turtlebot3": Model(scan_from_front=True),
+    "turtlebot4": Model(
+        scan="rplidar_link",
+        wheels=("left_wheel", "right_wheel"),
+        joints=("left_wheel_joint", "right_wheel_joint"),
+        base_height=0.0,
+        wheel_radius=0.0358,
+    ),
+}
+"""By the value of the simulator's parameter `model`."""

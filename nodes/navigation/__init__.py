@@ -1,0 +1,1 @@
+"""Ways over a map, and how to follow them. No ROS here."""

@@ -1,0 +1,74 @@
+"""Velocities that lead along a way, turn in place, or go a distance."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+Point = tuple[float, float]
+Pose = tuple[float, float, float]
+"""m, m, rad."""
+Velocity = tuple[float, float]
+"""m/s, rad/s."""
+
+WAY_POINT = 0.25
+"""Metres from a corner of a way within which the next one is aimed at."""
+TURN_FIRST = 0.6
+"""Angle (rad) to the next point from which on the robot turns in place."""
+GAIN = 2.0
+"""Turn rate for each rad of error (1/s)."""
+
+
+@dataclass(frozen=True)
+class Limits:
+    """How fast (m/s, rad/s), how near a goal counts as reached (m, rad), and how near a thing ahead stops (m)."""
+
+    speed: float = 0.4
+    turn_rate: float = 1.0
+    place: float = 0.15
+    angle: float = 0.1
+    room: float = 0.35
+
+
+def off(wanted: float, is_now: float) -> float:
+    """The angle (rad) from a heading to another one, the shorter way."""
+    return math.remainder(wanted - is_now, 2.0 * math.pi)
+
+
+def turning(error: float, limits: Limits) -> Velocity:
+    """How to turn in place by an angle (rad)."""
+    rate = max(-limits.turn_rate, min(limits.turn_rate, GAIN * error))
+    return 0.0, math.copysign(max(abs(rate), 0.15), error)
+
+
+class WayFollower:
+    """Leads along points, then to a heading."""
+
+    def __init__(self, points: Sequence[Point], heading: float, limits: Limits) -> None:
+        self.points = list(points)
+        self.heading = heading
+        self._limits = limits
+
+    def left(self, pose: Pose) -> float:
+        """Metres of the way that are left."""
+        places = [(pose[0], pose[1]), *self.points]
+        return math.fsum(math.dist(a, b) for a, b in itertools.pairwise(places))
+
+    def velocity(self, pose: Pose, ahead: float) -> Velocity | None:
+        """What to do at a pose with so much room ahead (m); None when the goal is reached."""
+        limits = self._limits
+        while len(self.points) > 1 and math.dist(pose[:2], self.points[0]) < WAY_POINT:
+            self.points.pop(0)
+        if len(self.points) == 1 and math.dist(pose[:2], self.points[0]) < limits.place:
+            self.points.clear()
+        if not self.points:
+            error = off(self.heading, pose[2])
+            return None if abs(error) < limits.angle else turning(error, limits)
+        x, y = self.points[0]
+        error = off(math.atan2(y - pose[1], x - pose[0]), pose[2])
+        if abs(error) > TURN_FIRST:
+            return turning(error, limits)
+        speed = min(limits.speed, math.sqrt(0.8 * max(0.0, self.left(pose))), max(0.0, ahead - limits.room))
+        return speed * math.cos(error), max(-limits.turn_rate, min(limits.turn_rate, GAIN * error))

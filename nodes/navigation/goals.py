@@ -1,0 +1,77 @@
+"""A goal of an action between its server, which waits for it, and the control loop, which drives it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from bot_console_robot.navigation.tasks import Task
+from builtin_interfaces.msg import Duration
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+from rclpy.task import Future
+
+FEEDBACK = 0.2
+"""Seconds between two messages of feedback."""
+PREEMPTED = 1
+"""Error code of a goal that another one took the place of."""
+
+
+class Goal:
+    """A task with the action's goal that it belongs to, if it belongs to one."""
+
+    def __init__(self, task: Task, handle: Any = None) -> None:
+        self.task = task
+        self.preempted = False
+        self.done: Future[int] = Future()
+        self._handle = handle
+        self._began = Clock(clock_type=ClockType.STEADY_TIME).now().nanoseconds * 1e-9
+
+    @property
+    def cancelled(self) -> bool:
+        """Whether somebody has asked to end it."""
+        return self._handle is not None and bool(self._handle.is_cancel_requested)
+
+    def age(self, now: float) -> float:
+        """Seconds since it began."""
+        return now - self._began
+
+    def duration(self, now: float) -> Duration:
+        """The same as a message."""
+        seconds, rest = divmod(int(max(0.0, self.age(now)) * 1e9), 1_000_000_000)
+        return Duration(sec=seconds, nanosec=rest)
+
+    def finish(self) -> None:
+        """Let who waits go on."""
+        if not self.done.done():
+            self.done.set_result(PREEMPTED if self.preempted else self.task.error_code)
+
+    def settle(self) -> None:
+        """Tell the action how it ended."""
+        if self.cancelled and not self.preempted:
+            self._handle.canceled()
+        elif self.preempted or self.task.error_code:
+            self._handle.abort()
+        else:
+            self._handle.succeed()
+
+    def tell(self, message: Any) -> None:
+        """Publish feedback, while the goal is under way."""
+        if not self.done.done():
+            self._handle.publish_feedback(message)
+
+
+async def run_goal(node: Node, goal: Goal, fill: Callable[[], None], message: Any) -> int:
+    """Wait for a goal and tell how it goes meanwhile; its error code. `fill` puts what is known into the feedback."""
+
+    def tell() -> None:
+        fill()
+        goal.tell(message)
+
+    timer = node.create_timer(FEEDBACK, tell, clock=Clock(clock_type=ClockType.STEADY_TIME))
+    try:
+        code = await goal.done
+    finally:
+        node.destroy_timer(timer)
+    goal.settle()
+    return code or 0

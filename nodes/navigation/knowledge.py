@@ -1,0 +1,111 @@
+"""What navigation knows of the place: the map, the robot's pose in it, and the room around."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from bot_console_robot.navigation.driving import Limits, Point, Pose
+from bot_console_robot.navigation.planner import Grid, NoWay, Planner
+from bot_console_robot.navigation.tasks import Seen
+from bot_console_robot.scans import ranges_of
+from bot_console_robot.simulator_messages import heading_of
+from geometry_msgs.msg import PoseWithCovarianceStamped
+from nav_msgs.msg import OccupancyGrid, Odometry
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from sensor_msgs.msg import LaserScan
+
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+CLEARANCE = 0.05
+"""Metres between the hull and what stands there, on ways and ahead."""
+CORRIDOR = 0.25
+"""Half the width (m) of what lies ahead or behind."""
+SCAN_LIFE = 1.0
+"""Seconds after which a scan says nothing any more, and the robot stands."""
+
+
+class Knowledge:
+    """Listens for a node. The pose is `ground_truth` where that is, else odometry; `amcl_pose` tells it on."""
+
+    def __init__(self, node: Node, seconds: Callable[[], float]) -> None:
+        self._node = node
+        self._seconds = seconds
+        self._planner: Planner | None = None
+        self.pose: Pose | None = None
+        self._true = False
+        self._scan: tuple[float, float, float] | None = None
+        node.create_subscription(OccupancyGrid, "map", self._on_map, LATCHED)
+        node.create_subscription(Odometry, "ground_truth", self._on_truth, 10)
+        node.create_subscription(Odometry, "odom", self._on_odometry, 10)
+        node.create_subscription(LaserScan, "scan", self._on_scan, 10)
+        self._told = node.create_publisher(PoseWithCovarianceStamped, "amcl_pose", LATCHED)
+
+    def _on_map(self, message: OccupancyGrid) -> None:
+        meta = message.info
+        flat: Any = np.array(message.data, np.int8)
+        cells: npt.NDArray[np.int8] = flat.reshape(meta.height, meta.width)
+        clearance = float(self._node.get_parameter("robot_radius").value) + CLEARANCE
+        origin = meta.origin.position.x, meta.origin.position.y
+        self._planner = Planner(Grid(cells, meta.resolution, origin), clearance)
+
+    def _on_truth(self, message: Odometry) -> None:
+        self._true = True
+        self._take(message)
+
+    def _on_odometry(self, message: Odometry) -> None:
+        if not self._true:
+            self._take(message)
+
+    def _take(self, message: Odometry) -> None:
+        place = message.pose.pose
+        pose = place.position.x, place.position.y, heading_of(place.orientation)
+        if not all(map(math.isfinite, pose)):
+            return
+        self.pose = pose
+        if self._told.get_subscription_count():
+            told = PoseWithCovarianceStamped()
+            told.header.stamp, told.header.frame_id = message.header.stamp, "map"
+            told.pose.pose = place
+            self._told.publish(told)
+
+    def _on_scan(self, scan: LaserScan) -> None:
+        ranges = ranges_of(scan)
+        angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges))
+        usable = np.isfinite(ranges)
+        along, aside = ranges[usable] * np.cos(angles[usable]), ranges[usable] * np.sin(angles[usable])
+        inside = np.abs(aside) < CORRIDOR
+        ahead = float(np.min(along[inside & (along > 0)], initial=math.inf))
+        behind = float(np.min(-along[inside & (along < 0)], initial=math.inf))
+        self._scan = self._seconds(), ahead, behind
+
+    def seen(self) -> Seen | None:
+        """What there is to go by now; None without a pose. Without a scan of late nothing ahead or behind is free."""
+        if self.pose is None:
+            return None
+        now = self._seconds()
+        fresh = self._scan is not None and now - self._scan[0] < SCAN_LIFE
+        ahead, behind = self._scan[1:] if self._scan is not None and fresh else (0.0, 0.0)
+        return Seen(now, self.pose, ahead, behind)
+
+    def way(self, start: Point, goal: Point) -> list[Point]:
+        """A way over the map; straight on where there is none. Raises `NoWay`."""
+        if self._planner is None:
+            if not all(map(math.isfinite, goal)):
+                raise NoWay("a place is not a finite number")
+            return [goal]
+        return self._planner.way(start, goal)
+
+    def limits(self) -> Limits:
+        """How fast, and how near is near enough, as the parameters say now."""
+
+        def value(name: str) -> float:
+            return float(self._node.get_parameter(name).value)
+
+        return Limits(
+            value("max_speed"), value("max_turn_rate"), value("xy_goal_tolerance"), value("yaw_goal_tolerance"),
+            value("robot_radius") + CLEARANCE,
+        )  # fmt: skip

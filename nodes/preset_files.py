@@ -1,0 +1,109 @@
+"""Presets as ROS parameter files in one folder: listed, read, written and deleted by name."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, TypeAlias, cast
+
+import yaml
+
+Values: TypeAlias = "dict[str, dict[str, Any]]"
+"""Values by node (fully qualified name) and parameter."""
+
+KEYWORD = "ros__parameters"
+_NAME = re.compile(r"\w[\w .+-]*")
+
+
+class PresetError(Exception):
+    """A preset that cannot be had or kept; the text says why and how to mend it."""
+
+
+def default_folder() -> Path:
+    """The folder of the user's profiles on Linux, which the console shows and saves to."""
+    given = os.environ.get("BOT_CONSOLE_USER_DIR")
+    home = os.environ.get("XDG_CONFIG_HOME") or os.path.expanduser("~/.config")
+    return (Path(given) / "config" if given else Path(home) / "bot-console") / "profiles"
+
+
+def names(folder: Path) -> list[str]:
+    """The presets of a folder."""
+    return sorted(path.stem for path in folder.glob("*.yaml"))
+
+
+def title(folder: Path, name: str) -> str:
+    """The first comment line of a preset; empty where there is none."""
+    try:
+        first = _path(folder, name).read_text(encoding="utf-8").partition("\n")[0]
+    except (OSError, UnicodeDecodeError):
+        return ""
+    return first[1:].strip() if first.startswith("#") else ""
+
+
+def read(folder: Path, name: str) -> Values:
+    """The values of a preset, dotted names for nested ones; raises `PresetError`."""
+    path = _path(folder, name)
+    try:
+        data = yaml.safe_load(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        there = ", ".join(names(folder)) or "none"
+        raise PresetError(f"there is no preset '{name}'; there are: {there}") from None
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        raise PresetError(f"{path} cannot be read: {error}") from None
+    found: Values = {}
+    _collect(found, "", data)
+    if not found:
+        raise PresetError(f"{path} sets nothing; a parameter stands below 'node_name: {KEYWORD}:'")
+    return found
+
+
+def write(folder: Path, name: str, values: Mapping[str, Mapping[str, Any]]) -> Path:
+    """Keep values under a name, whole or not at all; raises `PresetError`."""
+    path = _path(folder, name)
+    data = {node: {KEYWORD: dict(sorted(found.items()))} for node, found in sorted(values.items()) if found}
+    temporary = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with temporary.open("w", encoding="utf-8") as file:
+            yaml.safe_dump(data, file, default_flow_style=False, sort_keys=False, allow_unicode=True)
+            file.flush()
+            os.fsync(file.fileno())
+        temporary.replace(path)
+    except OSError as error:
+        temporary.unlink(missing_ok=True)
+        raise PresetError(f"{path} cannot be written: {error.strerror}") from None
+    return path
+
+
+def delete(folder: Path, name: str) -> None:
+    """Delete a preset; raises `PresetError` for one that is not there."""
+    try:
+        _path(folder, name).unlink()
+    except FileNotFoundError:
+        raise PresetError(f"there is no preset '{name}'; there are: {', '.join(names(folder)) or 'none'}") from None
+    except OSError as error:
+        raise PresetError(f"preset '{name}' cannot be deleted: {error.strerror}") from None
+
+
+def _path(folder: Path, name: str) -> Path:
+    if not _NAME.fullmatch(name):
+        raise PresetError(f"'{name}' is no name for a preset: letters, digits, blanks, . + - _")
+    return folder / f"{name}.yaml"
+
+
+def _collect(found: Values, space: str, data: Any) -> None:
+    for key, below in cast("dict[Any, Any]", data).items() if isinstance(data, dict) else ():
+        if key == KEYWORD:
+            _flatten(found.setdefault(space, {}), "", below)
+        else:
+            _collect(found, f"{space}/{str(key).strip('/')}", below)
+
+
+def _flatten(found: dict[str, Any], prefix: str, data: Any) -> None:
+    for key, value in cast("dict[Any, Any]", data).items() if isinstance(data, dict) else ():
+        if isinstance(value, dict):
+            _flatten(found, f"{prefix}{key}.", value)
+        else:
+            found[f"{prefix}{key}"] = value

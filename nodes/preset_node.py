@@ -1,0 +1,165 @@
+#!/usr/bin/env python3
+"""Node `presets`: lists, saves, applies and deletes sets of parameters of other nodes, for any client.
+
+Services: `~/list` (`std_srvs/srv/Trigger`; a line for each preset), and `~/apply`, `~/save`, `~/delete`
+(`diagnostic_msgs/srv/AddDiagnostics`, whose one text, `load_namespace`, is the name of the preset).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from bot_console_robot import preset_files
+from bot_console_robot.parameters import plain
+from bot_console_robot.preset_files import PresetError
+from bot_console_robot.running import run
+from diagnostic_msgs.srv import AddDiagnostics
+from rcl_interfaces.msg import ParameterDescriptor
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.node import Node
+from rclpy.parameter import Parameter, parameter_value_to_python
+from rclpy.parameter_client import AsyncParameterClient
+from std_srvs.srv import Trigger
+
+LEFT_OUT = ("use_sim_time", "start_type_description_service")
+"""What every node has and no preset is about."""
+
+
+class Presets(Node):
+    """Sets are applied all or nothing: where a node refuses, those that had taken their values are put back."""
+
+    def __init__(self) -> None:
+        super().__init__("presets")
+        self.declare_parameter(
+            "folder", str(preset_files.default_folder()), plain("Folder with a file for each preset")
+        )
+        self.declare_parameter(
+            "nodes",
+            descriptor=ParameterDescriptor(description="Nodes that save asks; empty: all that have parameters"),
+            value=[""],
+        )
+        self._group = ReentrantCallbackGroup()
+        self._clients: dict[str, AsyncParameterClient] = {}
+        self.create_service(Trigger, "~/list", self._list)
+        for name, callback in (("apply", self._apply), ("save", self._save), ("delete", self._delete)):
+            self.create_service(AddDiagnostics, f"~/{name}", callback, callback_group=self._group)
+
+    @property
+    def _folder(self) -> Path:
+        return Path(str(self.get_parameter("folder").value)).expanduser()
+
+    def _list(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        found = preset_files.names(self._folder)
+        lines = [f"{name}: {title}" if (title := preset_files.title(self._folder, name)) else name for name in found]
+        response.success, response.message = True, "\n".join(lines)
+        return response
+
+    async def _apply(
+        self, request: AddDiagnostics.Request, response: AddDiagnostics.Response
+    ) -> AddDiagnostics.Response:
+        name = request.load_namespace
+        try:
+            count = await self._set_all(preset_files.read(self._folder, name))
+            return self._answered(response, True, f"preset {name}: {count} values set")
+        except PresetError as error:
+            return self._answered(response, False, str(error))
+
+    async def _set_all(self, wanted: preset_files.Values) -> int:
+        """Set the values of all nodes, or of none; raises `PresetError`."""
+        before = {node: await self._values(node, list(values)) for node, values in wanted.items()}
+        for node, values in wanted.items():
+            if missing := [name for name in values if before[node].get(name) is None]:
+                raise PresetError(f"nothing was set: {node} has no parameter {', '.join(missing)}")
+        done: list[str] = []
+        for node, values in wanted.items():
+            reason = await self._set(
+                node, {name: _fitting(value, before[node][name]) for name, value in values.items()}
+            )
+            if reason:
+                stuck = [each for each in reversed(done) if await self._set(each, before[each])]
+                told = f"; {', '.join(stuck)} could not be put back" if stuck else ""
+                raise PresetError(f"nothing was set: {node} refused: {reason}{told}")
+            done.append(node)
+        return sum(map(len, wanted.values()))
+
+    async def _save(
+        self, request: AddDiagnostics.Request, response: AddDiagnostics.Response
+    ) -> AddDiagnostics.Response:
+        try:
+            values = {node: await self._all_values(node) for node in self._nodes()}
+            path = preset_files.write(self._folder, request.load_namespace, values)
+            return self._answered(response, True, f"{sum(map(len, values.values()))} values saved to {path}")
+        except PresetError as error:
+            return self._answered(response, False, str(error))
+
+    def _delete(self, request: AddDiagnostics.Request, response: AddDiagnostics.Response) -> AddDiagnostics.Response:
+        try:
+            preset_files.delete(self._folder, request.load_namespace)
+            return self._answered(response, True, f"preset {request.load_namespace} deleted")
+        except PresetError as error:
+            return self._answered(response, False, str(error))
+
+    def _answered(self, response: AddDiagnostics.Response, done: bool, text: str) -> AddDiagnostics.Response:
+        if done:
+            self.get_logger().info(text)
+        else:
+            self.get_logger().warning(text)
+        response.success, response.message = done, text
+        return response
+
+    def _nodes(self) -> list[str]:
+        """The nodes that are asked: those that were named, else all that others may set parameters of."""
+        chosen = [str(each) for each in self.get_parameter("nodes").value or () if each]
+        if chosen:
+            return [f"/{each.lstrip('/')}" for each in chosen]
+        known = (f"{space.rstrip('/')}/{name}" for name, space in self.get_node_names_and_namespaces())
+        offered = {name for name, _ in self.get_service_names_and_types()}
+        own = self.get_fully_qualified_name()
+        return sorted({each for each in known if f"{each}/set_parameters" in offered and each != own})
+
+    def _client(self, node: str) -> AsyncParameterClient:
+        if node not in self._clients:
+            self._clients[node] = AsyncParameterClient(self, node, callback_group=self._group)
+        client = self._clients[node]
+        if not client.services_are_ready():
+            raise PresetError(f"{node} does not run, or offers no parameter services")
+        return client
+
+    async def _values(self, node: str, names: list[str]) -> dict[str, Any]:
+        """The values of some parameters of a node; None for one that it does not have."""
+        answer = await self._client(node).get_parameters(names)
+        found = [parameter_value_to_python(each) for each in answer.values] if answer else []
+        return dict(zip(names, found or [None] * len(names), strict=False))
+
+    async def _all_values(self, node: str) -> dict[str, Any]:
+        answer = await self._client(node).list_parameters()
+        names = [each for each in answer.result.names if each not in LEFT_OUT] if answer else []
+        values = await self._values(node, names) if names else {}
+        return {name: list(value) if _is_array(value) else value for name, value in values.items() if value is not None}
+
+    async def _set(self, node: str, values: Mapping[str, Any]) -> str:
+        """Set values of one node together; why it refused, empty when it did not."""
+        parameters = [Parameter(name, value=value) for name, value in values.items()]
+        answer = await self._client(node).set_parameters_atomically(parameters)
+        result = answer.result if answer else None
+        return "" if result and result.successful else (result.reason if result else "") or "no reason was given"
+
+
+def _is_array(value: Any) -> bool:
+    return hasattr(value, "__len__") and not isinstance(value, str)
+
+
+def _fitting(value: Any, now: Any) -> Any:
+    """A value as the type that the parameter has: a file's `2` is a double where one is declared."""
+    return float(value) if isinstance(now, float) and type(value) is int else value
+
+
+def main(args: list[str] | None = None) -> None:
+    """Run the node."""
+    run(Presets, args)
+
+
+if __name__ == "__main__":
+    main()

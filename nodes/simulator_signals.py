@@ -1,0 +1,123 @@
+"""What programs written for other robots look for beside scans and odometry: frames, wheels, inertia and battery.
+
+All but the fixed frames is made only while somebody subscribes to it.
+"""
+
+from __future__ import annotations
+
+import math
+
+from bot_console_robot.models import Model
+from bot_console_robot.simulation.geometry import Pose
+from bot_console_robot.simulation.simulation import Simulation
+from bot_console_robot.simulator_messages import MAP, ODOM, quaternion
+from builtin_interfaces.msg import Time
+from geometry_msgs.msg import Quaternion, TransformStamped
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from sensor_msgs.msg import BatteryState, Imu, JointState
+from tf2_msgs.msg import TFMessage
+
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+GRAVITY = 9.81
+FULL_VOLTAGE, EMPTY_VOLTAGE, CAPACITY = 12.6, 11.0, 1.8
+"""V, V, Ah: three lithium cells."""
+LASTS = 9000.0
+"""Seconds until the battery is empty; simulated time, so that a run repeats."""
+BATTERY_EVERY = 20
+"""Poses between two states of the battery: one a second at 20 Hz."""
+
+
+class Signals:
+    """Publishes `/tf`, `/tf_static`, `joint_states`, `imu` and `battery_state` of a simulation."""
+
+    def __init__(self, node: Node, model: Model) -> None:
+        self._model = model
+        self._tf = node.create_publisher(TFMessage, "/tf", 100)
+        self._static = node.create_publisher(TFMessage, "/tf_static", LATCHED)
+        self._joints = node.create_publisher(JointState, "joint_states", 10)
+        self._imu = node.create_publisher(Imu, "imu", 10)
+        self._battery = node.create_publisher(BatteryState, "battery_state", 10)
+        self._angles = [0.0, 0.0]
+        self._speed = 0.0
+        self._stamp = 0
+        self._count = 0
+
+    def begin(self, simulation: Simulation, stamp: Time) -> None:
+        """Tell the frames that stay where they are; a run begins."""
+        model, half = self._model, 0.5 * simulation.drive.limits.wheel_separation
+        wheel = Quaternion(x=-math.sin(math.pi / 4), w=math.cos(math.pi / 4))
+        self._angles, self._speed, self._stamp, self._count = [0.0, 0.0], 0.0, simulation.time_ns, 0
+        frames = [
+            _frame(model.footprint, model.base, stamp, z=model.base_height),
+            _frame(model.base, model.scan, stamp, z=model.scan_height),
+            _frame(model.base, model.imu, stamp),
+        ]
+        for name, side in zip(model.wheels, (half, -half), strict=True):
+            frame = _frame(model.base, name, stamp, y=side, z=model.wheel_radius - model.base_height)
+            frame.transform.rotation = wheel
+            frames.append(frame)
+        self._static.publish(TFMessage(transforms=frames))
+
+    def publish(self, simulation: Simulation, stamp: Time) -> None:
+        """Tell what has changed since the last time."""
+        passed = (simulation.time_ns - self._stamp) * 1e-9
+        self._stamp = simulation.time_ns
+        self._count += 1
+        drive = simulation.drive
+        half = 0.5 * drive.limits.wheel_separation
+        speeds = [(drive.linear + side * drive.angular) / self._model.wheel_radius for side in (-half, half)]
+        self._angles = [angle + speed * passed for angle, speed in zip(self._angles, speeds, strict=True)]
+        if self._tf.get_subscription_count():
+            self._tf.publish(TFMessage(transforms=self._moving(simulation, stamp)))
+        if self._joints.get_subscription_count():
+            joints = JointState(name=list(self._model.joints), position=self._angles, velocity=speeds)
+            joints.header.stamp = stamp
+            self._joints.publish(joints)
+        if self._imu.get_subscription_count():
+            self._imu.publish(self._inertia(simulation, passed, stamp))
+        self._speed = drive.linear
+        if self._count % BATTERY_EVERY == 1 and self._battery.get_subscription_count():
+            self._battery.publish(self._charge(simulation, stamp))
+
+    def _moving(self, simulation: Simulation, stamp: Time) -> list[TransformStamped]:
+        """Where odometry has the robot, and how far it is off: `map` to `odom` puts it right."""
+        told, true = simulation.odometry.pose, simulation.pose
+        turn = math.remainder(true.heading - told.heading, 2.0 * math.pi)
+        cosine, sine = math.cos(turn), math.sin(turn)
+        x, y = true.x - (cosine * told.x - sine * told.y), true.y - (sine * told.x + cosine * told.y)
+        return [_at(MAP, ODOM, Pose(x, y, turn), stamp), _at(ODOM, self._model.footprint, told, stamp)]
+
+    def _inertia(self, simulation: Simulation, passed: float, stamp: Time) -> Imu:
+        message = Imu()
+        message.header.stamp, message.header.frame_id = stamp, self._model.imu
+        message.orientation = quaternion(simulation.odometry.pose.heading)
+        message.angular_velocity.z = simulation.turn_rate
+        message.linear_acceleration.x = (simulation.drive.linear - self._speed) / passed if passed else 0.0
+        message.linear_acceleration.z = GRAVITY
+        return message
+
+    def _charge(self, simulation: Simulation, stamp: Time) -> BatteryState:
+        left = max(0.0, 1.0 - simulation.time_ns * 1e-9 / LASTS)
+        message = BatteryState(present=True, percentage=left, capacity=CAPACITY, design_capacity=CAPACITY)
+        message.header.stamp = stamp
+        message.voltage = EMPTY_VOLTAGE + left * (FULL_VOLTAGE - EMPTY_VOLTAGE)
+        message.charge = left * CAPACITY
+        message.current = -CAPACITY * 3600.0 / LASTS
+        message.power_supply_status = BatteryState.POWER_SUPPLY_STATUS_DISCHARGING
+        message.power_supply_technology = BatteryState.POWER_SUPPLY_TECHNOLOGY_LION
+        return message
+
+
+def _frame(parent: str, child: str, stamp: Time, y: float = 0.0, z: float = 0.0) -> TransformStamped:
+    frame = TransformStamped(child_frame_id=child)
+    frame.header.stamp, frame.header.frame_id = stamp, parent
+    frame.transform.translation.y, frame.transform.translation.z = y, z
+    return frame
+
+
+def _at(parent: str, child: str, pose: Pose, stamp: Time) -> TransformStamped:
+    frame = _frame(parent, child, stamp, pose.y)
+    frame.transform.translation.x = pose.x
+    frame.transform.rotation = quaternion(pose.heading)
+    return frame

@@ -1,0 +1,22 @@
+"""Where the commands are that a ROS installation puts on the path, and which program they call."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sys
+from pathlib import Path
+
+BIN = Path(__file__).resolve().parent / "bin"
+"""`ros2/ros2`, and the programs of rqt in `rqt/`: scripts, `timeout` and `watch` find these, and no shell functions."""
+
+COMMAND_VARIABLE = "BOT_CONSOLE_COMMAND"
+"""Tells them which `bot-console` they are, whatever environment is active where they are called."""
+
+
+def command() -> str:
+    """The path of the `bot-console` that belongs to this program."""
+    called = sys.argv[0] if os.path.basename(sys.argv[0]) == "bot-console" else ""
+    beside = os.path.join(os.path.dirname(sys.executable), "bot-console")
+    found = shutil.which(called) if called else beside if os.access(beside, os.X_OK) else shutil.which("bot-console")
+    return os.path.abspath(found or beside)

@@ -1,0 +1,96 @@
+"""Interface packages beside those of ROS 2's core: some that come along, and those that a person has added.
+
+Both are generated when they are imported, and cost nothing before.
+"""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator, Mapping
+from functools import cache
+from pathlib import Path
+from xml.etree import ElementTree
+
+from bot_console.runtime.user_folders import data_folder
+
+UNVERIFIED = Path(__file__).resolve().parent / "rosidl" / "unverified"
+"""Definitions whose fields were read from public sources, and whose hashes were not compared with ROS 2."""
+KINDS = ("msg", "srv", "action")
+
+
+class NotAdded(Exception):
+    """Interfaces cannot be added; the text says why and how to mend it."""
+
+
+@cache
+def unverified_folders() -> Mapping[str, Path]:
+    """The packages that come along unverified."""
+    return {each.name: each for each in sorted(UNVERIFIED.iterdir()) if each.is_dir()}
+
+
+def added_by_user() -> Mapping[str, Path]:
+    """The packages that `interface add` has kept."""
+    try:
+        return {each.name: each for each in sorted(_kept().iterdir()) if each.is_dir()}
+    except OSError:
+        return {}
+
+
+def _kept() -> Path:
+    return data_folder() / "interfaces"
+
+
+def add(folder: Path) -> dict[str, list[str]]:
+    """Keep the interfaces of each package in a folder or checkout; their names by package. Raises `NotAdded`.
+
+    All definitions are read first, so that a fault in one adds nothing.
+    """
+    from bot_console.runtime.rosidl.sources import EXAMPLES
+    from bot_console.runtime.rosidl.texts import standard_packages
+
+    if not folder.is_dir():
+        raise NotAdded(f"{folder} is no folder; name a package, or a checkout with packages, that define interfaces")
+    found = dict(_packages(folder.resolve()))
+    if not found:
+        raise NotAdded(f"{folder} has no package with definitions: a package.xml with msg/, srv/ or action/ beside it")
+    shared = sorted(set(found) & (set(standard_packages()) - EXAMPLES))
+    if shared:
+        raise NotAdded(f"{', '.join(shared)} comes along and is used by everything; it cannot be replaced")
+    names = {name: _checked(name, place) for name, place in found.items()}
+    for name, place in found.items():
+        target = _kept() / name
+        shutil.rmtree(target, ignore_errors=True)
+        for path in _definitions(place):
+            (target / path.parent.name).mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(path, target / path.parent.name / path.name)
+    return names
+
+
+def _packages(folder: Path) -> Iterator[tuple[str, Path]]:
+    """Names and folders of the packages at or below a folder that define interfaces."""
+    for manifest in sorted(folder.rglob("package.xml")):
+        if any(True for _ in _definitions(manifest.parent)):
+            try:
+                name = ElementTree.parse(manifest).getroot().findtext("name")
+            except (ElementTree.ParseError, OSError) as error:
+                raise NotAdded(f"{manifest}: {error}") from None
+            yield (name or manifest.parent.name).strip(), manifest.parent
+
+
+def _definitions(folder: Path) -> Iterator[Path]:
+    for kind in KINDS:
+        yield from sorted((folder / kind).glob(f"*.{kind}"))
+
+
+def _checked(package: str, folder: Path) -> list[str]:
+    """Names such as `msg/Num` of definitions that can be read; raises `NotAdded` with file and line of a fault."""
+    from bot_console.runtime.rosidl.parse import DefinitionError, parse
+
+    names: list[str] = []
+    for path in _definitions(folder):
+        try:
+            parse(path.read_text(encoding="utf-8"), package, path.parent.name, path.stem, str(path))
+        except (DefinitionError, OSError, UnicodeDecodeError) as error:
+            raise NotAdded(str(error)) from None
+        names.append(f"{path.parent.name}/{path.stem}")
+    return names

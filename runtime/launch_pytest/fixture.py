@@ -1,0 +1,47 @@
+"""`@launch_pytest.fixture`: what a function describes runs as long as the fixture lives."""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import pytest
+
+RUNNING: dict[str, Any] = {}
+"""What runs, by the name of its fixture."""
+_OPTIONS = "_launch_pytest_options"
+
+
+def fixture(decorated: Callable[..., Any] | None = None, *, shutdown_when_idle: bool = True, **options: Any) -> Any:
+    """Make a fixture of a function that returns a launch description, or a sequence that begins with one."""
+    if decorated is None:
+        return functools.partial(fixture, shutdown_when_idle=shutdown_when_idle, **options)
+    name = options.get("name") or decorated.__name__
+
+    def described(*args: Any, **kwargs: Any) -> Iterator[Any]:
+        from launch_pytest.running import Running
+
+        made = decorated(*args, **kwargs)
+        running = Running(made[0] if isinstance(made, (list, tuple)) else made, shutdown_when_idle)
+        RUNNING[name] = running
+        try:
+            yield made
+        finally:
+            del RUNNING[name]
+            running.close()
+
+    described.__name__, described.__doc__, described.__module__ = name, decorated.__doc__, decorated.__module__
+    described.__signature__ = inspect.signature(decorated)  # type: ignore[attr-defined]
+    made = pytest.fixture(**options)(described)
+    setattr(made, _OPTIONS, (name, options.get("scope", "function")))
+    return made
+
+
+def options_of(made: Any) -> tuple[str, str]:
+    """Name and scope of such a fixture; raises `TypeError` for anything else."""
+    if not hasattr(made, _OPTIONS):
+        raise TypeError("pytest.mark.launch takes fixture=..., which has to be made with @launch_pytest.fixture")
+    name, scope = getattr(made, _OPTIONS)
+    return name, scope

@@ -1,0 +1,143 @@
+"""A pytest plugin: a function marked `launch(fixture=...)` runs beside what its fixture describes, or after it.
+
+`shutdown=True` is for after it. A generator runs up to its `yield` beside it and goes on after it; where others use the
+fixture too, what follows the `yield` is a test of its own, which comes last.
+"""
+
+from __future__ import annotations
+
+import inspect
+from typing import Any
+
+import pytest
+from launch_pytest.fixture import RUNNING, options_of
+
+_AFTER = pytest.StashKey[bool]()
+_FIRST = pytest.StashKey[Any]()
+_STARTED = pytest.StashKey[Any]()
+_SUFFIX = "[shutdown_test]"
+
+
+def _is_generator(function: Any) -> bool:
+    return inspect.isgeneratorfunction(function) or inspect.isasyncgenfunction(function)
+
+
+def _running(item: Any) -> Any:
+    mark = item.get_closest_marker("launch")
+    return RUNNING.get(options_of(mark.kwargs.get("fixture"))[0]) if mark else None
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_pycollect_makeitem(collector: Any, name: str, obj: Any) -> Any:
+    """Take functions with the mark, coroutines and generators among them."""
+    own = [each for each in getattr(obj, "pytestmark", []) if each.name == "launch"]
+    marks = [*own, *collector.iter_markers("launch")]
+    if not marks or not inspect.isfunction(obj) or not collector.istestfunction(obj, name):
+        return None
+    fixture, scope = options_of(marks[0].kwargs.get("fixture"))
+    shutdown = bool(marks[0].kwargs.get("shutdown"))
+    if shutdown and _is_generator(obj):
+        raise collector.CollectError(f"{name}: a generator cannot be marked with shutdown=True")
+    pytest.mark.usefixtures(fixture)(obj)
+    items = list(collector._genfunctions(name, obj))
+    for item in items:
+        item.stash[_AFTER] = shutdown
+    return [*items, *_second_halves(collector, name, obj, items)] if scope != "function" else items
+
+
+def _second_halves(collector: Any, name: str, obj: Any, items: list[Any]) -> list[Any]:
+    if not _is_generator(obj):
+        return []
+    halves = list(collector._genfunctions(name, obj))
+    for half, item in zip(halves, items, strict=True):
+        half.name, half._nodeid = half.name + _SUFFIX, half._nodeid + _SUFFIX
+        half.stash[_AFTER], half.stash[_FIRST] = True, item
+        item.stash[_STARTED] = None
+    return halves
+
+
+def pytest_collection_modifyitems(items: list[Any]) -> None:
+    """Within a class or module, what comes after the shutdown comes last."""
+    places: dict[Any, int] = {}
+    for item in items:
+        places.setdefault(item.parent, len(places))
+    if any(item.stash.get(_AFTER, False) for item in items):
+        items.sort(key=lambda item: (places[item.parent], item.stash.get(_AFTER, False)))
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_pyfunc_call(pyfuncitem: Any) -> bool | None:
+    """Run a marked test; leave all others to pytest."""
+    running = _running(pyfuncitem)
+    if running is None:
+        return None
+    if pyfuncitem.stash.get(_AFTER, False):
+        running.shutdown()
+    first = pyfuncitem.stash.get(_FIRST, None)
+    if first is not None:
+        _finish(running, first.stash.get(_STARTED, None))
+        return True
+    names = pyfuncitem._fixtureinfo.argnames
+    made = pyfuncitem.obj(**{name: pyfuncitem.funcargs[name] for name in names})
+    if inspect.iscoroutine(made):
+        running.run(made)
+    elif _is_generator(pyfuncitem.obj):
+        _step(running, made)
+        if _STARTED in pyfuncitem.stash:
+            pyfuncitem.stash[_STARTED] = made
+        else:
+            running.shutdown()
+            _finish(running, made)
+    return True
+
+
+def _step(running: Any, generator: Any) -> None:
+    """Let it run up to its next `yield`; raises `StopIteration` or `StopAsyncIteration` where none is left."""
+    if inspect.isgenerator(generator):
+        next(generator)
+    else:
+        running.run(_next(generator))
+
+
+async def _next(generator: Any) -> None:
+    await anext(generator)
+
+
+def _finish(running: Any, generator: Any) -> None:
+    if generator is None:
+        pytest.skip("the part before the shutdown has failed")
+    try:
+        _step(running, generator)
+    except (StopIteration, StopAsyncIteration):
+        return
+    pytest.fail("launch_pytest: a test has to have one yield", pytrace=False)
+
+
+def _part(request: Any) -> Any:
+    found = _running(request.node)
+    if found is None:
+        raise RuntimeError("this fixture is for tests that are marked launch(fixture=...)")
+    return found
+
+
+@pytest.fixture
+def launch_service(request: Any) -> Any:
+    """The launch service of what runs."""
+    return _part(request).service
+
+
+@pytest.fixture
+def launch_context(launch_service: Any) -> Any:
+    """Its context."""
+    return launch_service.context
+
+
+@pytest.fixture
+def event_loop(request: Any) -> Any:
+    """The loop that it runs in."""
+    return _part(request).loop
+
+
+def pytest_configure(config: Any) -> None:
+    """The marker."""
+    config.addinivalue_line("markers", "launch(fixture, shutdown=False): run beside a launch description, or after it")

@@ -1,0 +1,62 @@
+"""A launch description that runs while tests do, in a thread and a loop of its own."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+from collections.abc import Coroutine
+from concurrent.futures import Future, wait
+from typing import Any
+
+from bot_console.runtime.process.stepping.event_loop import new_event_loop
+from launch_testing.actions.ready import ReadyToTest
+from launch_testing.test_run import entities_of
+
+from launch import LaunchDescription, LaunchService
+
+END_LIMIT = 30.0
+"""Seconds within which a launch ends once it shall."""
+
+
+class Running:
+    """Starts in the constructor and returns when the launch is ready; `close` ends its loop."""
+
+    def __init__(self, description: LaunchDescription, shutdown_when_idle: bool = True) -> None:
+        marks = [each for each in entities_of(description) if isinstance(each, ReadyToTest)]
+        if not marks:
+            marks = [ReadyToTest()]
+            description.add_action(marks[0])
+        ready: Future[None] = Future()
+        for mark in marks:
+            mark._add_callback(lambda: None if ready.done() else ready.set_result(None))
+        self.loop = new_event_loop()
+        self.service = LaunchService(noninteractive=True)
+        self.service.include_launch_description(description)
+        self._thread = threading.Thread(target=self.loop.run_forever, daemon=True)
+        self._thread.start()
+        self._ended = self._submit(self.service.run_async(shutdown_when_idle=shutdown_when_idle))
+        wait((ready, self._ended), return_when="FIRST_COMPLETED")
+        if not ready.done():
+            self.close()
+            raise RuntimeError(f"launch ended before it was ready: {self.service.failure}")
+
+    def _submit(self, work: Coroutine[Any, Any, Any]) -> Future[Any]:
+        return asyncio.run_coroutine_threadsafe(work, self.loop)
+
+    def run(self, work: Coroutine[Any, Any, Any]) -> Any:
+        """The result of a coroutine in the loop of the launch."""
+        return self._submit(work).result()
+
+    def shutdown(self) -> None:
+        """End what runs, and wait for it; the loop goes on."""
+        self.service.shutdown()
+        self._ended.result(END_LIMIT)
+
+    def close(self) -> None:
+        """End all."""
+        try:
+            self.shutdown()
+        finally:
+            self.loop.call_soon_threadsafe(self.loop.stop)
+            self._thread.join(END_LIMIT)
+            self.loop.close()

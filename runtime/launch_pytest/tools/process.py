@@ -1,0 +1,115 @@
+"""Wait for a process that the launch runs: until it starts, ends or has written something.
+
+A check of output may return a bool or assert. The functions that end in `_sync` are for plain tests; the others are for
+coroutines, in the loop of the launch.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable
+from typing import Any
+
+_Check = Callable[[str], Any]
+_PERIOD = 0.02
+"""Seconds between two looks."""
+
+
+def _started(action: Any) -> bool:
+    return "pid" in (action.process_details or {})
+
+
+def _ended(action: Any) -> bool:
+    return action.return_code is not None
+
+
+def _accepts(check: _Check, text: str) -> bool:
+    return check(text) in (None, True)
+
+
+def _fits(check: _Check, read: Callable[[], str]) -> bool:
+    try:
+        return _accepts(check, read())
+    except AssertionError:
+        return False
+
+
+def _wait_sync(condition: Callable[[], bool], timeout: float | None) -> bool:
+    end = None if timeout is None else time.monotonic() + timeout
+    while not condition():
+        if end is not None and time.monotonic() >= end:
+            return False
+        time.sleep(_PERIOD)
+    return True
+
+
+async def _wait(condition: Callable[[], bool], timeout: float | None) -> bool:
+    end = None if timeout is None else time.monotonic() + timeout
+    while not condition():
+        if end is not None and time.monotonic() >= end:
+            return False
+        await asyncio.sleep(_PERIOD)
+    return True
+
+
+def wait_for_start_sync(context: Any, action: Any, timeout: float | None = None) -> bool:
+    """Whether the process starts in time."""
+    return _wait_sync(lambda: _started(action), timeout)
+
+
+async def wait_for_start(context: Any, action: Any, timeout: float | None = None) -> bool:
+    """Whether the process starts in time."""
+    return await _wait(lambda: _started(action), timeout)
+
+
+def wait_for_exit_sync(context: Any, action: Any, timeout: float | None = None) -> bool:
+    """Whether the process ends in time."""
+    return _wait_sync(lambda: _ended(action), timeout)
+
+
+async def wait_for_exit(context: Any, action: Any, timeout: float | None = None) -> bool:
+    """Whether the process ends in time."""
+    return await _wait(lambda: _ended(action), timeout)
+
+
+def wait_for_output_sync(context: Any, action: Any, validate: _Check, timeout: float | None = None) -> bool:
+    """Whether what the process has printed passes in time; in the end an assertion of the check is raised."""
+    return _wait_sync(lambda: _fits(validate, action.get_stdout), timeout) or _accepts(validate, action.get_stdout())
+
+
+async def wait_for_output(context: Any, action: Any, validate: _Check, timeout: float | None = None) -> bool:
+    """Whether what the process has printed passes in time; in the end an assertion of the check is raised."""
+    fits = await _wait(lambda: _fits(validate, action.get_stdout), timeout)
+    return fits or _accepts(validate, action.get_stdout())
+
+
+def wait_for_stderr_sync(context: Any, action: Any, validate: _Check, timeout: float | None = None) -> bool:
+    """The same for what it has written as errors."""
+    return _wait_sync(lambda: _fits(validate, action.get_stderr), timeout) or _accepts(validate, action.get_stderr())
+
+
+async def wait_for_stderr(context: Any, action: Any, validate: _Check, timeout: float | None = None) -> bool:
+    """The same for what it has written as errors."""
+    fits = await _wait(lambda: _fits(validate, action.get_stderr), timeout)
+    return fits or _accepts(validate, action.get_stderr())
+
+
+def assert_output_sync(context: Any, action: Any, validate: _Check, timeout: float | None = None) -> None:
+    """Assert `wait_for_output_sync`."""
+    assert wait_for_output_sync(context, action, validate, timeout), "waiting for output timed out"
+
+
+async def assert_output(context: Any, action: Any, validate: _Check, timeout: float | None = None) -> None:
+    """Assert `wait_for_output`."""
+    assert await wait_for_output(context, action, validate, timeout), "waiting for output timed out"
+
+
+def assert_stderr_sync(context: Any, action: Any, validate: _Check, timeout: float | None = None) -> None:
+    """Assert `wait_for_stderr_sync`."""
+    assert wait_for_stderr_sync(context, action, validate, timeout), "waiting for stderr timed out"
+
+
+async def assert_stderr(context: Any, action: Any, validate: _Check, timeout: float | None = None) -> None:
+    """Assert `wait_for_stderr`."""
+    assert await wait_for_stderr(context, action, validate, timeout), "waiting for stderr timed out"

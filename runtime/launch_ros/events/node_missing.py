@@ -1,0 +1,19 @@
+"""A node was left out, since its executable is not here."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.event import Event
+
+
+class NodeMissing(Event):
+    """The action that was not started, its package and executable, and what brings them; ROS 2 has no such event."""
+
+    name = "launch_ros.events.NodeMissing"
+
+    def __init__(self, *, action: Any, package: str, executable: str, reason: str) -> None:
+        self.action = action
+        self.package = package
+        self.executable = executable
+        self.reason = reason

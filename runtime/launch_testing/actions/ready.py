@@ -1,0 +1,24 @@
+"""`ReadyToTest`: from here on the tests run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from launch.action import Action
+
+
+class ReadyToTest(Action):
+    """Tells that what was described before it has been started."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.__callbacks: list[Callable[[], None]] = []
+
+    def _add_callback(self, callback: Callable[[], None]) -> None:
+        self.__callbacks.append(callback)
+
+    def execute(self, context: Any) -> None:
+        """Tell those who wait."""
+        for callback in self.__callbacks:
+            callback()

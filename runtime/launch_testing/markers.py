@@ -1,0 +1,42 @@
+"""Markers of test descriptions and of tests."""
+
+from __future__ import annotations
+
+import functools
+import time
+from collections.abc import Callable
+from typing import Any
+
+KEEP_ALIVE = "__launch_testing_keep_alive"
+
+
+def keep_alive(test_description: Any) -> Any:
+    """A description without `ReadyToTest` or processes: the tests begin at once, and the launch stays."""
+    setattr(test_description, KEEP_ALIVE, True)
+    return test_description
+
+
+def retry_on_failure(
+    *, times: int | None = None, timeout: float | None = None, delay: float = 0.0
+) -> Callable[..., Any]:
+    """Run a test again while it fails, so many times or so long (s), with `delay` s between."""
+    if times is None and timeout is None:
+        raise ValueError("either times or timeout has to be given")
+
+    def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
+        @functools.wraps(function)
+        def again(*args: Any, **kwargs: Any) -> Any:
+            deadline = None if timeout is None else time.monotonic() + timeout
+            left = times
+            while True:
+                try:
+                    return function(*args, **kwargs)
+                except AssertionError:
+                    left = None if left is None else left - 1
+                    if left == 0 or (deadline is not None and time.monotonic() >= deadline):
+                        raise
+                time.sleep(delay)
+
+        return again
+
+    return decorate

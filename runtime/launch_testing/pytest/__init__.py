@@ -1,0 +1,1 @@
+"""launch_testing under pytest: `-p launch_testing.pytest.plugin`."""

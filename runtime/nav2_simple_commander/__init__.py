@@ -1,0 +1,1 @@
+"""Nav2's goals as method calls, under the names of upstream's package."""

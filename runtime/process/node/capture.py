@@ -1,0 +1,133 @@
+"""Standard output of a node process: a text stream that hands whole lines to a sink."""
+
+from __future__ import annotations
+
+import codecs
+import io
+from _thread import RLock
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from .output_pipe import OutputPipe
+
+Sink = Callable[[str], None]
+"""Takes one line with its newline (the last one may lack it), in the thread that wrote it. Must never block."""
+
+
+class LineCapture(io.TextIOBase):
+    """A text stream as `sys.stdout` is, whose lines go to a sink; whatever threads write, each line stays whole."""
+
+    encoding = "utf-8"
+    errors = "replace"
+    line_buffering = True
+    mode = "w"
+
+    def __init__(self, sink: Sink, name: str = "<stdout>") -> None:
+        self.name = name
+        self.buffer = _ByteSide(self)
+        self._sink = sink
+        self._partial = ""
+        self._lock = RLock()
+        self._pipe: OutputPipe | None = None
+
+    def writable(self) -> bool:
+        """True."""
+        return True
+
+    def isatty(self) -> bool:
+        """False: nobody sees it as it is."""
+        return False
+
+    def write(self, text: str) -> int:
+        """Take text; every line that it completes goes to the sink. Raises `TypeError` for anything but text."""
+        if not isinstance(text, str):  # pyright: ignore[reportUnnecessaryIsInstance] -- node code is not checked
+            raise TypeError(f"write() argument must be str, not {type(text).__name__}")
+        if self._pipe is not None:
+            self._pipe.drain()
+        self._take(text)
+        return len(text)
+
+    def _take(self, text: str) -> None:
+        with self._lock:
+            if self.closed:
+                return
+            *lines, self._partial = (self._partial + text).split("\n")
+            for line in lines:
+                self._sink(line + "\n")
+
+    def reconfigure(self, **_options: Any) -> None:
+        """Accepted and without effect: lines are always handed on at once, as UTF-8."""
+
+    def fileno(self) -> int:
+        """A descriptor for child processes and C code, whose bytes come out here as lines."""
+        with self._lock:
+            if self._pipe is None:
+                if self.closed:
+                    raise ValueError("I/O operation on closed file")
+                from .output_pipe import OutputPipe
+
+                self._pipe = OutputPipe(self._take)
+            return self._pipe.write_end
+
+    def end(self) -> None:
+        """The process has ended: hand on an unfinished last line, and take no more."""
+        pipe, self._pipe = self._pipe, None
+        if pipe is not None:
+            pipe.close()
+        with self._lock:
+            if self._partial and not self.closed:
+                self._sink(self._partial)
+            self._partial = ""
+            super().close()
+
+    def mute(self) -> None:
+        """Take no more, hand on nothing: a killed process prints no last words."""
+        with self._lock:
+            self._partial = ""
+        self.end()
+
+    def flush(self) -> None:
+        """Nothing to do: whole lines are handed on at once."""
+
+    def close(self) -> None:
+        """Keep open: `sys.stdout.close()` by a node, or a garbage collector, must not lose what comes later."""
+
+
+class _NoInput(io.TextIOBase):
+    """Standard input of a node process: at its end, because the keyboard belongs to the console."""
+
+    name = "<stdin>"
+    encoding = "utf-8"
+    errors = "strict"
+
+    def readable(self) -> bool:
+        return True
+
+    def read(self, _size: int | None = -1) -> str:
+        return ""
+
+    def readline(self, _size: int = -1) -> str:  # type: ignore[override] -- narrower than the base, which nobody minds here
+        return ""
+
+
+NO_INPUT = _NoInput()
+
+
+class _ByteSide(io.BufferedIOBase):
+    """`sys.stdout.buffer`: bytes in, text out."""
+
+    def __init__(self, text: LineCapture) -> None:
+        self._text = text
+        self._decode = codecs.getincrementaldecoder("utf-8")(errors="replace").decode
+
+    def writable(self) -> bool:
+        return True
+
+    def fileno(self) -> int:
+        return self._text.fileno()
+
+    def write(self, data: Any) -> int:
+        count = memoryview(data).nbytes
+        self._text.write(self._decode(bytes(data)))
+        return count

@@ -1,0 +1,74 @@
+"""The real process, seen as a node process: nothing in it is virtual."""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable, Iterable
+from functools import partial
+from typing import Any
+
+from ..real_time import RealTime
+from .node_process import NodeProcess
+
+
+class MainProcess(NodeProcess):
+    """What threads belong to that no node process has started; its signals are real ones."""
+
+    def __init__(self, name: str) -> None:
+        super().__init__(name, RealTime())
+        self.pid = os.getpid()
+        self.argv = sys.argv
+        self.env = os.environ
+        self.path = sys.path
+        self._replaced: dict[int, Any] = {}
+
+    @property
+    def is_alive(self) -> bool:
+        """True: this code runs in it."""
+        return True
+
+    def on_interrupt(
+        self, callback: Callable[[int], Any], signals: Iterable[int] = (signal.SIGINT, signal.SIGTERM)
+    ) -> Callable[[], None]:
+        """Call `callback(signum)` when the real process gets the signal, then the handler that was there before.
+
+        Takes effect only from the main thread, where Python allows signal handlers. Returns what takes the hook away.
+        """
+        wanted = frozenset(int(signum) for signum in signals)
+        remove = self.signals.add_hook(callback, wanted)
+        if threading.current_thread() is threading.main_thread():
+            for signum in wanted - self._replaced.keys():
+                self._replaced[signum] = signal.signal(signum, self._handle)
+        return partial(self._unhook, remove)
+
+    def _unhook(self, remove: Callable[[], None]) -> None:
+        remove()
+        if self.signals.hooked or threading.current_thread() is not threading.main_thread():
+            return
+        for signum, before in self._replaced.items():
+            if signal.getsignal(signum) == self._handle:
+                signal.signal(signum, before if before is not None else signal.SIG_DFL)
+        self._replaced.clear()
+
+    def _handle(self, signum: int, frame: Any) -> None:
+        self.signals.run_hooks(signum)
+        before = self._replaced.get(signum)
+        if callable(before):
+            before(signum, frame)
+
+    def send_signal(self, signum: int) -> None:
+        """Send the real process a real signal."""
+        if hasattr(signal, "pthread_kill"):
+            signal.pthread_kill(threading.main_thread().ident or 0, signum)  # where Python handles signals
+        else:
+            os.kill(os.getpid(), signum)
+
+    def die(self, code: int) -> None:
+        """Nothing: the real process is not ended from within a run."""
+
+    def start(self, *_arguments: Any, **_options: Any) -> None:
+        """Raises `RuntimeError`: it runs already."""
+        raise RuntimeError("the real process is already running")

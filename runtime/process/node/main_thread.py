@@ -1,0 +1,96 @@
+"""The main thread of a node process: from its target's first line to its exit code."""
+
+from __future__ import annotations
+
+import sys
+import threading
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from ..crashes import explanation
+from ..frames import print_exception
+from ..notices import notify
+from ..virtual import child_threads, pools
+from .thread_state import ProcessKilled, local
+
+if TYPE_CHECKING:
+    from .node_process import NodeProcess
+
+SIGINT_EXIT = -2
+
+
+def start_main_thread(process: NodeProcess, target: Callable[[], object]) -> None:
+    """Start the thread that runs `target` as the main of the process."""
+    thread = threading.Thread(target=_Main(process, target), name="MainThread", daemon=False)
+    child_threads.start_inside(process, process.clock, thread, child=False)
+
+
+class _Main:
+    """What the thread runs."""
+
+    def __init__(self, process: NodeProcess, target: Callable[[], object]) -> None:
+        self._process = process
+        self._target: Callable[[], object] | None = target
+
+    def __call__(self) -> None:
+        # What the program holds goes with the program, not with the thread object that somebody may keep.
+        target, self._target = self._target, None
+        assert target is not None
+        try:
+            code = exit_code_of(target)
+        except BaseException:  # an interrupt that fell into its last words
+            code = SIGINT_EXIT
+        if local.state is not None:
+            local.state.ending = True
+        if self._process.is_alive:
+            self._wind_down()
+            self._process.finish(code)
+            self._end_children()
+
+    def _wind_down(self) -> None:
+        """What the interpreter does after the main program: wait for threads, then the exit functions."""
+        pools.shut_down(self._process)
+        try:
+            while waited_for := [t for t, s in self._process.children.items() if not s.daemon and t.is_alive()]:
+                waited_for[0].join()
+        except BaseException as exception:  # a second Ctrl-C ends the waiting, and only that
+            if not isinstance(exception, ProcessKilled):
+                print_exception(exception)
+        while self._process.exit_functions:
+            exit_code_of(self._process.exit_functions.pop())
+
+    def _end_children(self) -> None:
+        """Daemon threads end with their process."""
+        states = [state for state in self._process.children.values() if state.thread.is_alive()]
+        for state in states:
+            state.kill()
+        if states:
+            self._process.break_off_later(states)
+
+
+def exit_code_of(target: Callable[[], object]) -> int:
+    """Run a callable and say how a Python process that does so ends; tracebacks go to its standard error stream."""
+    try:
+        target()
+    except SystemExit as exception:
+        return _system_exit(exception)
+    except ProcessKilled:
+        return -9
+    except KeyboardInterrupt as exception:
+        print_exception(exception)
+        return SIGINT_EXIT
+    except BaseException as exception:  # the border of the process
+        print_exception(exception)
+        if text := explanation(exception):
+            notify(local.process, text)
+        return 1
+    return 0
+
+
+def _system_exit(exception: SystemExit) -> int:
+    if exception.code is None:
+        return 0
+    if isinstance(exception.code, int):
+        return exception.code & 0xFF
+    print(exception.code, file=sys.stderr)
+    return 1

@@ -1,0 +1,16 @@
+"""The node processes that run, by their synthetic pid."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+from weakref import WeakValueDictionary
+
+if TYPE_CHECKING:
+    from .node_process import NodeProcess
+
+running: WeakValueDictionary[int, NodeProcess] = WeakValueDictionary()
+
+
+def running_process(pid: int) -> NodeProcess | None:
+    """The running node process with this synthetic pid."""
+    return running.get(pid)

@@ -1,0 +1,189 @@
+"""What the runtime knows of each thread of a node process: whose it is, and what is to be raised in it."""
+
+from __future__ import annotations
+
+import threading
+import time
+from _thread import allocate_lock
+from collections import deque
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from .. import frames, real
+
+if TYPE_CHECKING:
+    from ..clock_source import ClockSource, Seat
+    from .node_process import NodeProcess
+
+
+IMPORT_PATIENCE_S = 0.005
+"""How long (s) until it is looked again whether a thread that imports has done so."""
+
+
+class ProcessKilled(BaseException):
+    """Raised in the threads of a node process that was killed; no `except Exception` of a node catches it."""
+
+
+class ThreadState:
+    """One thread of a node process, as those see it who want to wake it or to raise something in it.
+
+    A thread that waits is woken and raises by itself; a busy one is only interrupted by `throw`, so that an exception
+    does not fall into the middle of the runtime's own work.
+    """
+
+    __slots__ = (
+        "_guard",
+        "_pending",
+        "_thrown",
+        "_waker",
+        "clock",
+        "daemon",
+        "ending",
+        "finished",
+        "ident",
+        "killed",
+        "process",
+        "seat",
+        "thread",
+        "waits",
+    )
+
+    def __init__(self, process: NodeProcess, clock: ClockSource, thread: threading.Thread) -> None:
+        self.process = process
+        self.clock = clock
+        self.thread = thread
+        self.daemon = thread.daemon
+        self.finished = clock.wakeup()
+        self.seat = clock.seat(self)
+        self.ident = 0
+        self.waits = 0
+        self.killed = False
+        self.ending = False
+        """Whether its program is over: what remains is the runtime's own work, and nothing is thrown into that."""
+        self._guard = allocate_lock()
+        self._pending: deque[Callable[[], Any]] = deque()
+        self._waker: Callable[[], None] | None = None
+        self._thrown = False
+
+    @property
+    def waiting(self) -> bool:
+        """Whether the thread is in a wait of the runtime, from which it can be woken."""
+        return self._waker is not None
+
+    @property
+    def takes_turns(self) -> bool:
+        """Whether it is in step with a run: then its time comes by its turn, however long that takes."""
+        return self.seat is not None and not self.seat.detached
+
+    @property
+    def called(self) -> bool:
+        """Whether something waits to be raised or run in this thread."""
+        return self.killed or bool(self._pending)
+
+    def enter(self) -> None:
+        """Make the calling thread this one; in a stepped run that waits for its turn."""
+        self.ident = threading.get_ident()
+        local.process, local.state, local.waits_on, local.seat = self.process, self, self.clock, self.seat
+        if self.seat is not None:
+            self.seat.take()
+
+    def leave(self) -> None:
+        """The thread's work is over: let others have the turn, wake those that join it."""
+        if self.ident:
+            # The system forgets a thread that has ended.
+            self.process.cpu_of_ended_threads += time.thread_time()
+        self.finished.set()
+        if self.seat is not None:
+            self.seat.leave()
+
+    def post(self, action: Callable[[], Any]) -> None:
+        """Have the thread call `action` in its present or its next wait; what that raises comes out of the wait."""
+        with self._guard:
+            self._pending.append(action)
+            self._wake()
+
+    def kill(self) -> None:
+        """Let this wait and every later one of the thread raise `ProcessKilled`."""
+        with self._guard:
+            self.killed = True
+            self._wake()
+
+    def _wake(self) -> None:
+        if self._waker is not None:
+            self._waker()
+
+    def take_back(self, action: Callable[[], Any]) -> bool:
+        """Withdraw a posted action; False where the thread has taken it up or, in a wait, is about to."""
+        with self._guard:
+            if self.waiting or action not in self._pending:
+                return False
+            self._pending.remove(action)
+            return True
+
+    def throw(self, exception: type[BaseException]) -> None:
+        """Raise in the thread, a busy one at its next bytecode; a call into C code has to return first.
+
+        The import machinery is left to finish: in the middle of it the exception could be lost, or leave a module's
+        lock held for ever, which all other node processes would wait for.
+        """
+        with self._guard:
+            if self.waiting:
+                # It will raise by itself when it is woken: thrown, the exception would come after the wait, anywhere.
+                self._pending.append(partial(_raise, exception))
+                self._wake()
+            elif self.ending:
+                return
+            elif self.ident and frames.is_importing(self.ident):
+                real.later(IMPORT_PATIENCE_S, partial(self.throw, exception))
+            elif self.ident and self.thread.is_alive():
+                import ctypes
+
+                self._thrown = True
+                ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(self.ident), ctypes.py_object(exception))
+
+    def begin_wait(self, waker: Callable[[], None]) -> None:
+        """Say how to wake the thread from the wait it now enters; raises what was posted or thrown before."""
+        with self._guard:
+            self._waker = waker
+            self.waits += 1
+        if self._thrown:
+            self._thrown = False
+            # What was thrown while it was busy is raised here, not later in the middle of the wait.
+            _checkpoint()
+        self.deliver()
+
+    def end_wait(self) -> None:
+        """The wait is over: from here on the thread counts as busy."""
+        self._waker = None
+
+    def deliver(self) -> None:
+        """Run what was posted, in this thread; raises what that raises."""
+        while self.called:
+            if self.killed:
+                raise ProcessKilled
+            with self._guard:
+                action = self._pending.popleft() if self._pending else None
+            if action is not None:
+                action()
+
+
+def _raise(exception: type[BaseException]) -> None:
+    raise exception
+
+
+def _checkpoint() -> None:
+    """A call, because that is where the interpreter raises what `PyThreadState_SetAsyncExc` left."""
+
+
+class _ThreadLocals(threading.local):
+    """What is looked up at every call: plain attributes of the thread."""
+
+    process: NodeProcess
+    state: ThreadState | None = None
+    seat: Seat | None = None
+    waits_on: ClockSource | None = None
+    """The clock that `time.sleep`, `Condition.wait` and `Thread.join` go through; None: the original calls."""
+
+
+local = _ThreadLocals()

@@ -1,0 +1,59 @@
+"""An asyncio event loop in stepped time: its timers are virtual, and while it waits others have the baton."""
+
+from __future__ import annotations
+
+import asyncio
+import selectors
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from ..current import current
+
+if TYPE_CHECKING:
+    from ..clock_source import ClockSource, Wakeup
+
+
+class SteppedEventLoop(asyncio.SelectorEventLoop):
+    """An event loop for a thread that takes part in a stepped run.
+
+    Files and sockets are looked at whenever the loop comes round, but do not wake it: virtual time does not wait for
+    what is outside of the run.
+    """
+
+    def __init__(self, clock: ClockSource) -> None:
+        self._stepped_clock = clock
+        self._called = clock.wakeup()
+        super().__init__(_SteppedSelector(clock, self._called))
+
+    def time(self) -> float:
+        """Virtual steady time in s."""
+        return self._stepped_clock.steady_ns() * 1e-9
+
+    def call_soon_threadsafe(self, callback: Callable[..., Any], *args: Any, context: Any = None) -> asyncio.Handle:
+        """Call back in the loop; from any thread, which wakes the loop."""
+        handle = super().call_soon_threadsafe(callback, *args, context=context)
+        self._called.set()
+        return handle
+
+
+class _SteppedSelector(selectors.DefaultSelector):
+    def __init__(self, clock: ClockSource, called: Wakeup) -> None:
+        super().__init__()
+        self._clock = clock
+        self._called = called
+
+    def select(self, timeout: float | None = None) -> list[tuple[selectors.SelectorKey, int]]:
+        """What is ready now, or after a virtual wait of at most `timeout` s."""
+        events = super().select(0)
+        if not events and (timeout is None or timeout > 0):
+            deadline = None if timeout is None else self._clock.steady_ns() + round(timeout * 1e9)
+            self._called.wait(deadline)
+            events = super().select(0)
+        self._called.clear()
+        return events
+
+
+def new_event_loop() -> asyncio.AbstractEventLoop:
+    """An event loop in the time of the calling thread's node process."""
+    clock = current().clock
+    return SteppedEventLoop(clock) if clock.stepped else asyncio.new_event_loop()

@@ -1,0 +1,159 @@
+"""Stepped time: a run in which exactly one thread at a time runs, and time jumps when all of them wait."""
+
+from __future__ import annotations
+
+import random
+import sys
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
+from typing import Any
+
+from .. import frames
+from ..clock_source import WaitingThread
+from ..current import MAIN
+from ..node.signals import SIGKILL
+from ..node.thread_state import ThreadState, local
+from ..notices import notify
+from ..virtual.install import install_virtual_process
+from ..watch.stall_watch import StallWatch
+from .baton import Baton, Seat
+from .calls import install_stepped_calls, uninstall_stepped_calls
+from .one_cpu import pin_thread
+from .wakeup import SteppedWakeup
+
+DEFAULT_START_NS = 1_700_000_000_000_000_000
+"""System time (ns since the epoch) at which a stepped run begins unless told otherwise."""
+FREE_READS = 10_000
+"""How many readings of the clock at one instant are free; each further one costs `READ_NS`, for loops that wait so."""
+READ_NS = 1_000
+_SO = "so that others run beside it and the run is not deterministic"
+BLOCKS = f"waits for what the stepped run does not see, {_SO}. Wait with time.sleep, rclpy or threading instead"
+COMPUTES = f"has computed for long without waiting, {_SO}. Let it spin, sleep or wait in its loop"
+
+
+class SteppedTime:
+    """A clock source whose time only the run moves. The thread that makes it drives it, and has the first turn.
+
+    Between two `run_*` calls nothing but the driver runs. While it waits in the run (`run_*`, a wakeup, a sleep) the
+    others take turns. `close` ends all threads of the run.
+    """
+
+    stepped = True
+
+    def __init__(self, start_system_ns: int = DEFAULT_START_NS, *, stall_s: float = 1.0) -> None:
+        self.deterministic = True
+        self.stalls: list[str] = []
+        self._system_offset = start_system_ns
+        self._stall_s = stall_s
+        self._baton = Baton(0)
+        self._watch = StallWatch(self._baton, stall_s, self._report_stall)
+        self._driver = self._baton.driver_seat()
+        self._seat_before, local.seat = local.seat, self._driver
+        self._unpin = pin_thread()
+        install_virtual_process()
+        install_stepped_calls()
+
+    def steady_ns(self) -> int:
+        """Virtual time since the start of the run in ns."""
+        baton = self._baton
+        baton.reads += 1
+        if baton.reads > FREE_READS:
+            baton.now += READ_NS
+        return baton.now
+
+    def system_ns(self) -> int:
+        """Virtual time since the epoch in ns."""
+        return self.steady_ns() + self._system_offset
+
+    def wakeup(self) -> SteppedWakeup:
+        """A new, unset wakeup."""
+        return SteppedWakeup(self._baton)
+
+    def sleep_until(self, deadline_ns: int) -> None:
+        """Let others run until virtual steady time reaches the deadline (ns)."""
+        SteppedWakeup(self._baton).wait(deadline_ns)
+
+    def seat(self, thread: WaitingThread | None) -> Seat:
+        """A place for a new thread, which is ready to run."""
+        self._watch.start()
+        return self._baton.seat(thread)
+
+    def run_until(self, steady_ns: int) -> None:
+        """Run everything that happens up to and at that steady time (ns). Raises `RuntimeError` outside of the run."""
+        seat = local.seat
+        if not isinstance(seat, Seat) or seat.baton is not self._baton:
+            raise RuntimeError("this thread takes no part in the stepped run: see SteppedTime.participate")
+        self._baton.wait(seat, None, steady_ns)
+
+    def run_for(self, seconds: float) -> None:
+        """Run everything that happens in the next `seconds` s of virtual time."""
+        self.run_until(self._baton.now + round(seconds * 1e9))
+
+    @contextmanager
+    def participate(self) -> Generator[None]:
+        """Let the calling thread, which is not of the run, take turns in it for the length of the block."""
+        seat = self.seat(None)
+        before = local.seat, local.waits_on
+        local.seat, local.waits_on = seat, self
+        seat.take()
+        try:
+            yield
+        finally:
+            seat.leave()
+            local.seat, local.waits_on = before
+
+    def close(self) -> None:
+        """Kill what still runs, let it unwind, and leave the driver's thread as it was."""
+        for seat in tuple(self._baton.seats.values()):
+            if isinstance(seat.state, ThreadState):
+                seat.state.process.die(-SIGKILL)
+                seat.state.kill()
+        self.run_until(self._baton.now)
+        self._driver.leave()
+        local.seat = self._seat_before
+        self._unpin()
+        uninstall_stepped_calls()
+
+    def _report_stall(self, seat: Seat, busy: bool) -> Callable[[], None]:
+        self.deterministic = False
+        line = frames.thread_line(seat.ident)
+        process = seat.state.process if isinstance(seat.state, ThreadState) else MAIN
+        self.stalls.append(f"{process.name}: {line}")
+        return lambda: notify(process, f"{line} {COMPUTES if busy else BLOCKS}")
+
+
+@contextmanager
+def stepped(
+    start_system_ns: int = DEFAULT_START_NS, *, seed: int = 0, virtual_main: bool = True, stall_s: float = 1.0
+) -> Generator[SteppedTime]:
+    """Stepped time for `MAIN` and the calling thread, which drives it; `random` and `numpy.random` start from `seed`.
+
+    With `virtual_main` the calling thread is treated as a node's: its `time` module, its sleeps, waits and new threads
+    are of the run. Without, only what it asks the clock for is, as beside an asyncio loop or a user interface.
+    """
+    clock = SteppedTime(start_system_ns, stall_s=stall_s)
+    before = MAIN.clock, local.waits_on
+    MAIN.clock = clock
+    local.waits_on = clock if virtual_main else None
+    try:
+        with _seeded(seed):
+            yield clock
+    finally:
+        clock.close()
+        MAIN.clock, local.waits_on = before
+
+
+@contextmanager
+def _seeded(seed: int) -> Generator[None]:
+    before = random.getstate()
+    random.seed(seed)
+    numpy_random: Any = sys.modules.get("numpy.random")
+    numpy_before = None if numpy_random is None else numpy_random.get_state()
+    if numpy_random is not None:
+        numpy_random.seed(seed % (1 << 32))
+    try:
+        yield
+    finally:
+        random.setstate(before)
+        if numpy_random is not None:
+            numpy_random.set_state(numpy_before)

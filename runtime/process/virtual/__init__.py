@@ -1,0 +1,1 @@
+"""What each node process has for itself of what the interpreter has once: wraps of public calls."""

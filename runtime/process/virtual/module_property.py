@@ -1,0 +1,67 @@
+"""A variable of a module that each node process has for itself: a property of the module's class."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from types import ModuleType
+from typing import Any
+
+from ..node.thread_state import local
+
+
+def process_variable(name: str, of_process: Callable[[Any], Any]) -> property:
+    """The module's own variable for the real process; for a node process what it set, else `of_process(process)`."""
+
+    def get(module: ModuleType) -> Any:
+        process = local.process
+        if process.main_state is None:
+            return module.__dict__[name]
+        key = (module.__name__, name)
+        return process.overrides[key] if key in process.overrides else of_process(process)
+
+    def set_(module: ModuleType, value: Any) -> None:
+        process = local.process
+        if process.main_state is None:
+            module.__dict__[name] = value
+        else:
+            process.overrides[module.__name__, name] = value
+
+    return property(get, set_)
+
+
+class _OfOneModule(type):
+    """What makes the class of one module's properties stand for `ModuleType` to everybody who takes `type(module)`.
+
+    The interpreter itself makes all modules by `type(sys)(name)`: with the properties they would take that module's
+    variables for their own.
+    """
+
+    def __new__(cls, name: str, bases: tuple[type, ...], members: dict[str, Any], **options: Any) -> Any:
+        if any(type(base) is _OfOneModule and base is not VirtualModule for base in bases):
+            bases = tuple(ModuleType if isinstance(base, _OfOneModule) else base for base in bases)
+            return type(name, bases, members, **options)
+        return super().__new__(cls, name, bases, members, **options)
+
+    def __call__(cls, *arguments: Any, **options: Any) -> ModuleType:
+        return ModuleType(*arguments, **options)
+
+    def __instancecheck__(cls, instance: object) -> bool:
+        return isinstance(instance, ModuleType)
+
+    def __subclasscheck__(cls, subclass: type) -> bool:
+        return issubclass(subclass, ModuleType)
+
+
+class VirtualModule(ModuleType, metaclass=_OfOneModule):
+    """Base of the class of a module that has such properties; no other module is ever of it."""
+
+
+def replace_class(module: Any, virtual: type[VirtualModule]) -> Callable[[], None]:
+    """Give a module a class with such properties; returns what undoes it."""
+    before = module.__class__
+    module.__class__ = virtual
+
+    def undo() -> None:
+        module.__class__ = before
+
+    return undo

@@ -1,0 +1,28 @@
+"""Thread pools of a node end with its main program, as the interpreter ends them at its exit."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from functools import wraps
+from typing import TYPE_CHECKING, Any
+
+from ..node.thread_state import local
+
+if TYPE_CHECKING:
+    from ..node.node_process import NodeProcess
+
+_make = ThreadPoolExecutor.__init__
+
+
+@wraps(_make)
+def make(pool: ThreadPoolExecutor, *arguments: Any, **options: Any) -> None:
+    """`ThreadPoolExecutor(...)`: the node process remembers its pools."""
+    _make(pool, *arguments, **options)
+    if local.process.main_state is not None:
+        local.process.pools.add(pool)
+
+
+def shut_down(process: NodeProcess) -> None:
+    """Let the threads of its pools end once they have done what was submitted."""
+    for pool in list(process.pools):
+        pool.shutdown(wait=False)

@@ -1,0 +1,117 @@
+"""`sys.argv`, `sys.path` and the standard streams, each node process's own: properties of the class of `sys`.
+
+C code reads the streams from the module's dictionary, so a routing stream stands there. Python code gets properties.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from types import ModuleType
+from typing import Any
+
+from ..node.thread_state import local
+from .module_property import VirtualModule, process_variable, replace_class
+
+
+class RoutingStream:
+    """A standard stream that leads each thread to that of its node process, all others to the real one."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+        self._original = sys.__dict__[name]
+        self.real = self._original
+        """The stream outside of node processes."""
+
+    def target(self) -> Any:
+        """The stream that the calling thread means."""
+        process = local.process
+        if process.main_state is not None:
+            # What the node has put into `sys.stdout` goes before its capture, as in a process of its own.
+            stream = process.overrides.get(self._name) or getattr(process, self._name)
+            if stream is not None:
+                return stream
+        return self.real
+
+    def write(self, text: str) -> int:
+        """Write to the calling thread's stream."""
+        return self.target().write(text)
+
+    def flush(self) -> None:
+        """Flush the calling thread's stream."""
+        self.target().flush()
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.target(), name)
+
+    def __iter__(self) -> Any:
+        return iter(self.target())
+
+    def get(self) -> Any:
+        """What `sys.stdout` is to the calling thread: this stream, unless someone put another in its place."""
+        if local.process.main_state is not None:
+            return local.process.overrides.get(self._name, self)
+        return self if self.real is self._original else self.real
+
+    def replace(self, stream: Any) -> None:
+        """`sys.stdout = stream`, for the calling thread's process alone."""
+        if local.process.main_state is not None:
+            local.process.overrides[self._name] = None if stream is self else stream
+        else:
+            self.real = self._original if stream is self else stream
+
+
+class VirtualSys(VirtualModule):
+    """The class of `sys` while node processes run."""
+
+
+def _stream(name: str) -> property:
+    def get(module: ModuleType) -> Any:
+        return module.__dict__[name].get()
+
+    def set_(module: ModuleType, stream: Any) -> None:
+        module.__dict__[name].replace(stream)
+
+    return property(get, set_)
+
+
+_STREAMS = ("stdin", "stdout", "stderr")
+
+
+def _add_properties(virtual: Any) -> None:
+    for name in _STREAMS:
+        setattr(virtual, name, _stream(name))
+    virtual.argv = process_variable("argv", lambda process: process.argv)
+    virtual.path = process_variable("path", lambda process: process.path)
+    virtual.modules = process_variable("modules", _modules)
+    virtual.excepthook = process_variable("excepthook", lambda _process: sys.__excepthook__)
+
+
+def _modules(process: Any) -> Any:
+    return sys.__dict__["modules"] if process.modules is None else process.modules.table
+
+
+_add_properties(VirtualSys)
+
+
+def install() -> Callable[[], None]:
+    """Make the variables of `sys` each process's own; returns what undoes it."""
+    streams = {name: RoutingStream(name) for name in _STREAMS}
+    sys.__dict__.update(streams)
+    restore_class = replace_class(sys, VirtualSys)
+
+    def uninstall() -> None:
+        restore_class()
+        for name, stream in streams.items():
+            if sys.__dict__[name] is stream:
+                sys.__dict__[name] = stream.real
+
+    return uninstall
+
+
+def reinstall() -> None:
+    """Put the routing streams back where code has written past the properties into the module's dictionary."""
+    for name in _STREAMS:
+        stream = sys.__dict__[name]
+        if not isinstance(stream, RoutingStream):
+            sys.__dict__[name] = RoutingStream(name)

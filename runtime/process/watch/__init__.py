@@ -1,0 +1,1 @@
+"""What watches over threads: one that computes without end, one that hangs, and what the system tells of them."""

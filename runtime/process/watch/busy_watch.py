@@ -1,0 +1,69 @@
+"""Notices nodes that compute without ever waiting: they take the processor from all others and hear nothing."""
+
+from __future__ import annotations
+
+from _thread import allocate_lock
+from typing import TYPE_CHECKING
+
+from .. import frames, real
+from ..notices import notify
+from .processor_time import thread_seconds
+
+if TYPE_CHECKING:
+    from ..node.node_process import NodeProcess
+    from ..node.thread_state import ThreadState
+
+PERIOD_S = 2.0
+"""Wall time (s) between two looks."""
+BUSY_SHARE = 0.5
+"""The share of a processor from which a thread that never waits is told."""
+LOOKS = 3
+
+
+class BusyWatch:
+    """Looks after the node processes of real time, from the first until the last."""
+
+    def __init__(self) -> None:
+        self._guard = allocate_lock()
+        self._processes: set[NodeProcess] = set()
+        self._last: dict[ThreadState, tuple[int, float, int]] = {}
+
+    def watch(self, process: NodeProcess) -> None:
+        """Look after a process until it ends."""
+        with self._guard:
+            first = not self._processes
+            self._processes.add(process)
+        if first:
+            real.later(PERIOD_S, self._look)
+
+    def _look(self) -> None:
+        with self._guard:
+            self._processes = {process for process in self._processes if process.is_alive}
+            processes = tuple(self._processes)
+        before, self._last = self._last, {}
+        for process in processes:
+            for state in process.thread_states():
+                self._look_at(process, state, before.get(state))
+        if processes:
+            real.later(PERIOD_S, self._look)
+
+    def _look_at(self, process: NodeProcess, state: ThreadState, before: tuple[int, float, int] | None) -> None:
+        seconds = thread_seconds(state.thread.native_id or 0)
+        if state.waiting or seconds is None:
+            return
+        waits, seconds_before, looks = before or (state.waits, seconds, 0)
+        if waits == state.waits and seconds - seconds_before >= BUSY_SHARE * PERIOD_S:
+            looks += 1
+        elif before is not None:
+            looks = 0
+        self._last[state] = (state.waits, seconds, looks)
+        if looks == LOOKS:
+            line = frames.thread_line(state.ident)
+            notify(
+                process,
+                f"has computed for {LOOKS * PERIOD_S:g} s without waiting, in {line}. It slows all other nodes down "
+                "and cannot be stopped politely: let it spin, sleep or wait in its loop",
+            )
+
+
+busy_watch = BusyWatch()

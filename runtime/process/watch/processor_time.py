@@ -1,0 +1,43 @@
+"""How much processor time threads have used, where the system tells it (Linux)."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ..node.thread_state import ThreadState
+
+
+def state_and_seconds(task: str) -> tuple[str, float] | None:
+    """State (`R`, `S`, `D` ..., see proc(5)) and processor time (s) of what `/proc/<task>` is; None where not known."""
+    try:
+        with open(f"/proc/{task}/stat", "rb") as stat_file:
+            fields = stat_file.read().rpartition(b")")[2].split()
+    except OSError:  # it has ended, or the system has no such folder
+        return None
+    return fields[0].decode(), (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def thread_seconds(native_id: int) -> float | None:
+    """Processor time (s) of a running thread of the real process; None where it is not known."""
+    told = state_and_seconds(f"self/task/{native_id}")
+    return None if told is None else told[1]
+
+
+def wanted_seconds(task: str) -> float | None:
+    """How long (s) a thread has run or waited for a processor, and for nothing else; None where it is not known."""
+    try:
+        with open(f"/proc/{task}/schedstat", "rb") as file:
+            ran, waited = file.read().split()[:2]
+    except (OSError, ValueError):  # it has ended, or the system keeps no such count
+        return None
+    return (int(ran) + int(waited)) * 1e-9
+
+
+def total_seconds(states: Iterable[ThreadState]) -> float | None:
+    """Processor time (s) of several running threads; None where it is not known."""
+    times = [thread_seconds(state.thread.native_id) for state in states if state.thread.native_id is not None]
+    known = [time for time in times if time is not None]
+    return sum(known) if known or not times else None

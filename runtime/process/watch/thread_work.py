@@ -1,0 +1,100 @@
+"""What a thread does: whether it gets on, computes without end, or waits for something outside of the run.
+
+Elapsed time says nothing of that: on a busy machine a thread that only imports a library stands for seconds. The
+operating system tells it (Linux, proc(5)): processor time, whether the thread sleeps, where, and whether it woke.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+
+from .. import frames
+from .processor_time import state_and_seconds
+
+LOOKS_PER_STALL = 4
+"""How many looks in a row must find a thread blocked before it counts as such."""
+PATIENT = 30
+"""How many times as long where the thread may be waiting for a slow disk, or the system tells too little."""
+COMPUTING = 10
+"""How many stalls of processor time a thread may use between two waits."""
+IMPORTING = 60
+"""How many more of them go by for the import of libraries."""
+SLEEPING = "S"
+AT_WORK = ("R", "D")
+
+
+class ThreadWork:
+    """What one thread of the real process has done since the first look at it."""
+
+    def __init__(self, native_id: int, ident: int) -> None:
+        self._task = f"self/task/{native_id}"
+        self._ident = ident
+        self._seconds: float | None = None
+        self._switches = ""
+        self._family = 0.0
+        self._computed = 0.0
+        self._imported = 0.0
+        self._blocked = 0
+        self._patience = 1
+
+    def look(self) -> None:
+        """Look again; the looks are to come at even distances."""
+        importing = frames.is_importing(self._ident)
+        told = state_and_seconds(self._task)
+        state, seconds = told or (SLEEPING, time.process_time())
+        used = 0.0 if self._seconds is None else seconds - self._seconds
+        self._seconds = seconds
+        if importing:
+            self._imported += used
+        else:
+            self._computed += used
+        if told is None:
+            blocked, self._patience = used == 0.0, 2 * PATIENT
+        else:
+            blocked = state == SLEEPING and self._is_blocked(importing)
+        self._blocked = self._blocked + 1 if blocked else 0
+
+    def is_blocked(self, patience: int = 1) -> bool:
+        """Whether it waits in the kernel, and has done so for that many stalls."""
+        return self._blocked >= LOOKS_PER_STALL * self._patience * patience
+
+    def is_busy(self, stall_s: float, patience: int = 1) -> bool:
+        """Whether it has computed for long, or imported for very long."""
+        limit = COMPUTING * stall_s * patience
+        return self._computed >= limit or self._imported >= IMPORTING / COMPUTING * limit
+
+    def _is_blocked(self, importing: bool) -> bool:
+        """Whether a sleeping thread waits for what does not come from within the run.
+
+        For the interpreter's own lock a thread wakes every few ms, so one that has not woken waits for something else.
+        One that wakes and sleeps again, as it polls a device, is known by where it sleeps: locks are futexes.
+        """
+        switches, place = self._read("status").partition("\nvoluntary_ctxt_switches:")[2], self._read("wchan")
+        still, self._switches = switches == self._switches, switches
+        on_lock = place in ("", "0") or place.startswith("futex")
+        self._patience = PATIENT if importing and not on_lock else 1
+        return (still or not (on_lock or importing)) and not self._family_works()
+
+    def _family_works(self) -> bool:
+        """Whether a child process that it has started, or one of theirs, gets on: then it waits for that."""
+        told = [each for each in map(state_and_seconds, _descendants(self._task)) if each]
+        before, self._family = self._family, sum(seconds for _, seconds in told)
+        return self._family != before or any(state in AT_WORK for state, _ in told)
+
+    def _read(self, name: str) -> str:
+        return _read(f"/proc/{self._task}/{name}")
+
+
+def _descendants(task: str) -> Iterator[str]:
+    for pid in _read(f"/proc/{task}/children").split():
+        yield pid
+        yield from _descendants(f"{pid}/task/{pid}")
+
+
+def _read(path: str) -> str:
+    try:
+        with open(path, encoding="utf-8") as file:
+            return file.read()
+    except OSError:  # it has ended, or the system does not tell
+        return ""

@@ -1,0 +1,88 @@
+"""What executors of a program's own are made of: they take ready callbacks and run them where they like."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterable
+from typing import Any, cast
+
+from rclpy.task import Future, Task
+
+
+class TimeoutObject:
+    """A time-out (s) that can be changed while somebody waits with it."""
+
+    def __init__(self, timeout: float) -> None:
+        self.timeout = timeout
+
+
+async def await_or_execute(callback: Callable[..., Any], *args: Any) -> Any:
+    """Await a coroutine function, or call a plain one; returns its result."""
+    if inspect.iscoroutinefunction(callback):
+        return await callback(*args)
+    return callback(*args)
+
+
+def begins(entity: Any, group: Any) -> bool:
+    """Whether a group lets an entity begin; where it does not, the entity has to wait."""
+    if (not group.own_rules or group.can_execute(entity)) and group.beginning_execution(entity):
+        return True
+    group.block(entity)
+    return False
+
+
+class ReadyCallbacks:
+    """The part of `Executor` that hands work out instead of running it."""
+
+    _nodes: dict[Any, int]
+    _take: Callable[[float | None, Callable[[], bool] | None], Any]
+    _run: Callable[[Any], None]
+    _ended: Callable[[Any], None]
+    _resume: Callable[[Task[Any]], None]
+    _tasks: dict[Task[Any], Any]
+
+    def wait_for_ready_callbacks(
+        self,
+        timeout_sec: float | TimeoutObject | None = None,
+        nodes: Iterable[Any] | None = None,
+        condition: Callable[[], bool] | None = None,
+    ) -> tuple[Task[Any], Any, Any]:
+        """The next piece of work as (task, entity, node): calling the task, in any thread, runs the callback.
+
+        Only of the given nodes, where there are some. Raises `TimeoutException`, `ShutdownException`,
+        `ExternalShutdownException` and, once `condition()` is true, `ConditionReachedException`.
+        """
+        timeout = timeout_sec.timeout if isinstance(timeout_sec, TimeoutObject) else timeout_sec
+        wanted = None if nodes is None else set(nodes)
+        others: list[Any] = []
+        try:
+            while True:
+                item = self._take(timeout, condition)
+                entity, node = self._origin(item)
+                if wanted is None or node is None or node in wanted:
+                    return Task(self._run, (item,), executor=self), entity, node
+                others.append(item)
+        finally:
+            for item in others:
+                self._give_back(item)
+
+    def create_future(self) -> Future[Any]:
+        """A future whose done callbacks run in this executor."""
+        return Future(executor=self)
+
+    def can_execute(self, entity: Any) -> bool:
+        """Whether the group of an entity lets its callback begin now."""
+        return entity.callback_group.can_execute(entity)
+
+    def _origin(self, item: Any) -> tuple[Any, Any]:
+        """Whose callback it is: entity and node, None for a task that somebody created."""
+        task: Any = item
+        entity = self._tasks.get(task) if isinstance(item, Task) else item
+        return entity, next((node for node in self._nodes if entity in node._ros_entities), None)
+
+    def _give_back(self, item: Any) -> None:
+        if isinstance(item, Task):
+            task = cast("Task[Any]", item)
+            self._resume(task)
+        else:
+            self._ended(item)

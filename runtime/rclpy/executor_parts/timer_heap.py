@@ -1,0 +1,63 @@
+"""The deadline queue of an executor: its timers by the steady time at which they are due."""
+
+from __future__ import annotations
+
+from heapq import heappop, heappush, heapreplace
+from typing import Any
+
+
+class TimerHeap:
+    """A heap of (deadline ns, creation, timer), with one entry for each timer.
+
+    A timer that is put off keeps its early entry; when that one comes up it is put back to the time that was meant.
+    Pushes come from any thread: heap operations on these tuples do not run Python code, so they need no lock.
+    """
+
+    def __init__(self) -> None:
+        self.entries: list[tuple[int, int, Any]] = []
+
+    def push(self, deadline: int, timer: Any) -> None:
+        """A timer is due at a steady time; an earlier call for it counts no more."""
+        timer.due_at = deadline
+        if timer.heap is self and timer.heap_deadline <= deadline:
+            return
+        timer.heap = self
+        timer.heap_deadline = deadline
+        heappush(self.entries, (deadline, timer.order, timer))
+
+    def next_deadline(self, sink: Any) -> int | None:
+        """When the next timer of this executor is due; None without one."""
+        entries = self.entries
+        while entries:
+            entry = entries[0]
+            if self._holds(entry, sink):
+                return entry[0]
+        return None
+
+    def pop_due(self, now: int, sink: Any) -> list[Any]:
+        """Timers that are due, taken out."""
+        due: list[Any] = []
+        entries = self.entries
+        while entries and entries[0][0] <= now:
+            entry = entries[0]
+            if self._holds(entry, sink):
+                heappop(entries)
+                entry[2].heap = None
+                due.append(entry[2])
+        return due
+
+    def _holds(self, entry: tuple[int, int, Any], sink: Any) -> bool:
+        """Whether the first entry counts; takes it away or puts it back where it does not."""
+        deadline, order, timer = entry
+        # A stale entry: the timer has gone to another executor, or was pushed again for an earlier time.
+        if timer.heap is not self or timer.heap_deadline != deadline:
+            heappop(self.entries)
+        elif timer.sink is not sink:
+            heappop(self.entries)
+            timer.heap = None
+        elif timer.due_at > deadline:
+            timer.heap_deadline = timer.due_at
+            heapreplace(self.entries, (timer.due_at, order, timer))
+        else:
+            return True
+        return False

@@ -1,0 +1,70 @@
+"""Threads that run what they are given. Their waits go through the clock source, so that stepped runs work."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from collections.abc import Callable
+from contextlib import suppress
+from typing import Any
+
+from bot_console.runtime.process import current
+
+
+class WorkerPool:
+    """Up to `size` threads, each started when it is first needed."""
+
+    def __init__(self, size: int, name: str) -> None:
+        self._size = size
+        self._name = name
+        self._clock = current().clock
+        self._work: deque[Callable[[], Any]] = deque()
+        self._idle: deque[Any] = deque()
+        self._lock = threading.Lock()
+        self._threads = 0
+        self._closed = False
+
+    def submit(self, work: Callable[[], Any]) -> None:
+        """Run `work()` in one of the threads; it must not raise."""
+        with self._lock:
+            self._work.append(work)
+            if self._idle:
+                self._idle.popleft().set()
+            elif self._threads < self._size:
+                self._threads += 1
+                name = f"{self._name}-{self._threads}"
+                threading.Thread(target=self._serve, name=name, daemon=True).start()
+
+    def _serve(self) -> None:
+        wakeup = self._clock.wakeup()
+        while True:
+            with self._lock:
+                work = self._work.popleft() if self._work else None
+                if work is None:
+                    if self._closed:
+                        return
+                    # With the lock held: work that comes from here on finds this thread among the idle ones.
+                    wakeup.clear()
+                    self._idle.append(wakeup)
+            if work is None:
+                wakeup.wait()
+            else:
+                with suppress(SystemExit):  # ends the callback alone, as in upstream's pool; the thread goes on
+                    work()
+
+    def close(self) -> None:
+        """Let the threads end when they have nothing left to do."""
+        with self._lock:
+            self._closed = True
+            while self._idle:
+                self._idle.popleft().set()
+
+
+def cpu_count() -> int:
+    """How many processors this process may use; 2 where the system does not tell."""
+    import os
+
+    try:
+        return len(os.sched_getaffinity(0))
+    except AttributeError:
+        return 2

@@ -1,0 +1,359 @@
+"""The entities that a node makes and destroys."""
+
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+from bot_console.runtime.rmw.bus import Bus
+from bot_console.runtime.rmw.endpoints import (
+    ClientEndpoint,
+    Endpoint,
+    Event,
+    NodeId,
+    OnEvent,
+    ServiceEndpoint,
+    SubscriptionEndpoint,
+    new_gid,
+    queue_for,
+)
+from bot_console.runtime.rosidl.conversion import type_name
+from rclpy._rclpy_pybind11 import RCLError
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.client import Client
+from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
+from rclpy.guard_condition import GuardCondition
+from rclpy.node_parts.topic_names import checked
+from rclpy.publisher import Publisher
+from rclpy.qos import QoSProfile, qos_profile_services_default
+from rclpy.service import Service
+from rclpy.subscription import Subscription
+from rclpy.timer import Rate, Timer
+from rclpy.type_support import check_is_valid_msg_type, check_is_valid_srv_type
+
+NANO = 1_000_000_000
+SERVICE_QUEUE_LIMIT = 1000
+
+
+class NodeEntities:
+    """Factories of `Node`."""
+
+    _ros_bus: Bus
+    _ros_id: NodeId
+    _ros_sink: Any
+    _ros_order: int
+    _ros_entities: dict[Any, None]
+    _ros_publishers: dict[Any, None]
+    _ros_waitables: dict[Any, None]
+    _ros_rates: dict[Any, Any]
+    _ros_use: Callable[[], None]
+    context: Any
+    default_callback_group: Any
+    get_clock: Callable[[], Any]
+    get_logger: Callable[[], Any]
+
+    def _ros_attach(self, executor: Any, order: int) -> None:
+        self._ros_sink, self._ros_order = executor, order
+        for entity in [*self._ros_entities]:
+            entity.attach(executor, order)
+
+    def _ros_detach(self) -> None:
+        self._ros_sink = None
+        for entity in [*self._ros_entities]:
+            entity.detach()
+
+    def _ros_enter(self, entity: Any, group: Any) -> None:
+        """Let a new entity belong to this node, to its group, and to the executor that serves the node."""
+        self._ros_entities[entity] = None
+        group.add_entity(entity)
+        if self._ros_sink is not None:
+            entity.attach(self._ros_sink, self._ros_order)
+
+    def _ros_group(self, group: Any) -> Any:
+        return self.default_callback_group if group is None else group
+
+    def _ros_may_create(self, what: str) -> None:
+        self._ros_use()
+        if not self.context.ok():
+            raise RCLError(f"Failed to create {what}: rcl node's context is invalid")
+
+    @staticmethod
+    def _ros_profile(qos: Any) -> QoSProfile:
+        if isinstance(qos, QoSProfile):
+            return qos
+        if isinstance(qos, int):
+            if qos < 0:
+                raise ValueError("history depth must be greater than or equal to zero")
+            return QoSProfile(depth=qos)
+        raise TypeError(f"Expected QoSProfile or int, but received {type(qos)!r}")
+
+    def create_publisher(
+        self,
+        msg_type: Any,
+        topic: str,
+        qos_profile: QoSProfile | int,
+        *,
+        callback_group: Any = None,
+        event_callbacks: PublisherEventCallbacks | None = None,
+        qos_overriding_options: Any = None,
+        publisher_class: type[Publisher] = Publisher,
+    ) -> Publisher:
+        """Make a publisher; a number as QoS is a history depth."""
+        qos = self._ros_profile(qos_profile)
+        group = self._ros_group(callback_group)
+        self._ros_may_create("publisher")
+        name = checked(self, topic)
+        check_is_valid_msg_type(msg_type)
+        qos = self._ros_overridden(qos, name, qos_overriding_options, publisher=True)
+        callbacks = event_callbacks or PublisherEventCallbacks()
+        handlers = callbacks.create_event_handlers(group, self.get_logger, topic, qos)
+        endpoint = Endpoint(self._ros_id, name, type_name(msg_type), qos, new_gid(), msg_type)
+        made = self._ros_bus.create_publisher(endpoint, _teller(handlers))
+        made.on_publish = _listener(handlers)
+        publisher = publisher_class(self, made, msg_type, topic, qos, handlers, group)
+        self._ros_publishers[publisher] = None
+        for handler in handlers:
+            self._ros_enter(handler, group)
+        return publisher
+
+    def create_subscription(
+        self,
+        msg_type: Any,
+        topic: str,
+        callback: Callable[..., Any],
+        qos_profile: QoSProfile | int,
+        *,
+        callback_group: Any = None,
+        event_callbacks: SubscriptionEventCallbacks | None = None,
+        qos_overriding_options: Any = None,
+        raw: bool = False,
+    ) -> Subscription:
+        """Make a subscription; the callback takes (message) or (message, info), bytes with `raw`."""
+        qos = self._ros_profile(qos_profile)
+        group = self._ros_group(callback_group)
+        self._ros_may_create("subscription")
+        name = checked(self, topic)
+        check_is_valid_msg_type(msg_type)
+        qos = self._ros_overridden(qos, name, qos_overriding_options, publisher=False)
+        callbacks = event_callbacks or SubscriptionEventCallbacks()
+        handlers = callbacks.create_event_handlers(group, self.get_logger, topic, qos)
+        subscription = Subscription(self, msg_type, topic, callback, group, qos, raw, handlers)
+        endpoint = Endpoint(self._ros_id, name, type_name(msg_type), qos, new_gid(), msg_type)
+        subscription._join(
+            SubscriptionEndpoint(endpoint, raw, queue_for(qos), _notifier(subscription, handlers), _teller(handlers))
+        )
+        for handler in handlers:
+            self._ros_enter(handler, group)
+        self._ros_enter(subscription, group)
+        # Last: from here on messages come, and the executor must know whose they are.
+        self._ros_bus.create_subscription(subscription.endpoint)
+        return subscription
+
+    def _ros_overridden(self, qos: QoSProfile, name: str, options: Any, *, publisher: bool) -> QoSProfile:
+        if options is None:
+            return qos
+        from copy import copy
+
+        from rclpy.qos_overriding_options import _declare_qos_parameters
+
+        qos = copy(qos)
+        _declare_qos_parameters(Publisher if publisher else Subscription, self, name, qos, options)
+        return qos
+
+    def create_service(
+        self,
+        srv_type: Any,
+        srv_name: str,
+        callback: Callable[..., Any],
+        *,
+        qos_profile: QoSProfile = qos_profile_services_default,
+        callback_group: Any = None,
+    ) -> Service:
+        """Make a service server; the callback takes (request, response) and returns a response."""
+        group = self._ros_group(callback_group)
+        self._ros_may_create("service")
+        check_is_valid_srv_type(srv_type)
+        name = checked(self, srv_name, service=True)
+        service = Service(self, srv_type, srv_name, callback, group, qos_profile)
+        service.endpoint = ServiceEndpoint(self._ros_id, name, type_name(srv_type), service.notify, srv_type)
+        self._ros_enter(service, group)
+        self._ros_bus.create_service(service.endpoint)
+        return service
+
+    def create_client(
+        self,
+        srv_type: Any,
+        srv_name: str,
+        *,
+        qos_profile: QoSProfile = qos_profile_services_default,
+        callback_group: Any = None,
+    ) -> Client:
+        """Make a service client."""
+        group = self._ros_group(callback_group)
+        self._ros_may_create("client")
+        check_is_valid_srv_type(srv_type)
+        name = checked(self, srv_name, service=True)
+        client = Client(self, srv_type, srv_name, qos_profile, group)
+        client.endpoint = ClientEndpoint(self._ros_id, name, type_name(srv_type), client.notify, srv_type)
+        self._ros_enter(client, group)
+        self._ros_bus.create_client(client.endpoint)
+        return client
+
+    def create_timer(
+        self,
+        timer_period_sec: float,
+        callback: Callable[..., Any] | None,
+        callback_group: Any = None,
+        clock: Any = None,
+        autostart: bool = True,
+    ) -> Timer:
+        """Make a timer (s) on a clock, the node's own by default."""
+        period = int(float(timer_period_sec) * NANO)
+        group = self._ros_group(callback_group)
+        self.context.require_running("timer")
+        timer = Timer(callback, group, period, clock or self.get_clock(), context=self.context, autostart=autostart)
+        self._ros_enter(timer, group)
+        return timer
+
+    def create_guard_condition(self, callback: Callable[[], Any] | None, callback_group: Any = None) -> GuardCondition:
+        """Make a guard condition."""
+        group = self._ros_group(callback_group)
+        self.context.require_running("guard_condition")
+        guard = GuardCondition(callback, group, context=self.context)
+        self._ros_enter(guard, group)
+        return guard
+
+    def create_rate(self, frequency: float, clock: Any = None) -> Rate:
+        """Make a rate (Hz); it ticks while another thread serves the node."""
+        if frequency <= 0:
+            raise ValueError("frequency must be > 0")
+        timer = self.create_timer(1.0 / frequency, None, ReentrantCallbackGroup(), clock)
+        rate = Rate(timer, context=self.context)
+        self._ros_rates[rate] = timer
+        return rate
+
+    def add_waitable(self, waitable: Any) -> None:
+        """Let executors serve a waitable."""
+        self._ros_waitables[waitable] = None
+
+    def remove_waitable(self, waitable: Any) -> None:
+        """Let executors serve a waitable no more."""
+        self._ros_waitables.pop(waitable, None)
+
+    def destroy_publisher(self, publisher: Publisher) -> bool:
+        """Destroy a publisher; whether it was one of this node."""
+        if publisher not in self._ros_publishers:
+            return False
+        del self._ros_publishers[publisher]
+        for handler in publisher.event_handlers:
+            self._ros_entities.pop(handler, None)
+        publisher.destroy()
+        return True
+
+    def _ros_destroy(self, entity: Any, kind: type) -> bool:
+        if entity not in self._ros_entities or not isinstance(entity, kind):
+            return False
+        del self._ros_entities[entity]
+        for handler in getattr(entity, "event_handlers", ()):
+            self._ros_entities.pop(handler, None)
+        entity.destroy()
+        return True
+
+    def destroy_subscription(self, subscription: Subscription) -> bool:
+        """Destroy a subscription; whether it was one of this node."""
+        return self._ros_destroy(subscription, Subscription)
+
+    def destroy_client(self, client: Client) -> bool:
+        """Destroy a client; whether it was one of this node."""
+        return self._ros_destroy(client, Client)
+
+    def destroy_service(self, service: Service) -> bool:
+        """Destroy a service; whether it was one of this node."""
+        return self._ros_destroy(service, Service)
+
+    def destroy_timer(self, timer: Timer) -> bool:
+        """Destroy a timer; whether it was one of this node."""
+        return self._ros_destroy(timer, Timer)
+
+    def destroy_guard_condition(self, guard: GuardCondition) -> bool:
+        """Destroy a guard condition; whether it was one of this node."""
+        return self._ros_destroy(guard, GuardCondition)
+
+    def destroy_rate(self, rate: Rate) -> bool:
+        """Destroy a rate; whether it was one of this node."""
+        timer = self._ros_rates.pop(rate, None)
+        if timer is None:
+            return False
+        rate.destroy()
+        return self.destroy_timer(timer)
+
+    def _ros_of(self, kind: type) -> list[Any]:
+        return [each for each in self._ros_entities if isinstance(each, kind)]
+
+    @property
+    def publishers(self) -> Any:
+        """The node's publishers."""
+        yield from list(self._ros_publishers)
+
+    @property
+    def subscriptions(self) -> Any:
+        """The node's subscriptions."""
+        yield from self._ros_of(Subscription)
+
+    @property
+    def clients(self) -> Any:
+        """The node's service clients."""
+        yield from self._ros_of(Client)
+
+    @property
+    def services(self) -> Any:
+        """The node's service servers."""
+        yield from self._ros_of(Service)
+
+    @property
+    def timers(self) -> Any:
+        """The node's timers."""
+        yield from self._ros_of(Timer)
+
+    @property
+    def guards(self) -> Any:
+        """The node's guard conditions."""
+        yield from self._ros_of(GuardCondition)
+
+    @property
+    def waitables(self) -> Any:
+        """The node's waitables."""
+        yield from list(self._ros_waitables)
+
+
+def _teller(handlers: list[Any]) -> OnEvent:
+    """What tells the handlers of an event of the bus."""
+
+    def tell(kind: Event, what: Any) -> None:
+        for handler in handlers:
+            if kind in handler.kinds:
+                handler.happened(kind, what)
+
+    return tell
+
+
+def _listener(handlers: list[Any]) -> Callable[[], None] | None:
+    """What tells the handlers that watch messages of one; None where there are none, as messages are frequent."""
+    watching = [handler for handler in handlers if "message" in handler.kinds]
+    return partial(_teller(watching), "message", None) if watching else None
+
+
+def _notifier(subscription: Subscription, handlers: list[Any]) -> Callable[[], None]:
+    heard = _listener(handlers)
+    if heard is None:
+        return subscription.notify
+
+    def notify() -> None:
+        heard()
+        subscription.notify()
+
+    return notify

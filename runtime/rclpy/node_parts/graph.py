@@ -1,0 +1,189 @@
+"""The graph as a node sees it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from bot_console.runtime.process import current
+from bot_console.runtime.rmw import names
+from bot_console.runtime.rmw.bus import Bus
+from bot_console.runtime.rmw.endpoints import Endpoint
+from rclpy._rclpy_pybind11 import NodeNameNonExistentError, RCLError
+from rclpy.node_parts.graph_index import Entities, NamesAndTypes, Owner, Tables, collect, tables_of
+from rclpy.node_parts.topic_names import expand_name, remapped
+
+if TYPE_CHECKING:
+    from rclpy.type_hash import TypeHash
+
+NANO = 1_000_000_000
+
+
+class NodeGraph:
+    """Graph queries of `Node`."""
+
+    _ros_bus: Bus
+    context: Any
+
+    def get_topic_names_and_types(self, no_demangle: bool = False) -> NamesAndTypes:
+        """All topics with their types, by name; raises `RCLError` after a shutdown of the context."""
+        self._ros_use_graph("topic")
+        tables = self._ros_tables()
+        rows = (*tables.publishers.named.values(), *tables.subscriptions.named.values())
+        return collect((each.topic, each.type_name) for row in rows for each in row)
+
+    def get_service_names_and_types(self) -> NamesAndTypes:
+        """All services with their types, by name; those that only clients know count.
+
+        Raises `RCLError` after a shutdown of the context.
+        """
+        self._ros_use_graph("service")
+        tables = self._ros_tables()
+        rows = (*tables.servers.named.values(), *tables.clients.named.values())
+        return collect((each.name, each.type_name) for row in rows for each in row)
+
+    def _ros_use_graph(self, what: str) -> None:
+        self._ros_use()
+        if not self.context.ok():
+            raise RCLError(f"Failed to get {what} names and types: rcl node's context is invalid")
+
+    def get_node_names(self) -> list[str]:
+        """The names of all nodes, without namespaces."""
+        self._ros_use()
+        return [each.name for each in self._ros_bus.nodes()]
+
+    def get_fully_qualified_node_names(self) -> list[str]:
+        """The full names of all nodes."""
+        return [f"{space.rstrip('/')}/{name}" for name, space in self.get_node_names_and_namespaces()]
+
+    def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
+        """Name and namespace of all nodes."""
+        self._ros_use()
+        return [(each.name, each.namespace) for each in self._ros_bus.nodes()]
+
+    def get_node_names_and_namespaces_with_enclaves(self) -> list[tuple[str, str, str]]:
+        """Name, namespace and enclave of all nodes."""
+        self._ros_use()
+        return [(each.name, each.namespace, each.enclave) for each in self._ros_bus.nodes()]
+
+    def get_publisher_names_and_types_by_node(
+        self, node_name: str, node_namespace: str, no_demangle: bool = False
+    ) -> NamesAndTypes:
+        """What a node publishes; raises `NodeNameNonExistentError`."""
+        return self._ros_tables().publishers.of(self._ros_who("publisher", node_name, node_namespace))
+
+    def get_subscriber_names_and_types_by_node(
+        self, node_name: str, node_namespace: str, no_demangle: bool = False
+    ) -> NamesAndTypes:
+        """What a node subscribes to; raises `NodeNameNonExistentError`."""
+        return self._ros_tables().subscriptions.of(self._ros_who("subscriber", node_name, node_namespace))
+
+    def get_service_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
+        """What services a node offers; raises `NodeNameNonExistentError`."""
+        return self._ros_tables().servers.of(self._ros_who("service", node_name, node_namespace))
+
+    def get_client_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
+        """What services a node asks; raises `NodeNameNonExistentError`."""
+        return self._ros_tables().clients.of(self._ros_who("client", node_name, node_namespace))
+
+    def _ros_tables(self) -> Tables:
+        return tables_of(self._ros_bus)
+
+    def _ros_who(self, what: str, name: str, namespace: str) -> Owner:
+        """Whom a question is about; raises `RCLError` for what can be no node, and `NodeNameNonExistentError`."""
+        self._ros_use()
+        owner = name, namespace or "/"
+        if owner in self._ros_tables().nodes:
+            return owner
+        for argument, problem in (
+            ("node_name", names.validate_node_name(owner[0])),
+            ("node_namespace", names.validate_namespace(owner[1])),
+        ):
+            if problem:
+                raise RCLError(f"failed to get {what} names and types: {argument} argument is invalid: {problem[0]}")
+        raise NodeNameNonExistentError(f"cannot get {what} names and types for nonexistent node: error not set")
+
+    def count_publishers(self, topic_name: str) -> int:
+        """How many publishers a topic has; the name is expanded but not remapped."""
+        name = expand_name(self, topic_name)
+        return len(self._ros_tables().publishers.on(name))
+
+    def count_subscribers(self, topic_name: str) -> int:
+        """How many subscriptions a topic has; the name is expanded but not remapped."""
+        name = expand_name(self, topic_name)
+        return len(self._ros_tables().subscriptions.on(name))
+
+    def count_clients(self, service_name: str) -> int:
+        """How many clients a service has; the name is expanded but not remapped."""
+        name = expand_name(self, service_name, service=True)
+        return len(self._ros_tables().clients.on(name))
+
+    def count_services(self, service_name: str) -> int:
+        """How many servers a service has; the name is expanded but not remapped."""
+        name = expand_name(self, service_name, service=True)
+        return len(self._ros_tables().servers.on(name))
+
+    def get_publishers_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[Any]:
+        """The publishers of a topic; the name is remapped."""
+        return self._ros_infos(self._ros_tables().publishers, topic_name, no_mangle, publisher=True)
+
+    def get_subscriptions_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[Any]:
+        """The subscriptions of a topic; the name is remapped."""
+        return self._ros_infos(self._ros_tables().subscriptions, topic_name, no_mangle, publisher=False)
+
+    def _ros_infos(self, endpoints: Entities[Endpoint], topic: str, no_mangle: bool, *, publisher: bool) -> list[Any]:
+        from rclpy.node_parts.qos_in_effect import in_effect
+        from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
+
+        name = topic if no_mangle else remapped(self, expand_name(self, topic))
+        kind = TopicEndpointTypeEnum.PUBLISHER if publisher else TopicEndpointTypeEnum.SUBSCRIPTION
+        return [
+            TopicEndpointInfo(
+                node_name=each.node.name,
+                node_namespace=each.node.namespace,
+                topic_type=each.type_name,
+                topic_type_hash=_type_hash(each),
+                endpoint_type=kind,
+                endpoint_gid=list(each.gid),
+                qos_profile=in_effect(each.qos),
+            )
+            for each in endpoints.on(name)
+        ]
+
+    def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
+        """Whether a node is there, or comes within the time (s); a name without a slash is one of the root."""
+        full_name = f"/{fully_qualified_node_name.removeprefix('/')}"
+        clock = current().clock
+        deadline = clock.steady_ns() + int(timeout * NANO)
+        wakeup = clock.wakeup()
+        forget = self._ros_bus.on_graph_change(wakeup.set)
+        try:
+            while full_name not in self.get_fully_qualified_node_names():
+                if clock.steady_ns() >= deadline:
+                    return False
+                wakeup.wait(deadline)
+                wakeup.clear()
+            return True
+        finally:
+            forget()
+
+    def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
+        """A topic's full name, remapped unless told otherwise; raises `RCLError`."""
+        from rclpy.node_parts.topic_names import resolve
+
+        return resolve(self, topic, only_expand=only_expand)
+
+    def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
+        """A service's full name, remapped unless told otherwise; raises `RCLError`."""
+        from rclpy.node_parts.topic_names import resolve
+
+        return resolve(self, service, only_expand=only_expand, service=True)
+
+    def _ros_use(self) -> None:
+        raise NotImplementedError
+
+
+def _type_hash(endpoint: Endpoint) -> TypeHash:
+    from rclpy.type_hash import type_hash_from, type_hash_of
+
+    told = endpoint.type_hash
+    return type_hash_of(endpoint.message_class) if told is None else type_hash_from(told)

@@ -1,0 +1,45 @@
+"""Where the parameters of a node come from: what was declared and in which line, and which override came first."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from bot_console.runtime.process.facts import anybody_listens, tell_fact
+from bot_console.runtime.process.frames import line_outside
+from rclpy.parameter import Parameter
+
+IN_CODE = "parameter_overrides of its program"
+
+
+def tell_declared(node: str, declared: Iterable[tuple[str, Sequence[Any]]], sources: Mapping[str, str]) -> None:
+    """Tell the declarations (full name, tuple) of a node, where anybody listens; `sources` are those of overrides.
+
+    A default that is no plain value, a type for instance, is told as None.
+    """
+    if not anybody_listens():
+        return
+    place = line_outside(sys._getframe(1))  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
+    tell_fact(
+        "declared",
+        node=node,
+        parameters=[
+            [name, _plain(words[1] if len(words) > 1 else None), place, sources.get(name, "")]
+            for name, words in declared
+        ],
+    )
+
+
+def _plain(value: Any) -> Any:
+    """A default as JSON has it: a scalar, or a list of scalars."""
+    if isinstance(value, (bool, int, float, str)) or value is None:
+        return value
+    if isinstance(value, Parameter.Type):
+        return None
+    plain = getattr(value, "tolist", None)
+    try:
+        items = plain() if plain is not None else list(value)
+    except TypeError:
+        return None
+    return items if all(isinstance(each, (bool, int, float, str)) for each in items) else None

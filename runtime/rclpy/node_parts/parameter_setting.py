@@ -1,0 +1,169 @@
+"""How a node sets its parameters: callbacks, checks, the event, in the order of Jazzy."""
+
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from rcl_interfaces.msg import ParameterDescriptor, ParameterEvent, SetParametersResult
+from rclpy.exceptions import ParameterNotDeclaredException
+from rclpy.node_parts.parameter_descriptors import refusal
+from rclpy.node_parts.parameter_events import event_parameter, parameter_event
+from rclpy.parameter import Parameter
+
+EMPTIED = (
+    "parameter list cannot be empty, this might be due to pre_set_parameters_callback "
+    "modifying the original parameters list."
+)
+NOT_SET = Parameter.Type.NOT_SET
+
+Setter = Callable[[Any], Any]
+"""A callback; it gets the list of parameters, or whatever sequence the caller has given."""
+
+
+def _refused(reason: str) -> SetParametersResult:
+    return SetParametersResult(successful=False, reason=reason)
+
+
+class ParameterSetting:
+    """Methods of `Node` that change values. Callbacks added last are called first."""
+
+    PARAM_REL_TOL: float
+    _parameters: dict[str, Parameter]
+    _descriptors: dict[str, ParameterDescriptor]
+    _allow_undeclared_parameters: bool
+    _pre_set_parameters_callbacks: list[Setter]
+    _on_set_parameters_callbacks: list[Setter]
+    _post_set_parameters_callbacks: list[Setter]
+    _parameter_event_publisher: Any
+    _clock: Any
+    _ros_event_node_name: str
+    _ros_use: Callable[[], None]
+
+    def set_parameters(self, parameter_list: Sequence[Parameter]) -> list[SetParametersResult]:
+        """Set parameters one after the other; returns one result for each.
+
+        Raises `ParameterNotDeclaredException` at the first undeclared one; those before it stay set.
+        """
+        return [self._set_parameters_atomically([parameter]) for parameter in parameter_list]
+
+    def set_parameters_atomically(self, parameter_list: Sequence[Parameter]) -> SetParametersResult:
+        """Set all parameters or none; raises `ParameterNotDeclaredException` where one is undeclared."""
+        return self._set_parameters_atomically(parameter_list)
+
+    def _set_parameters_atomically(self, parameters: Sequence[Parameter]) -> SetParametersResult:
+        if self._pre_set_parameters_callbacks:
+            parameters = [each for callback in self._pre_set_parameters_callbacks for each in callback(parameters)]
+            if not parameters:
+                return _refused(EMPTIED)
+        self._ros_check_declared(parameters)
+        return self._ros_commit(parameters)
+
+    def _ros_check_declared(self, parameters: Sequence[Parameter]) -> None:
+        for parameter in parameters:
+            if not isinstance(parameter, Parameter):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
+                raise TypeError(f"parameter must be instance of type '{Parameter!r}'")
+        if self._allow_undeclared_parameters:
+            return
+        known = self._parameters
+        undeclared = (parameter._name for parameter in parameters if parameter._name not in known)
+        # `any` takes names up to the first one that is not empty; the message lists what is left, as upstream's does.
+        if any(undeclared):
+            raise ParameterNotDeclaredException(list(undeclared))
+
+    def _ros_commit(
+        self,
+        parameters: Sequence[Parameter],
+        descriptors: dict[str, ParameterDescriptor] | None = None,
+        *,
+        keep_not_set: bool = False,
+    ) -> SetParametersResult:
+        """Check, ask the callbacks, store, publish and tell; `descriptors` are new ones, of a declaration.
+
+        A NOT_SET parameter is deleted unless `keep_not_set`.
+        """
+        reason = self._ros_refusal(parameters, descriptors)
+        if reason is not None:
+            return _refused(reason)
+        for callback in self._on_set_parameters_callbacks:
+            result = callback(parameters)
+            if not result.successful:
+                return result
+        self._ros_use()  # the event names the node, and a destroyed one refuses that before anything is stored
+        event = self._ros_store(parameters, descriptors, keep_not_set)
+        self._parameter_event_publisher._publish_own(event)
+        for callback in self._post_set_parameters_callbacks:
+            callback(parameters)
+        return SetParametersResult(successful=True, check_fields=False)
+
+    def _ros_refusal(
+        self, parameters: Sequence[Parameter], descriptors: dict[str, ParameterDescriptor] | None
+    ) -> str | None:
+        known = self._descriptors if descriptors is None else descriptors
+        for parameter in parameters:
+            name = parameter._name
+            if name in known:
+                reason = refusal(
+                    parameter,
+                    known[name],
+                    check_read_only=descriptors is None,
+                    declared=name in self._parameters,
+                    tolerance=self.PARAM_REL_TOL,
+                )
+                if reason is not None:
+                    return reason
+        return None
+
+    def _ros_store(
+        self,
+        parameters: Sequence[Parameter],
+        descriptors: dict[str, ParameterDescriptor] | None,
+        keep_not_set: bool,
+    ) -> ParameterEvent:
+        """Take the values over; returns the event that tells of them."""
+        stored = self._parameters
+        new: list[Any] = []
+        changed: list[Any] = []
+        deleted: list[Any] = []
+        for parameter in parameters:
+            name = parameter._name
+            if parameter._type_ is NOT_SET and not keep_not_set:
+                stored.pop(name, None)
+                self._descriptors.pop(name, None)
+                deleted.append(event_parameter(parameter))
+                continue
+            if descriptors is not None:
+                self._descriptors[name] = descriptors[name]
+            elif name not in self._descriptors:
+                self._descriptors[name] = ParameterDescriptor(dynamic_typing=True)
+            before = stored.get(name)
+            (new if before is None or before._type_ is NOT_SET else changed).append(event_parameter(parameter))
+            stored[name] = parameter
+        return parameter_event(self._ros_event_node_name, self._clock._now_ns(), new, changed, deleted)
+
+    def add_pre_set_parameters_callback(self, callback: Callable[[list[Parameter]], list[Parameter]]) -> None:
+        """Call back with the parameters to be set, before any check; what it returns is set instead."""
+        self._pre_set_parameters_callbacks.insert(0, callback)
+
+    def add_on_set_parameters_callback(self, callback: Callable[[list[Parameter]], SetParametersResult]) -> None:
+        """Ask a callback whether parameters may be set; values are still the old ones then."""
+        self._on_set_parameters_callbacks.insert(0, callback)
+
+    def add_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], None]) -> None:
+        """Tell a callback which parameters have been set."""
+        self._post_set_parameters_callbacks.insert(0, callback)
+
+    def remove_pre_set_parameters_callback(self, callback: Callable[[list[Parameter]], list[Parameter]]) -> None:
+        """Take a callback away; raises `ValueError` for one that is not there."""
+        self._pre_set_parameters_callbacks.remove(callback)
+
+    def remove_on_set_parameters_callback(self, callback: Callable[[list[Parameter]], SetParametersResult]) -> None:
+        """Take a callback away; raises `ValueError` for one that is not there."""
+        self._on_set_parameters_callbacks.remove(callback)
+
+    def remove_post_set_parameters_callback(self, callback: Callable[[list[Parameter]], None]) -> None:
+        """Take a callback away; raises `ValueError` for one that is not there."""
+        self._post_set_parameters_callbacks.remove(callback)

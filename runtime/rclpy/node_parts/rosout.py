@@ -1,0 +1,40 @@
+"""The `/rosout` publisher of a node: what its logger and the children of that say."""
+
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
+from __future__ import annotations
+
+from typing import Any
+
+from rclpy import logging
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+
+NANO = 1_000_000_000
+ROSOUT = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+class Rosout:
+    """Publishes a node's log lines."""
+
+    def __init__(self, node: Any) -> None:
+        from rcl_interfaces.msg import Log
+
+        self._log = Log
+        self._name = node.get_logger().name
+        self._publisher = node.create_publisher(Log, "/rosout", ROSOUT)
+        self._endpoint = self._publisher._endpoint
+        logging.register_rosout(self._name, self._say)
+
+    def _say(self, severity: int, name: str, text: str, file: str, function: str, line: int, stamp_ns: int) -> bool:
+        message = self._log()
+        # Past the properties and their checks, which the logger's own values need not: this is done for each line.
+        stamp = message._stamp
+        stamp._sec, stamp._nanosec = divmod(stamp_ns, NANO)
+        message._level = severity
+        message._name, message._msg, message._file, message._function, message._line = name, text, file, function, line
+        return self._endpoint.publish_own(message)
+
+    def close(self) -> None:
+        """Say nothing more."""
+        logging.unregister_rosout(self._name)

@@ -1,0 +1,61 @@
+"""Parameter values given from outside a node, by files and by `-p`, in the order of the command line."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from bot_console.runtime.rmw.parameter_overrides import COMMAND_LINE as COMMAND_LINE
+from bot_console.runtime.rmw.parameter_overrides import ParameterOverrides
+from bot_console.runtime.rmw.parameter_overrides import ParameterYamlError as ParameterYamlError
+
+ALL_NODES = "/**"
+"""The key of values that every node takes, such as those of a plain `-p name:=value`."""
+
+
+class ParameterTable(ParameterOverrides):
+    """All overrides of one command line."""
+
+    def add_file(self, path: str) -> None:
+        """Take the values of a parameter file; raises `ParameterYamlError`."""
+        from bot_console.runtime.rmw.parameter_file import read_parameter_file
+
+        self.source = path
+        read_parameter_file(path, self)
+
+    def add_value(self, key: str, name: str, text: str) -> None:
+        """Take the value of one parameter as `-p` writes it; raises `ParameterYamlError`."""
+        from bot_console.runtime.rmw.parameter_value import read_parameter_value
+
+        if not text:
+            raise ParameterYamlError("error not set")
+        self.source = COMMAND_LINE
+        node = self.node(key)
+        read_parameter_value(text, node.values[node.find(name)])
+
+    def for_node(self, fully_qualified_name: str) -> dict[str, Any]:
+        """The values that reach a node; later keys overwrite earlier ones. None stands for a value without type."""
+        found: dict[str, Any] = {}
+        for key, node in self.nodes.items():
+            if key_matches(key, fully_qualified_name):
+                found.update(node)
+        return found
+
+    def sources_for_node(self, fully_qualified_name: str) -> dict[str, str]:
+        """Where each value of `for_node` comes from: the path of a file, or `COMMAND_LINE`."""
+        found: dict[str, str] = {}
+        for key, node in self.nodes.items():
+            if key_matches(key, fully_qualified_name):
+                found.update(zip(node.names, node.sources, strict=True))
+        return found
+
+
+def key_matches(key: str, fully_qualified_name: str) -> bool:
+    """Whether a node key, with `*` for one name and `**` for any number of them, means this node."""
+    if key == ALL_NODES:
+        return True
+    key = key if key.startswith("/") else f"/{key}"
+    if "*" not in key:
+        return key == fully_qualified_name
+    pattern = key.replace("/*", r"(/\w+)")
+    return re.fullmatch(pattern, fully_qualified_name) is not None

@@ -1,0 +1,34 @@
+"""A Zenoh router of our own: for a robot without one, and for tests."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from bot_console.runtime.rmw.zenoh.session import Session, SessionError
+from bot_console.runtime.rmw.zenoh.settings import Serving
+
+
+def router_settings(zid: str, serving: Serving) -> dict[str, Any]:
+    """The settings of a router as nodes of rmw_zenoh want it: they learn of each other from it, and talk directly."""
+    return {
+        "mode": "router",
+        "id": zid,
+        "listen": {"endpoints": list(serving.endpoints), "exit_on_failure": True},
+        "connect": {"endpoints": []},
+        "scouting": {"multicast": {"enabled": False}, "gossip": {"enabled": True}},
+        "routing": {"router": {"peers_failover_brokering": False}},
+        "timestamping": {"enabled": True},
+        "transport": {"shared_memory": {"enabled": False}, "link": {"tls": dict(serving.tls)}},
+    }
+
+
+class Router(Session):
+    """A session that carries what others say, until it is closed. It belongs to no domain."""
+
+    def __init__(self, serving: Serving, file: str = "") -> None:
+        """A file is a configuration of Zenoh, for instance with an access list. Raises `SessionError`."""
+        super().__init__(0)
+        try:
+            self._open(router_settings(self.zid, serving), file)
+        except SessionError as error:
+            raise SessionError(f"cannot listen on {', '.join(serving.endpoints)}: {error}") from None

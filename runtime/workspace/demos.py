@@ -1,0 +1,112 @@
+"""The packages of ROS 2's tutorials that come along: their executables lie in `nodes/demos/`, served as one package."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from types import MappingProxyType
+
+from bot_console.runtime.workspace.own import ROOT
+from bot_console.runtime.workspace.package import EntryPoint, Package
+from bot_console.runtime.workspace.share import link
+
+IMPORT_NAME = "bot_console_demos"
+"""What `nodes/demos/` is imported as."""
+FOLDER = ROOT / "nodes" / "demos"
+EXECUTABLES: Mapping[str, Mapping[str, str]] = {
+    "action_tutorials_cpp": {
+        "fibonacci_action_client": "action_tutorials.fibonacci_action_client:main_cpp",
+        "fibonacci_action_server": "action_tutorials.fibonacci_action_server:main_cpp",
+    },
+    "action_tutorials_py": {
+        "fibonacci_action_client": "action_tutorials.fibonacci_action_client:main_py",
+        "fibonacci_action_server": "action_tutorials.fibonacci_action_server:main_py",
+    },
+    "demo_nodes_cpp": {
+        "add_two_ints_client": "demo_nodes.add_two_ints:ask",
+        "add_two_ints_client_async": "demo_nodes.add_two_ints:ask",
+        "add_two_ints_server": "demo_nodes.add_two_ints:serve",
+        "listener": "demo_nodes.listener:main",
+        "listener_best_effort": "demo_nodes.listener:main_best_effort",
+        "parameter_blackboard": "demo_nodes.parameters:main_blackboard",
+        "set_parameters_callback": "demo_nodes.parameters:main_callback",
+        "talker": "demo_nodes.talker:main_cpp",
+    },
+    "demo_nodes_py": {
+        "add_two_ints_client": "demo_nodes.add_two_ints:ask",
+        "add_two_ints_client_async": "demo_nodes.add_two_ints:ask",
+        "add_two_ints_server": "demo_nodes.add_two_ints:serve",
+        "listener": "demo_nodes.listener:main",
+        "listener_qos": "demo_nodes.listener:main_qos",
+        "listener_serialized": "demo_nodes.listener:main_serialized",
+        "set_parameters_callback": "demo_nodes.parameters:main_callback",
+        "talker": "demo_nodes.talker:main_py",
+        "talker_qos": "demo_nodes.talker:main_qos",
+    },
+    "examples_rclpy_minimal_client": dict.fromkeys(
+        ("client", "client_async", "client_async_callback", "client_async_member_function"),
+        "demo_nodes.add_two_ints:ask_minimal",
+    ),
+    "examples_rclpy_minimal_publisher": dict.fromkeys(
+        ("publisher_local_function", "publisher_member_function", "publisher_old_school"),
+        "demo_nodes.talker:main_minimal",
+    ),
+    "examples_rclpy_minimal_service": dict.fromkeys(
+        ("service", "service_member_function"), "demo_nodes.add_two_ints:serve_minimal"
+    ),
+    "examples_rclpy_minimal_subscriber": dict.fromkeys(
+        ("subscriber_lambda", "subscriber_member_function", "subscriber_old_school"),
+        "demo_nodes.listener:main_minimal",
+    ),
+    "tf2_ros": {
+        "static_transform_publisher": "tf2_tools.static_transform_publisher:main",
+        "tf2_echo": "tf2_tools.tf2_echo:main",
+    },
+    "tf2_tools": {"view_frames": "tf2_tools.view_frames:main"},
+    "turtle_tf2_py": {
+        "static_turtle_tf2_broadcaster": "turtle_tf2.static_turtle_tf2_broadcaster:main",
+        "turtle_tf2_broadcaster": "turtle_tf2.turtle_tf2_broadcaster:main",
+        "turtle_tf2_listener": "turtle_tf2.turtle_tf2_listener:main",
+    },
+    "turtlesim": {
+        "draw_square": "turtlesim.draw_square:main",
+        "mimic": "turtlesim.mimic:main",
+        "turtle_teleop_key": "turtlesim.turtle_teleop_key:main",
+        "turtlesim_node": "turtlesim.turtlesim_node:main",
+    },
+}
+"""What runs each executable, by the names that the packages have in ROS 2."""
+SECOND_SPELLING = {"_launch.py": ".launch.py"}
+"""Endings of launch files, and the other ones that older releases gave them."""
+
+
+@cache
+def demo_packages() -> Mapping[str, Package]:
+    """The packages by name."""
+    return MappingProxyType({name: _package(name, rows) for name, rows in EXECUTABLES.items()})
+
+
+def _package(name: str, rows: Mapping[str, str]) -> Package:
+    entries: dict[str, EntryPoint] = {}
+    for executable, target in rows.items():
+        module, _, function = target.partition(":")
+        entries[executable] = EntryPoint(f"{IMPORT_NAME}.{module}", function)
+    return Package(name, FOLDER, "ament_python", executables=MappingProxyType(entries))
+
+
+def is_demo(package: Package) -> bool:
+    """Whether a package is one of these, not one of the user's with its name."""
+    return package.folder == FOLDER
+
+
+def demo_share(package: Package, links: Path) -> Path:
+    """Its share folder, with its launch files."""
+    place = links / package.name
+    place.mkdir(parents=True, exist_ok=True)
+    for path in sorted((ROOT / "launch" / package.name).glob("*.py")):
+        link(path, place / "launch" / path.name)
+        for ending, other in SECOND_SPELLING.items():
+            if path.name.endswith(ending):
+                link(path, place / "launch" / (path.name.removesuffix(ending) + other))
+    return place

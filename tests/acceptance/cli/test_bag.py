@@ -1,0 +1,81 @@
+"""`bot-console bag` over real processes: recorded from a robot, killed, read, played."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("mcap")
+PROGRAM = [sys.executable, "-m", "bot_console.tui"]
+
+
+@pytest.fixture(scope="module")
+def robot(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """A robot in a domain of its own, and a folder for bags."""
+    folder = tmp_path_factory.mktemp("bags")
+    os.environ["BOT_CONSOLE_SOCKET_DIR"] = sockets = f"/tmp/bc-bag-{os.getpid()}"
+    line = [*PROGRAM, "--headless", "--duration", "1000"]
+    system = subprocess.Popen(line, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    seen = [*PROGRAM, "topic", "echo", "--once", "--timeout", "60", "/odom"]
+    subprocess.run(seen, capture_output=True, timeout=90, check=False)
+    yield folder
+    system.send_signal(signal.SIGINT)
+    try:
+        system.wait(60)
+    except subprocess.TimeoutExpired:
+        system.kill()
+    subprocess.run(["rm", "-rf", sockets], check=False)
+
+
+@pytest.fixture(autouse=True)
+def domain(robot: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", f"/tmp/bc-bag-{os.getpid()}")
+
+
+def typed(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    line = [*PROGRAM, "bag", *words]
+    return subprocess.run(line, capture_output=True, text=True, timeout=90, check=False, cwd=folder)
+
+
+def test_recorded_and_played(robot: Path) -> None:
+    done = typed(robot, "record", "/odom", "/scan", "-o", "mine", "--duration", "4")
+    assert done.returncode == 0 and "Subscribed to topic '/odom'" in done.stderr, done.stderr
+    told = typed(robot, "info", "mine")
+    assert told.returncode == 0 and "Topic: /odom | Type: nav_msgs/msg/Odometry" in told.stdout
+    again = typed(robot, "record", "/odom", "-o", "mine", "--duration", "1")
+    assert again.returncode == 1 and "is there already" in again.stderr
+    line = [*PROGRAM, "bag", "play", "mine", "-m", "/odom:=/copy", "-l"]
+    played = subprocess.Popen(line, cwd=robot, stderr=subprocess.PIPE, text=True)
+    heard = [*PROGRAM, "topic", "echo", "--once", "/copy", "nav_msgs/msg/Odometry"]
+    out = subprocess.run(heard, capture_output=True, text=True, timeout=60, check=False).stdout
+    played.send_signal(signal.SIGINT)
+    _, told = played.communicate(timeout=30)
+    assert "pose:" in out and played.returncode == 0, told
+
+
+def test_a_killed_recorder_leaves_a_bag(robot: Path) -> None:
+    recorder = subprocess.Popen([*PROGRAM, "bag", "record", "-a", "-o", "killed"], cwd=robot, stderr=subprocess.DEVNULL)
+    file = robot / "killed" / "killed_0.mcap"
+    end = time.monotonic() + 60
+    while not (file.exists() and file.stat().st_size > 200_000) and time.monotonic() < end:
+        time.sleep(0.1)
+    recorder.kill()
+    recorder.wait()
+    told = typed(robot, "info", "killed")
+    assert told.returncode == 0 and "was given one" in told.stderr and "/scan" in told.stdout
+    assert "was given one" not in typed(robot, "info", "killed").stderr
+
+
+def test_wrong_words(robot: Path) -> None:
+    assert typed(robot, "record").returncode == 2
+    assert "no such bag" in typed(robot, "info", "none").stderr
+    assert typed(robot, "play", "none").returncode == 1
+    assert typed(robot, "record", "-e", "(", "-o", "x").returncode == 1
+    assert "snapshot mode" in typed(robot, "snapshot").stderr

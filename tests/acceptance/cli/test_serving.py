@@ -1,0 +1,84 @@
+"""`up --serve` lets clients of a router in, and tells what that means; `router` carries messages, or says why not."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from certificates import make_certificates
+from ports import free_port
+
+if os.name == "nt":
+    pytest.skip("programs meet on Unix sockets", allow_module_level=True)
+
+PATIENCE = 100
+
+
+def run(*words: str) -> subprocess.CompletedProcess[str]:
+    line = [sys.executable, "-m", "bot_console.tui", *words]
+    return subprocess.run(line, capture_output=True, text=True, timeout=PATIENCE, check=False)
+
+
+def test_a_robot_in_the_background_is_reached_by_its_way_in_and_by_certificate_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
+    files = make_certificates(tmp_path)
+    place = f"tls/localhost:{free_port()}"
+    shown = ("--tls-certificate", files.certificate, "--tls-key", files.key)
+    started = run("up", "--serve", place, "--tls-ca", files.ca, *shown)
+    try:
+        assert started.returncode == 0, started.stderr
+        assert "WARNING" not in started.stderr  # it is on loopback
+        monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", f"{os.environ['BOT_CONSOLE_SOCKET_DIR']}x")
+        capture = tmp_path / "robot.json"
+        way = ("--connect", place, "--tls-ca", files.ca)
+        seen = run("doctor", *way, *shown, "--capture", str(capture))
+        assert seen.returncode == 0, seen.stdout
+        assert "emergency stop that answers" in seen.stdout
+        assert any("/simulator/" in each for each in json.loads(capture.read_text())["tokens"])
+        monkeypatch.setenv("BOT_CONSOLE_CONNECT", place)
+        names = {
+            "root_ca_certificate": files.ca,
+            "connect_certificate": files.certificate,
+            "connect_private_key": files.key,
+        }
+        override = ("enable_mtls=true", *(f'{name}="{path}"' for name, path in names.items()))
+        monkeypatch.setenv("ZENOH_CONFIG_OVERRIDE", ";".join(f"transport/link/tls/{each}" for each in override))
+        assert "/simulator" in run("node", "list").stdout
+        assert run("stop", "from afar").returncode == 0
+        monkeypatch.delenv("ZENOH_CONFIG_OVERRIDE")
+        monkeypatch.delenv("BOT_CONSOLE_CONNECT")
+        refused = run("doctor", *way)
+        assert refused.returncode == 1 and "--tls-certificate" in refused.stdout
+    finally:
+        monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", os.environ["BOT_CONSOLE_SOCKET_DIR"].removesuffix("x"))
+        ended = run("down")
+    assert ended.returncode == 0
+    assert run("doctor", "--connect", place.replace("tls/", "tcp/")).returncode == 1
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "told"),
+    [
+        (["--listen", "robot"], 2, "is no endpoint"),
+        (["--listen", "tls/127.0.0.1:7447"], 2, "needs --tls-certificate and --tls-key"),
+        (["--listen", "tcp/192.0.2.1:7447"], 1, "whoever reaches tcp/192.0.2.1:7447 can drive this robot"),
+    ],
+)
+def test_what_cannot_be_is_refused_and_what_is_open_is_warned_of(words: list[str], code: int, told: str) -> None:
+    done = run("router", *words)
+    assert done.returncode == code and told in done.stderr
+
+
+def test_a_router_ends_by_a_signal() -> None:
+    line = [sys.executable, "-m", "bot_console.tui", "router", "--listen", f"tcp/127.0.0.1:{free_port()}"]
+    process = subprocess.Popen(line, stdout=subprocess.PIPE, text=True)
+    assert process.stdout is not None and "a router for nodes of rmw_zenoh" in process.stdout.readline()
+    process.send_signal(signal.SIGTERM)
+    assert process.wait(PATIENCE) == 0

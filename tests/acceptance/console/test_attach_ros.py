@@ -1,0 +1,97 @@
+"""The console on a ROS 2 that is not ours, by its public interfaces alone: see `helpers/standin_ros.py`."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from standin_ros import make_standin
+
+sys.path.insert(0, str(Path(__file__).parent))
+from terminal import PATIENCE, Terminal
+
+if os.name == "nt":
+    pytest.skip("programs meet on Unix sockets", allow_module_level=True)
+
+CONSOLE = ["-m", "bot_console.tui"]
+ROBOT = """
+import rclpy
+from geometry_msgs.msg import Twist
+from rclpy.executors import ExternalShutdownException
+
+rclpy.init()
+node = rclpy.create_node("{name}")
+node.declare_parameter("top_speed", 1.25)
+node.create_subscription(Twist, "/cmd_vel", lambda message: node.get_logger().info("driven"), 10)
+node.get_logger().warning("{name} is up")
+try:
+    rclpy.spin(node)
+except (KeyboardInterrupt, ExternalShutdownException):
+    pass
+"""
+LAUNCH = """
+import sys
+from launch import LaunchDescription
+from launch.actions import ExecuteProcess
+
+def generate_launch_description():
+    return LaunchDescription([ExecuteProcess(cmd=[sys.executable, {program!r}], name="launched", output="screen")])
+"""
+
+
+@pytest.fixture(scope="module")
+def sourced(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """The environment in which the stand-in is sourced."""
+    return make_standin(tmp_path_factory.mktemp("opt"))
+
+
+@pytest.fixture
+def robot(
+    sourced: dict[str, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[subprocess.Popen[bytes]]:
+    """A robot of that ROS 2, in a process of its own."""
+    for name in ("PYTHONPATH", "ROS_DISTRO", "RMW_IMPLEMENTATION"):
+        monkeypatch.setenv(name, sourced[name])
+    process = subprocess.Popen([sys.executable, "-c", ROBOT.format(name="rover")])
+    yield process
+    process.kill()
+    process.wait()
+
+
+def test_the_console_shows_it_launches_beside_it_and_leaves_it_alone(
+    robot: subprocess.Popen[bytes], tmp_path: Path
+) -> None:
+    program, file = tmp_path / "second.py", tmp_path / "second.launch.py"
+    program.write_text(ROBOT.format(name="second"))
+    file.write_text(LAUNCH.format(program=str(program)))
+    terminal = Terminal([*CONSOLE, "attach", "--ros"], tmp_path)
+    terminal.read_until(lambda: b"top_speed" in terminal.output, "the robot")
+    terminal.type("2")  # a smaller terminal shows one pane at a time
+    terminal.read_until(lambda: b"rover is up" in terminal.output, "its line in the log")
+    assert b"ROS 2 standin" in terminal.output
+    terminal.type("8o")
+    terminal.read_until(lambda: b"Open a launch file" in terminal.output, "the question for a file")
+    terminal.type(f"{file}\r")
+    terminal.read_until(lambda: b"launched-1 started" in terminal.output, "the launched process")
+    terminal.type("2")
+    terminal.read_until(lambda: b"second is up" in terminal.output, "its line in the log")
+    terminal.type("q")
+    assert terminal.wait() == 0
+    assert terminal.is_usable()
+    assert robot.poll() is None
+    terminal.close()
+
+
+def test_beside_a_system_of_ours_it_is_asked_which(robot: subprocess.Popen[bytes], tmp_path: Path) -> None:
+    line = [sys.executable, *CONSOLE, "attach"]
+    seen = ""
+    for _ in range(100):  # until the robot has a socket in the domain
+        done = subprocess.run(line, capture_output=True, text=True, timeout=PATIENCE, check=False)
+        seen = done.stderr
+        if done.returncode == 2:
+            break
+    assert "--ros or --embedded" in seen and "ROS 2 standin" in seen

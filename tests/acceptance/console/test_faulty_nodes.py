@@ -1,0 +1,174 @@
+"""Each kind of faulty node in a process of its own, beside a robot: all others go on, and what happened is told.
+
+One launch host with our robot system and a good node for all tests of this file, as a console has it.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+if not Path("/proc/self/schedstat").exists():
+    pytest.skip("needs /proc and fork", allow_module_level=True)
+
+from bot_console.tui.cli.live.launch_host import start_host
+from bot_console.tui.cli.system.workspaces import PROGRAM_LAUNCH, SYSTEM_LAUNCH
+from bot_console.tui.console.launch_host.proxy import HostedLauncher
+from bot_console.tui.console.model import ProcessInfo, ProcessState
+from launcher_bench import WAITS
+
+PATIENCE = 90.0
+"""Seconds after which a test gives up; nothing is measured by it."""
+
+HEAD = """
+import ctypes, os, sys, time
+import rclpy
+rclpy.init()
+node = rclpy.create_node("faulty")
+print("up", flush=True)
+"""
+
+
+@dataclass
+class System:
+    """A host, what it was heard to print, and a folder for programs."""
+
+    launcher: HostedLauncher
+    printed: list[tuple[str, str]]
+    folder: Path
+
+    def start(self, name: str, text: str) -> ProcessInfo:
+        """Run a program as a node; its process, once it has said that it is up."""
+        file = self.folder / f"{name}.py"
+        file.write_text(text)
+        assert self.launcher.launch(str(PROGRAM_LAUNCH), {"program": str(file)}).result(PATIENCE).ok
+        self.until(lambda: self.heard(name, "up"), f"{name} is up")
+        return self.named(name)
+
+    def named(self, name: str) -> ProcessInfo:
+        """The process of a name."""
+        return next(each for each in self.launcher.info().processes if each.label.startswith(name))
+
+    def heard(self, name: str, text: str) -> Any:
+        """Whether a process's line has this in it."""
+        return [line for label, line in self.printed if label.startswith(name) and text in line]
+
+    def until(self, condition: Callable[[], Any], what: str) -> Any:
+        """Wait until something is so."""
+        deadline = time.monotonic() + PATIENCE
+        while not (found := condition()):
+            assert time.monotonic() < deadline, (what, self.launcher.info().processes, self.printed[-5:])
+            threading.Event().wait(0.02)
+        return found
+
+    def all_others_go_on(self) -> None:
+        """The robot gives its odometry, nothing had to be started again, and the good node runs."""
+        assert typed("topic", "echo", "--once", "/odom", "--field", "header.stamp").returncode == 0
+        assert self.named("good").state is ProcessState.RUNNING
+        assert self.named("safety_node").restarts == 0
+
+
+def typed(*words: str) -> subprocess.CompletedProcess[str]:
+    """A command line of another terminal."""
+    line = [sys.executable, "-m", "bot_console.tui", *words]
+    return subprocess.run(line, capture_output=True, text=True, timeout=PATIENCE, check=False)
+
+
+@pytest.fixture(scope="module")
+def system(tmp_path_factory: pytest.TempPathFactory) -> Iterator[System]:
+    """The robot and a good node."""
+    folder = tmp_path_factory.mktemp("faulty")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ROS_LOG_DIR", str(folder / "log"))
+        patch.setenv("BOT_CONSOLE_SOCKET_DIR", f"/tmp/bcf-{os.getpid()}")
+        host = start_host(log=folder / "host.log")
+        printed: list[tuple[str, str]] = []
+        launcher = HostedLauncher(
+            host.connection, lambda *record: None, lambda severity, name, text: printed.append((name, text))
+        )
+        made = System(launcher, printed, folder)
+        assert launcher.launch(SYSTEM_LAUNCH, {"seed": "1"}).result(PATIENCE).ok
+        made.start("good", WAITS)
+        yield made
+        launcher.close()
+        host.end()
+
+
+@pytest.fixture(autouse=True)
+def same_folder(system: System, monkeypatch: pytest.MonkeyPatch, socket_folder: str) -> None:
+    """Verbs meet the system of this file."""
+    monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", f"/tmp/bcf-{os.getpid()}")
+
+
+@pytest.mark.parametrize(
+    ("name", "fault", "state", "code", "problem"),
+    [
+        ("raises", "raise ValueError('broken')", ProcessState.CRASHED, 1, "ValueError: broken (raises.py:7)"),
+        ("exits", "os._exit(3)", ProcessState.CRASHED, 3, "exit code 3"),
+        ("aborts", "os.abort()", ProcessState.CRASHED, -6, "SIGABRT"),
+        ("faults", "ctypes.string_at(0)", ProcessState.CRASHED, -11, "SIGSEGV"),
+        ("leaves", "sys.exit(0)", ProcessState.EXITED, 0, ""),
+        (
+            "fills",
+            "import resource; resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30)); held = bytearray(2 << 30)",
+            ProcessState.CRASHED,
+            1,
+            "MemoryError",
+        ),
+    ],
+)
+def test_one_that_ends_ends_alone(
+    system: System, name: str, fault: str, state: ProcessState, code: int, problem: str
+) -> None:
+    system.start(name, HEAD + fault + "\n")
+    system.until(lambda: system.named(name).state is state, "its end")
+    ended = system.named(name)
+    assert ended.exit_code == code and problem in ended.problem
+    system.all_others_go_on()
+
+
+def test_one_that_is_frozen_is_shown_as_such_until_it_goes_on(system: System) -> None:
+    system.start("sleeps", HEAD + "time.sleep(1000)\n")
+    process = system.named("sleeps")
+    assert process.pid
+    os.kill(process.pid, signal.SIGSTOP)
+    system.until(lambda: "is frozen" in system.named("sleeps").problem, "that it is frozen")
+    system.all_others_go_on()
+    os.kill(process.pid, signal.SIGCONT)
+    system.until(lambda: not system.named("sleeps").problem, "that it goes on")
+    assert system.launcher.kill(process.key).result(PATIENCE).ok
+
+
+@pytest.mark.soak
+def test_those_that_never_end_are_named_with_their_figures_and_the_robot_can_be_stopped(system: System) -> None:
+    system.start("loops", HEAD + "while True:\n    pass\n")
+    system.start("computes", HEAD + "sum(iter(int, 1))\n")
+    system.start("floods", HEAD + "while True:\n    print('flood ' * 20)\n")
+    system.start("holds", HEAD + "held = bytearray(b'x' * 300_000_000)\ntime.sleep(1000)\n")
+    system.start("closes", HEAD + "os.closerange(0, 256)\ntime.sleep(1000)\n")
+    deaf = "import signal\nfor each in (2, 15):\n    signal.signal(each, signal.SIG_IGN)\ntime.sleep(1000)\n"
+    system.start("deaf", HEAD + deaf)
+    timeline = lambda: " ".join(each.text for each in system.launcher.info().timeline)  # noqa: E731
+    for name in ("loops", "computes"):
+        system.until(lambda name=name: f"{name}.py-1 has computed for 6 s without waiting" in timeline(), "a busy one")
+    system.until(lambda: system.heard("loops", "without waiting, in"), "the line in which it computes")
+    system.until(lambda: (system.named("holds").memory or 0) > 300, "its memory")
+    assert (system.named("loops").cpu or 0.0) > 0.0
+    system.all_others_go_on()
+    assert typed("param", "get", "/waiter", "use_sim_time").stdout == "Boolean value is: False\n"
+    assert typed("stop", "a test").returncode == 0
+    assert typed("release").returncode == 0
+    for name in ("loops", "computes", "floods", "holds", "closes", "deaf"):
+        assert system.launcher.kill(system.named(name).key).result(PATIENCE).ok
+        assert system.named(name).exit_code == -9
+    system.all_others_go_on()

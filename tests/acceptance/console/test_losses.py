@@ -1,0 +1,31 @@
+"""A robot that loses the person who drives it stands until a person hands it back; a witness judges by its odometry."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+if os.name == "nt":
+    pytest.skip("programs meet on Unix sockets", allow_module_level=True)
+
+from live_robot import LiveRobot, live_robot
+from losses import PERSONS, STOPS
+
+
+@pytest.fixture(scope="module")
+def robot(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveRobot]:
+    """A live robot, driving; each loss hands it on as it was."""
+    sockets = Path(tempfile.mkdtemp(prefix="bcs"))
+    with live_robot(tmp_path_factory.mktemp("robot"), sockets) as made:
+        yield made
+    shutil.rmtree(sockets, ignore_errors=True)
+
+
+@pytest.mark.parametrize("loss", [*PERSONS, STOPS[0], STOPS[1]], ids=lambda each: each.__name__)
+def test_it_stands_until_a_person_hands_it_back(robot: LiveRobot, loss: Callable[[LiveRobot], float]) -> None:
+    loss(robot)

@@ -1,0 +1,154 @@
+"""A console at the end of a bad link: nothing of the robot waits for it, motion ends, and the state is told."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from bad_link import BadLink
+from bot_console.runtime.rmw.local import LocalBus, local_bus
+from bot_console.runtime.rmw.middleware import choose_middleware
+from bot_console.runtime.rmw.zenoh.bus import ZenohBus
+from bot_console.runtime.rmw.zenoh.network import Way, open_network_session
+from bot_console.runtime.rmw.zenoh.network_bus import NetworkBuses
+from bot_console.runtime.rmw.zenoh.router import Router
+from bot_console.runtime.rmw.zenoh.settings import Serving
+from bot_console.tui.cli.attach.network import LinkWords
+from bot_console.tui.console.model import Severity
+from ports import free_port
+from rigs import ROBOT, RosRig, until
+
+PERIOD = 0.1
+
+
+class FarRig(RosRig):
+    """The robot at its router, the console behind a link that can be spoilt."""
+
+    def __init__(self, folder: Path) -> None:
+        self.place = Serving((f"tcp/127.0.0.1:{free_port()}",))
+        self.router = Router(self.place)
+        self.wire = BadLink(int(self.place.endpoints[0].rpartition(":")[2]))
+        self._robot_buses: list[ZenohBus] = []
+        self._console_buses = NetworkBuses(Way((f"tcp/127.0.0.1:{self.wire.port}",)))
+        self.words = LinkWords(self._console_buses)
+
+        def robot_bus(domain: int) -> ZenohBus:
+            self._robot_buses.append(ZenohBus(open_network_session(domain, Way(self.place.endpoints)), LocalBus()))
+            return self._robot_buses[-1]
+
+        def sides(side: str) -> None:
+            choose_middleware(robot_bus if side == "robot" else self._console_buses)
+
+        try:
+            super().__init__(folder, sides, link=self.words.info)
+        finally:
+            choose_middleware(local_bus)
+
+    def driving(self, ended: threading.Event) -> None:
+        """Hold a key: a command ten times a second, as the pane does."""
+        while not ended.wait(PERIOD):
+            self.console.drive(0.5, 0.0)
+
+    def close(self) -> None:
+        self.wire.mend()
+        super().close()
+        for each in self._robot_buses:
+            each.close()
+        self._console_buses.close()
+        self.wire.close()
+        self.router.close()
+
+
+@pytest.fixture
+def far(tmp_path: Path) -> Iterator[FarRig]:
+    rig = FarRig(tmp_path)
+    yield rig
+    rig.close()
+
+
+@pytest.fixture
+def key(far: FarRig) -> Iterator[threading.Event]:
+    """A key that is held until the event is set, by a thread of its own."""
+    ended = threading.Event()
+    thread = threading.Thread(target=far.driving, args=(ended,))
+    thread.start()
+    until(lambda: (0.5, 0.0) in far.received, "a command")
+    yield ended
+    ended.set()
+    thread.join()
+
+
+@pytest.mark.parametrize("seconds", [2, pytest.param(30, marks=pytest.mark.soak)])
+def test_a_cut_link_is_told_and_its_end_brings_no_motion_back(
+    far: FarRig, key: threading.Event, seconds: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("rigs.PATIENCE", seconds + 20.0)
+    assert far.console.snapshot().link.silent_s == 0
+    far.wire.cut()
+    until(lambda: far.console.snapshot().link.silent_s >= seconds, "the silence")
+    sent_at_most = 3.5 / PERIOD  # a command is refused 1 s after the last answer, which is asked for every 1.3 s
+    far.publish(1.0)  # the robot waits for nobody
+    before = len(far.received)
+    far.wire.mend()
+    until(lambda: (0.0, 0.0) in far.received[before:], "the zero at the end of what had waited")
+    late = list(far.received[before:])
+    assert late.index((0.0, 0.0)) <= sent_at_most
+    until(lambda: far.console.snapshot().link.silent_s == 0, "the link")
+    zero = before + late.index((0.0, 0.0))
+    until(lambda: (0.5, 0.0) in far.received[zero:], "commands of the key that is still held")
+
+
+def test_a_robot_publishes_as_fast_beside_a_console_whose_link_is_cut(far: FarRig) -> None:
+    assert far.console.watch("/level/data").ok
+    until(far.heard_by_somebody, "the subscription")
+    far.wire.cut()
+    longest = 0.0
+    for number in range(3000):
+        began = time.thread_time()
+        far.publish(float(number))
+        longest = max(longest, time.thread_time() - began)
+    assert longest < 0.1  # s of the publisher's own thread
+
+
+def test_the_router_is_killed_and_comes_back(far: FarRig) -> None:
+    far.router.close()
+    until(lambda: ROBOT not in far.console.snapshot().parameters, "that the robot is gone")
+    until(lambda: far.console.snapshot().link.silent_s >= 1, "that it is told")
+    assert not far.console.snapshot().problem
+    far.router = Router(far.place)
+    until(lambda: ROBOT in far.console.snapshot().parameters, "the robot again")
+    until(lambda: far.console.snapshot().link.silent_s == 0, "the link")
+    (outcome,) = far.console.set_parameters(ROBOT, {"speed": 0.5}).result(20)
+    assert outcome.accepted
+
+
+def test_with_300_ms_and_held_segments_all_works_and_nothing_is_called_silent(far: FarRig) -> None:
+    far.wire.delay, far.wire.hold, far.wire.held_share = 0.15, 0.5, 0.02
+    until(lambda: (far.console.snapshot().link.delay_ms or 0) >= 290, "the delay to be told")
+    (outcome,) = far.console.set_parameters(ROBOT, {"speed": 0.25}).result(20)
+    assert outcome.accepted
+    ended = threading.Event()
+    thread = threading.Thread(target=far.driving, args=(ended,))
+    thread.start()
+    until(lambda: (0.5, 0.0) in far.received, "a command")
+    ended.set()
+    thread.join()
+    far.console.all_stop(True)
+    stopped, count = time.monotonic(), len(far.received)
+    until(lambda: far.received[-1] == (0.0, 0.0) and len(far.received) > count, "the stop")
+    assert time.monotonic() - stopped < 3.0  # a way there, a held segment, and what a busy machine takes
+    far.say(Severity.WARN, "still here")
+    until(lambda: far.console.snapshot().logs.counts.get(Severity.WARN, 0) >= 1, "the log")
+
+
+def test_spoilt_frames_end_the_connection_and_a_clean_one_takes_its_place(far: FarRig) -> None:
+    far.wire.spoil = lambda data: bytes(each ^ 0x5A for each in data)
+    far.say(Severity.WARN, "garbled")
+    until(lambda: far.console.snapshot().link.silent_s >= 1, "that nothing comes through")
+    assert not far.console.snapshot().problem
+    far.wire.spoil = None
+    far.wire.break_connections()
+    until(lambda: ROBOT in far.console.snapshot().parameters and not far.console.snapshot().link.silent_s, "the robot")

@@ -1,0 +1,241 @@
+"""From the byte in the terminal to the base's word that it is locked; JSON.
+
+    python tests/benchmarks/bench_stopping.py [--presses 50] [--busy 2] [--only logs plot] [--wanted-nice -10]
+
+A console attached to a live robot in processes of their own, driven over a pseudo-terminal; the base's answer is heard
+by another process. Wall time in ms: p50, p99 and the longest of so many presses of `!`, alone and beside loads, and of
+the first key and of `q` in fresh consoles. `--wanted-nice` is the priority of all that is measured, for machines that
+others work on; busy processes have the usual one.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import json
+import os
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+TESTS = Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(TESTS / "helpers"), str(TESTS / "acceptance" / "console"), str(TESTS / "soak")]
+from headless_under_load import busy_processes
+from live_robot import LiveRobot, live_robot
+from losses import CONSOLE, _environment
+from terminal import Terminal
+
+HEARD = """
+import time
+import rclpy
+from diagnostic_msgs.msg import DiagnosticStatus
+from rclpy.qos import DurabilityPolicy, QoSProfile
+
+rclpy.init()
+node = rclpy.create_node("hears_the_base")
+def tell(message):
+    locked = {each.key: each.value for each in message.values}["locked"]
+    print(time.monotonic(), locked, flush=True)
+latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+node.create_subscription(DiagnosticStatus, "emergency_stop/base", tell, latched)
+rclpy.spin(node)
+"""
+NODES = """
+import rclpy
+rclpy.init()
+nodes = [rclpy.create_node(f"n{number}") for number in range(500)]
+rclpy.spin(nodes[0])
+"""
+TOPICS = """
+import rclpy
+from std_msgs.msg import String
+rclpy.init()
+node = rclpy.create_node("many_topics")
+publishers = [node.create_publisher(String, f"topic{number}", 10) for number in range(3000)]
+rclpy.spin(node)
+"""
+LOGS = """
+import rclpy
+rclpy.init()
+node = rclpy.create_node("logs")
+def tell():
+    for number in range(100):
+        node.get_logger().info(f"line {number} of a hundred, with aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa")
+node.create_timer(0.01, tell)
+rclpy.spin(node)
+"""
+NUMBERS = """
+import math
+import rclpy
+from std_msgs.msg import Float64
+rclpy.init()
+node = rclpy.create_node("numbers")
+publisher = node.create_publisher(Float64, "number", 1000)
+count = 0
+def tell():
+    global count
+    for _ in range(10):
+        count += 1
+        publisher.publish(Float64(data=math.sin(count / 100)))
+node.create_timer(0.01, tell)
+rclpy.spin(node)
+"""
+LOADS: dict[str, tuple[str, list[str]]] = {
+    "nothing": ("", []),
+    "500 nodes at once": (NODES, []),
+    "3,000 topics": (TOPICS, []),
+    "10,000 log lines/s": (LOGS, ["2"]),
+    "1,000 messages/s plotted": (NUMBERS, ["4", "a", "/number/data", "\r"]),
+    "endless regular expression": (LOGS, ["2", "/", "re:(.|\\w)*%%", "\r"]),
+}
+"""A program that makes the load, and keys that are pressed once it runs."""
+PATIENCE = 60.0
+BETWEEN = 0.15
+"""Seconds between two presses."""
+
+
+class Base:
+    """What the base says of its lock, as another process hears it."""
+
+    def __init__(self, robot: LiveRobot) -> None:
+        self._said: list[tuple[float, bool]] = []
+        process = robot.program(HEARD, stdout=subprocess.PIPE)
+        threading.Thread(target=self._read, args=(process,), daemon=True).start()
+
+    def _read(self, process: subprocess.Popen[bytes]) -> None:
+        assert process.stdout is not None
+        for line in process.stdout:
+            moment, locked = line.split()
+            self._said.append((float(moment), locked == b"true"))
+
+    def says(self, locked: bool, since: float) -> float | None:
+        """When it first said so after a moment; None when it has not."""
+        return next((moment for moment, said in list(self._said) if moment >= since and said is locked), None)
+
+
+@contextlib.contextmanager
+def console(robot: LiveRobot) -> Iterator[Terminal]:
+    """A console whose screen is read all the time."""
+    with _environment(robot.environment):
+        terminal = Terminal(CONSOLE, robot.folder)
+    over = threading.Event()
+
+    def read() -> None:
+        while not over.is_set():
+            terminal.drain(0.02)
+
+    reader = threading.Thread(target=read, daemon=True)
+    reader.start()
+    try:
+        wait(lambda: b"robot_navigator" in terminal.output)
+        yield terminal
+    finally:
+        over.set()
+        reader.join()
+        terminal.close()
+
+
+def wait(true: Callable[[], Any], patience: float = PATIENCE) -> Any:
+    """What is true at last; None when it does not come about."""
+    deadline = time.monotonic() + patience
+    while time.monotonic() < deadline:
+        if found := true():
+            return found
+        time.sleep(0.001)
+    return None
+
+
+def presses(robot: LiveRobot, base: Base, load: str, count: int) -> dict[str, Any]:
+    """Press `!` again and again beside a load."""
+    program, keys = LOADS[load]
+    times: list[float] = []
+    lost = 0
+    with console(robot) as terminal:
+        loading = robot.program(program) if program else None
+        for each in keys:
+            time.sleep(0.5)
+            terminal.type(each)
+        for _ in range(count):
+            for locked in (True, False):
+                began = time.monotonic()
+                terminal.type("!")
+                answered = wait(lambda: base.says(locked, began), 10.0)  # noqa: B023 # called in this round alone
+                if answered is None:
+                    lost += 1
+                elif locked:
+                    times.append((answered - began) * 1000)
+                time.sleep(BETWEEN)
+        if loading is not None:
+            loading.kill()
+            loading.wait()
+    robot.typed("release", "--all")
+    return summary(times) | {"lost": lost}
+
+
+def first_key_and_quit(robot: LiveRobot, count: int) -> dict[str, Any]:
+    """The first key of a fresh console, until its answer is on the screen, and `q`, until the process has ended."""
+    first: list[float] = []
+    last: list[float] = []
+    for _ in range(count):
+        with console(robot) as terminal:
+            before, began = len(terminal.output), time.monotonic()
+            terminal.type("?")
+            if wait(lambda: b"Help" in terminal.output[before:]):  # noqa: B023
+                first.append((time.monotonic() - began) * 1000)
+            terminal.type("\x1b")
+            time.sleep(0.3)
+            began = time.monotonic()
+            terminal.type("q")
+            if wait(lambda: terminal.process.poll() is not None):
+                last.append((time.monotonic() - began) * 1000)
+    return {"first key": summary(first), "quit": summary(last)}
+
+
+def summary(times: list[float]) -> dict[str, Any]:
+    """Median, the 99th of a hundred, the longest."""
+    if not times:
+        return {"count": 0}
+    ordered = sorted(times)
+    p99 = ordered[min(len(ordered) - 1, int(len(ordered) * 0.99))]
+    return {"count": len(times), "p50": round(statistics.median(times), 1), "p99": round(p99, 1),
+            "longest": round(ordered[-1], 1)}  # fmt: skip
+
+
+def main() -> None:
+    """Run as the words of the command say."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--presses", type=int, default=50)
+    parser.add_argument("--consoles", type=int, default=10, help="for the first key and q")
+    parser.add_argument("--busy", type=int, default=0)
+    parser.add_argument("--only", nargs="*", default=[], help="words of the names of loads")
+    parser.add_argument("--wanted-nice", type=int, default=0)
+    options = parser.parse_args()
+    folder, sockets = Path(tempfile.mkdtemp()), Path(tempfile.mkdtemp(prefix="bcs"))
+    report: dict[str, Any] = {"busy": options.busy, "load average": os.getloadavg()[0], "stop (ms)": {}}
+    try:
+        with busy_processes(options.busy):
+            os.nice(options.wanted_nice)
+            with live_robot(folder, sockets) as robot:
+                base = Base(robot)
+                wait(lambda: base.says(False, 0.0))
+                for load in LOADS:
+                    if not options.only or any(word in load for word in options.only):
+                        report["stop (ms)"][load] = presses(robot, base, load, options.presses)
+                        print(load, report["stop (ms)"][load], file=sys.stderr, flush=True)
+                if options.consoles:
+                    report |= first_key_and_quit(robot, options.consoles)
+    finally:
+        for each in (folder, sockets):
+            shutil.rmtree(each, ignore_errors=True)
+    print(json.dumps(report, indent=2))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,80 @@
+"""Feeds every parser with mutated inputs: `python tests/fuzz [--inputs 1000000] [--seed 1] [--only filter]`.
+
+An input that ends in anything but a refusal, or takes longer than five seconds of processor time, is a finding. Prints
+JSON: for each parser how many inputs there were and how long they took, and the findings with the shortest input of
+each. The same seed gives the same inputs. Exit code 1 where there is a finding.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import logging
+import os
+import shutil
+import signal
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from types import FrameType
+from typing import Any
+
+sys.path.insert(0, str(Path(__file__).parent))
+from feeding import LIMIT, SHOWN, Hang, feed
+from files import FOLDER
+from targets import targets
+
+
+def run(inputs: int, seed: int, only: Sequence[str] = ()) -> dict[str, Any]:
+    """Feed all parsers, or those whose names hold one of some words, with so many inputs in all."""
+    from bot_console.runtime.importer import install
+
+    install()
+    logging.disable(logging.CRITICAL)
+
+    def hang(number: int, frame: FrameType | None) -> None:
+        where = f"{frame.f_code.co_filename}:{frame.f_lineno}" if frame else "an unknown place"
+        raise Hang(f"longer than {LIMIT:g} s, at {where}")
+
+    before = signal.signal(signal.SIGVTALRM, hang)
+
+    chosen = [each for each in targets() if not only or any(word in each.name for word in only)]
+    findings: dict[str, dict[str, Any]] = {}
+    report: dict[str, dict[str, float]] = {}
+    share, more = divmod(inputs, len(chosen))
+    try:
+        for index, target in enumerate(chosen):
+            count = share + (index < more)
+            seconds = feed(target, count, seed, findings)
+            report[target.name] = {"inputs": count, "CPU s": round(seconds, 1)}
+            print(f"{target.name}: {count} inputs, {seconds:.1f} s, {len(findings)} findings", file=sys.stderr)
+    finally:
+        signal.signal(signal.SIGVTALRM, before)
+        logging.disable(logging.NOTSET)
+        shutil.rmtree(FOLDER, ignore_errors=True)
+    for each in findings.values():
+        each["input"] = ascii(each["input"])[:SHOWN]
+    return {"seed": seed, "inputs": inputs, "parsers": report, "findings": findings}
+
+
+def main() -> None:
+    """Run as the words of the command say."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--inputs", type=int, default=1_000_000, help="in all")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", nargs="*", default=(), help="words of the names of parsers")
+    parser.add_argument("--report", type=Path, help="file for the report; standard output unless given")
+    parser.add_argument("--nice", type=int, default=0)
+    options = parser.parse_args()
+    os.nice(options.nice)
+    report = run(options.inputs, options.seed, options.only)
+    text = json.dumps(report, indent=2)
+    if options.report:
+        options.report.write_text(text)
+    else:
+        print(text)
+    sys.exit(bool(report["findings"]))
+
+
+if __name__ == "__main__":
+    main()

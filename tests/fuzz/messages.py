@@ -1,0 +1,118 @@
+"""What nodes and networks send, and how it is shown: each function feeds it with a text."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Sequence
+from typing import Any
+
+import yaml
+
+
+def message_yaml(text: str) -> None:
+    from rosidl_runtime_py.set_message import set_message_fields
+    from sensor_msgs.msg import LaserScan
+
+    values = yaml.safe_load(text)
+    if isinstance(values, dict):
+        message = LaserScan()
+        set_message_fields(message, values)
+        told(message)
+
+
+def cdr(text: str) -> None:
+    from diagnostic_msgs.msg import DiagnosticArray
+    from rclpy.serialization import deserialize_message
+    from sensor_msgs.msg import LaserScan
+
+    data = text.encode("latin-1", "replace")
+    for each in (DiagnosticArray, LaserScan):
+        with contextlib.suppress(RuntimeError):
+            told(deserialize_message(data, each))
+
+
+def cdr_seeds() -> Sequence[str]:
+    from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+    from rclpy.serialization import serialize_message
+    from sensor_msgs.msg import LaserScan
+
+    status = DiagnosticStatus(name="n", message="m", values=[KeyValue(key="a", value="b")])
+    messages = (DiagnosticArray(status=[status, status]), LaserScan(ranges=[1.0, 2.0, 3.0]))
+    return [serialize_message(each).decode("latin-1") for each in messages]
+
+
+def told(message: Any) -> None:
+    """A message as panes and verbs show it."""
+    from bot_console.tui.console.topics.message_tree import tree
+    from rosidl_runtime_py import message_to_csv, message_to_yaml
+
+    package, _, name = type(message).__module__.partition(".")[0], "", type(message).__name__
+    tree(message, f"{package}/msg/{name}")
+    message_to_yaml(message)
+    message_to_csv(message)
+
+
+def shown(value: Any) -> None:
+    from bot_console.tui import format as words
+
+    words.value_text(value)
+    words.value_text(value, exact=True)
+    words.field_text(value)
+
+
+def pane_text(text: str) -> None:
+    """What a node or a person wrote, as all panes show it."""
+    from bot_console.tui import format as words
+    from bot_console.tui.console.model import ConsoleSnapshot
+    from bot_console.tui.console.robot.robot_model import DriveInfo, RobotStop
+    from bot_console.tui.safety.stop_words import release_question
+    from bot_console.tui.widgets.status_bar import status_text
+    from rich.text import Text
+
+    shown = words.harmless(text)
+    assert not any(ord(each) < 32 or 0x7F <= ord(each) < 0xA0 for each in shown), repr(shown)
+    for width in (0, 1, 7, 80):
+        assert Text(words.cut(text, width)).cell_len <= width
+    words.brief(text)
+    words.yaml_text(text)
+    words.value_text(text)
+    drive = DriveInfo(
+        stopped=True, stop_confirmed=True, lockable=True, stop_holder=text, stop_reason=text, limited_by=text
+    )
+    line = status_text(ConsoleSnapshot(drive=drive, problem=text))
+    assert "\x1b" not in line
+    release_question([RobotStop(text, text, text)], lambda _: None)
+
+
+def stop(text: str) -> None:
+    from bot_console.tui.console.robot.stop_link import _stops
+    from bot_console_robot.latch import Latch
+    from bot_console_robot.stop_messages import lock_of, request_of, state_message
+    from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+
+    keys = ("request", "of", "stops", "turn", "locked", "holder")
+    pairs = [KeyValue(key=key, value=text) for key in keys]
+    message = DiagnosticStatus(name=text, message=text, hardware_id=text, values=pairs)
+    latch = Latch()
+    latch.request(request_of(message), 0)
+    latch.follow(lock_of(message)[0])
+    state = state_message(latch.lock, "n", "1", latch.steered_by)
+    latch.follow(lock_of(state)[0])
+    _stops({each.key: each.value for each in message.values}, "a")
+    assert lock_of(message)[0].held or text == "false"
+
+
+def key_expressions(text: str) -> None:
+    from bot_console.runtime.rmw.zenoh.keys import demangled, ros_type
+
+    demangled(text)
+    ros_type(text)
+
+
+def printed(text: str) -> None:
+    from bot_console.tui.console.logs.tracebacks import Printed
+
+    reader = Printed("n", lambda level, label, line: None, stderr=True)
+    for line in text.split("\n"):
+        reader.line(line)
+    reader.close()

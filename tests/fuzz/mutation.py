@@ -1,0 +1,227 @@
+"""Inputs made from good ones: cut, joined, repeated, with what breaks parsers put in between."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Sequence
+
+NASTY = (
+    "",
+    "\0",
+    "\r",
+    "\r\r",
+    "\n",
+    "\t",
+    " ",
+    "\x1b[2J",
+    "\x1b]0;x\x07",
+    "\x9b31m",
+    "\u202e",
+    "\u200b",
+    "\ufeff",
+    "\ud800",
+    "😀",
+    "ä",
+    "[/",
+    "[bold",
+    "[link=x]",
+    "{",
+    "}",
+    "{}",
+    "{{",
+    "${",
+    "$(",
+    ")",
+    "$(env ",
+    "$(var x)",
+    "$(eval 1/0)",
+    "(",
+    "[",
+    "]",
+    "%s",
+    "%%",
+    "'",
+    '"',
+    "`",
+    "\\",
+    "\\\\",
+    "/",
+    "//",
+    "~",
+    "~x/",
+    "../",
+    ":",
+    ": ",
+    "- ",
+    "---",
+    "...",
+    "?",
+    "? ",
+    "&a ",
+    "*a",
+    "<<: *a",
+    "!!timestamp 2001-01-01",
+    "!!python/object:os.system x",
+    "!!binary x",
+    "!!set {a}",
+    "!!int x",
+    "| ",
+    ">-\n",
+    "#",
+    "# ",
+    ",",
+    ",,",
+    "=",
+    ":=",
+    "==",
+    "<",
+    "</",
+    "<a>",
+    "&lt;",
+    "<!ENTITY x 'y'>",
+    "0",
+    "-0",
+    "-1",
+    "1e999",
+    "-1e999",
+    "nan",
+    ".nan",
+    ".inf",
+    "inf",
+    "0x",
+    "0xg",
+    "0b2",
+    "1_0",
+    "1e",
+    "1.",
+    ".5",
+    "09",
+    "9" * 30,
+    "9" * 5000,
+    "true",
+    "True",
+    "yes",
+    "null",
+    "None",
+    "~",
+    "[]",
+    "[1, a]",
+    "[[1], 2]",
+    "{a: 1}",
+    "{1: {2: 3}}",
+    "re:",
+    "re:(",
+    "re:(.|\\w)*%%",
+    "sev:",
+    "node:",
+    "!",
+    "--",
+    "-",
+    "--ros-args",
+    "-p",
+    "-r",
+    "-h",
+    "--help",
+    "std_msgs/msg/String",
+    "string",
+    "int32[]",
+    "uint8[<=3]",
+    "float64[",
+    "string<=",
+    "ranges[",
+    "[0]",
+    "[-1]",
+    "[99999999999]",
+    "a" * 300,
+    "(" * 200,
+    "[" * 200,
+    "{a: " * 200,
+    "- " * 200,
+    "a/" * 200,
+    "\x00\xff",
+    "\\u0000",
+    "\\x00",
+)
+MOST = 20_000
+"""Characters of an input."""
+
+
+def mutated(seeds: Sequence[str], chance: random.Random) -> str:
+    """One of the good inputs, changed in one place or several."""
+    text = chance.choice(seeds)
+    for _ in range(chance.choice((1, 1, 1, 2, 2, 3, 5, 8))):
+        text = chance.choice(CHANGES)(text, seeds, chance)
+    return text[:MOST]
+
+
+def _place(text: str, chance: random.Random) -> int:
+    return chance.randint(0, len(text))
+
+
+def _insert(text: str, seeds: Sequence[str], chance: random.Random) -> str:
+    at = _place(text, chance)
+    return text[:at] + chance.choice(NASTY) + text[at:]
+
+
+def _replace(text: str, seeds: Sequence[str], chance: random.Random) -> str:
+    at = _place(text, chance)
+    return text[:at] + chance.choice(NASTY) + text[at + chance.choice((1, 1, 2, 5, 20)) :]
+
+
+def _cut(text: str, seeds: Sequence[str], chance: random.Random) -> str:
+    at = _place(text, chance)
+    return text[:at] + text[at + chance.choice((1, 1, 3, 10, 100, 1000)) :]
+
+
+def _truncate(text: str, seeds: Sequence[str], chance: random.Random) -> str:
+    return text[: _place(text, chance)]
+
+
+def _repeat(text: str, seeds: Sequence[str], chance: random.Random) -> str:
+    at = _place(text, chance)
+    length = chance.choice((1, 2, 5, 20, 80))
+    return text[: at + length] + text[at : at + length] * chance.choice((1, 1, 2, 3, 50)) + text[at + length :]
+
+
+def _splice(text: str, seeds: Sequence[str], chance: random.Random) -> str:
+    other = chance.choice(seeds)
+    begin = _place(other, chance)
+    at = _place(text, chance)
+    return text[:at] + other[begin : begin + chance.choice((3, 10, 50, 500))] + text[at:]
+
+
+def _swap_lines(text: str, seeds: Sequence[str], chance: random.Random) -> str:
+    lines = text.split("\n")
+    one, other = chance.randrange(len(lines)), chance.randrange(len(lines))
+    lines[one], lines[other] = lines[other], lines[one]
+    return "\n".join(lines)
+
+
+def _indent(text: str, seeds: Sequence[str], chance: random.Random) -> str:
+    lines = text.split("\n")
+    number = chance.randrange(len(lines))
+    lines[number] = chance.choice((" ", "  ", "\t", "")) + lines[number].lstrip(chance.choice((" ", "")))
+    return "\n".join(lines)
+
+
+def _flip(text: str, seeds: Sequence[str], chance: random.Random) -> str:
+    if not text:
+        return chr(chance.randrange(0x110000 - 0x900))
+    at = chance.randrange(len(text))
+    return text[:at] + chr(ord(text[at]) ^ (1 << chance.randrange(8))) + text[at + 1 :]
+
+
+CHANGES = (
+    _insert,
+    _insert,
+    _replace,
+    _replace,
+    _cut,
+    _truncate,
+    _repeat,
+    _splice,
+    _splice,
+    _swap_lines,
+    _indent,
+    _flip,
+)

@@ -1,0 +1,109 @@
+"""Good inputs, from which others are made."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import cache
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def files(*patterns: str) -> Callable[[], Sequence[str]]:
+    """The texts of files of the project."""
+
+    def read() -> Sequence[str]:
+        found = [path for pattern in patterns for path in sorted(ROOT.glob(pattern))]
+        return [path.read_text(encoding="utf-8") for path in found]
+
+    return cache(read)
+
+
+def texts(*given: str) -> Callable[[], Sequence[str]]:
+    """These texts."""
+    return lambda: given
+
+
+TRACEBACK = """Traceback (most recent call last):
+  File "/a/b.py", line 3, in on_timer
+    x = 1 / 0
+        ~~^~~
+ZeroDivisionError: division by zero
+
+During handling of the above exception, another exception occurred:
+
+Traceback (most recent call last):
+  File "<string>", line 1, in <module>
+KeyError: 'a'
+"""
+VERBS = (
+    "topic pub -r 5 /a std_msgs/msg/String {data:x}",
+    "topic echo --field a.b /a",
+    "param set /n p 1",
+    "service call /a std_srvs/srv/Trigger",
+    "node list -c",
+    "interface show std_msgs/msg/String",
+    "action send_goal /a b/action/C {} -f",
+    "topic hz -w 5 /a --filter x",
+    "pkg create --node-name n p",
+    "lifecycle set /n configure",
+    "launch p f.launch.py a:=1",
+    "topic pub --qos-depth 3 /a b c --once",
+)
+LINES = (
+    "ros2 topic echo /odom --once",
+    "rqt_plot /odom/twist/x:y /a/b",
+    "rqt_reconfigure /node",
+    "ros2 run rqt_plot rqt_plot /a/b",
+    "rqt -s rqt_graph.ros_graph.RosGraph --perspective-file x",
+    "ros2 topic pub /a std_msgs/msg/String \"{data: 'x'}\"",
+)
+
+
+LAUNCH_XML = """<?xml version="1.0"?>
+<launch>
+  <arg name="a" default="1" description="x"/>
+  <let name="b" value="$(var a)"/>
+  <group if="$(eval '$(var a) == 1')">
+    <push-ros-namespace namespace="n"/>
+    <node pkg="demo_nodes_py" exec="talker" name="t" output="screen" respawn="true">
+      <param name="p" value="1.5"/>
+      <param name="q"><param name="r" value="[1, 2]"/></param>
+      <remap from="a" to="b"/>
+      <env name="E" value="v"/>
+    </node>
+  </group>
+  <executable cmd="ls -l"/>
+  <set_env name="X" value="y"/>
+  <include file="$(find-pkg-share x)/y.launch.xml"><arg name="z" value="1"/></include>
+</launch>
+"""
+LAUNCH_YAML = """launch:
+- arg: {name: a, default: "1", description: x}
+- let: {name: b, value: $(var a)}
+- group:
+  - push_ros_namespace: {namespace: n}
+  - node:
+      pkg: demo_nodes_py
+      exec: talker
+      name: t
+      param:
+      - {name: p, value: 1.5}
+      - from: file.yaml
+      remap: [{from: a, to: b}]
+- executable: {cmd: ls -l, output: screen}
+- include:
+    file: $(find-pkg-share x)/y.launch.yaml
+    arg: [{name: z, value: "1"}]
+"""
+PACKAGE = """<?xml version="1.0"?>
+<package format="3">
+  <name>mine</name><version>0.1.0</version><description>x</description>
+  <maintainer email="a@b.c">A</maintainer><license>MIT</license>
+  <depend>rclpy</depend><buildtool_depend>ament_cmake</buildtool_depend>
+  <export><build_type>ament_python</build_type></export>
+</package>
+"""
+PERSPECTIVE = """{"keys": {}, "groups": {"pluginmanager": {"keys": {"running-plugins": {"type": "repr",
+"repr": "{'rqt_graph/RosGraph': [1], 'rqt_plot/Plot': [1, 2]}"}}, "groups": {}}}}
+"""

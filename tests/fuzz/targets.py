@@ -1,0 +1,164 @@
+"""Every parser of what people, files and nodes write, as a target: good inputs, and what may come of bad ones."""
+
+from __future__ import annotations
+
+import itertools
+import random
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+import files
+import messages
+import seeds
+import typed
+import yaml
+from mutation import mutated
+
+
+@dataclass(frozen=True)
+class Target:
+    """What is fed. `run` returns for any input; only `refusals` may leave it."""
+
+    name: str
+    seeds: Callable[[], Sequence[str]]
+    run: Callable[[str], object]
+    refusals: tuple[type[BaseException], ...] = ()
+
+
+def targets() -> list[Target]:
+    """All of them."""
+    from bot_console.runtime.rmw.arguments import ArgumentsError
+    from bot_console.runtime.rmw.lexer import GrammarError
+    from bot_console.runtime.rmw.parameter_overrides import ParameterYamlError
+    from bot_console.runtime.rmw.zenoh.keys import FormatError
+    from bot_console.runtime.rosidl.parse import DefinitionError
+    from bot_console.tui.console.plot.series import NotPlottable
+    from bot_console.tui.files.save_file import NotSaved
+    from bot_console.tui.layout.form import NoLayout
+    from bot_console_robot.simulation.world import WorldError
+
+    arguments = (
+        "--ros-args -p a:=1 -r b:=c --",
+        "a --ros-args --params-file x -r __ns:=/a n:b:=c --log-level info",
+        "--ros-args -r rosservice:///a:=b -e /x",
+    )
+    broad = (ValueError, TypeError, AttributeError, KeyError, AssertionError, yaml.YAMLError)
+    return [
+        Target("parameter file", seeds.files("profiles/*.yaml"), files.parameter_file, (ParameterYamlError,)),
+        Target("profile", seeds.files("profiles/*.yaml"), files.profile),
+        Target("save into a file", seeds.files("profiles/*.yaml"), files.save, (NotSaved,)),
+        Target("world", seeds.files("profiles/worlds/*.yaml"), files.world, (WorldError,)),
+        Target("launch Python", seeds.files("launch/single*.py", "launch/sim*.py"), files.launch("py")),
+        Target("launch XML", seeds.texts(seeds.LAUNCH_XML), files.launch("xml")),
+        Target("launch YAML", seeds.texts(seeds.LAUNCH_YAML), files.launch("yaml")),
+        Target(
+            "substitution",
+            seeds.texts("a $(var b) c", "$(env A $(var b '1'))", "$(eval 'x' + \"y\") \\$(z)"),
+            typed.substitution,
+            (ValueError,),
+        ),
+        Target("ROS arguments", seeds.texts(*arguments), typed.ros_arguments, (ArgumentsError, GrammarError)),
+        Target("verbs", seeds.texts(*seeds.VERBS), typed.quietly(typed.verbs)),
+        Target(
+            "interface verbs",
+            seeds.texts("show std_msgs/msg/String", "list -m", "proto geometry_msgs/msg/Twist", "package std_msgs"),
+            typed.quietly(typed.interface_verbs),
+        ),
+        Target(
+            "command line",
+            seeds.texts("indoor --seed 1", "--launch a.launch.py x:=1 --pane plot", "--headless --duration 5 --fast"),
+            typed.quietly(typed.console_line),
+        ),
+        Target("lines", seeds.texts(*seeds.LINES), typed.line, (ValueError,)),
+        Target(
+            "filter",
+            seeds.texts(
+                "speed !node:/arm sev:>=warn re:a.b", 'node:"a b" !re:"x y" sev:info,fatal', "re:^[a-z]+\\s\\d{1,3}$"
+            ),
+            typed.filter,
+            (ValueError,),
+        ),
+        Target(
+            "plot path",
+            seeds.texts("pose.pose/position.x", "ranges[0]", "pose.covariance[35]", "header.stamp.sec"),
+            typed.plot,
+            (NotPlottable,),
+        ),
+        Target(
+            "definition msg",
+            seeds.files(
+                "runtime/rosidl/definitions/sensor_msgs/msg/L*.msg", "runtime/rosidl/definitions/std_msgs/msg/*.msg"
+            ),
+            files.definition("msg"),
+            (DefinitionError,),
+        ),
+        Target(
+            "definition srv",
+            seeds.files(
+                "runtime/rosidl/definitions/std_srvs/srv/*.srv", "runtime/rosidl/definitions/rcl_interfaces/srv/*.srv"
+            ),
+            files.definition("srv"),
+            (DefinitionError,),
+        ),
+        Target(
+            "message as YAML",
+            seeds.texts(
+                "{header: {frame_id: a, stamp: {sec: 1}}, ranges: [1.0, .nan], angle_min: 0.5}",
+                "angle_max: 1\nranges: [1, 2]",
+            ),
+            messages.message_yaml,
+            broad,
+        ),
+        Target("message as bytes", messages.cdr_seeds, messages.cdr),
+        Target(
+            "text in panes",
+            seeds.texts("a line [bold]x[/] of a node", "/robot/arm\n[link=x]y", "\x1b[31mred\x1b[0m", "日本語 😀 text"),
+            messages.pane_text,
+        ),
+        Target(
+            "typed value",
+            seeds.texts("1.5", "[1, 2.5]", '["a", b, "c, d"]', "true", '"two\\tparts"', "[0x0a, 0xff]", "0x10"),
+            typed.typed_value,
+        ),
+        Target(
+            "typed field",
+            seeds.texts("1.5", "now", "1.5 s", "[1, 2]", "{x: 1.0}", "true", "90 deg", '"a"'),
+            typed.typed_field,
+        ),
+        Target(
+            "stop messages",
+            seeds.texts(
+                '[["a", "anna", "why", 3], ["node", "n", "gone", 4]]', '["a", "node"]', "release", "true", "17"
+            ),
+            messages.stop,
+        ),
+        Target(
+            "settings",
+            seeds.texts("theme: dark\nkeys:\n  app.stop: f2\n", "colours: {ok: '#00ff00'}\n"),
+            files.settings,
+        ),
+        Target(
+            "layout",
+            seeds.texts("layout:\n  beside: [parameters, {below: [logs, plot]}]\n  share: [1, 2]\n"),
+            files.layout("yaml"),
+            (NoLayout,),
+        ),
+        Target("perspective", seeds.texts(seeds.PERSPECTIVE), files.layout("perspective"), (NoLayout,)),
+        Target("package.xml", seeds.texts(seeds.PACKAGE), files.package, (ValueError,)),
+        Target("node file", seeds.files("nodes/telemetry_node.py"), files.plain_file),
+        Target("printed lines", seeds.texts(seeds.TRACEBACK), messages.printed),
+        Target("file names", seeds.texts("~/a.yaml", "/tmp/x", "a b", "~root/x"), typed.typed_path, (NotSaved,)),
+        Target(
+            "keys of the network",
+            seeds.texts("std_msgs::msg::dds_::String_", "0/%a%b/std_msgs::msg::dds_::String_/RIHS01_ab"),
+            messages.key_expressions,
+            (FormatError,),
+        ),
+    ]
+
+
+def inputs_of(target: Target, seed: int) -> Iterator[str]:
+    """Good inputs first, then mutated ones without end; the same ones for the same seed."""
+    chance = random.Random(f"{seed} {target.name}")
+    good = target.seeds()
+    return itertools.chain(good, (mutated(good, chance) for _ in itertools.count()))

@@ -1,0 +1,77 @@
+"""A link between a console and a router that can be cut, slowed down and spoilt: a proxy on loopback."""
+
+from __future__ import annotations
+
+import contextlib
+import random
+import socket
+import threading
+import time
+from collections.abc import Callable
+
+SEGMENT = 1400
+Spoil = Callable[[bytes], bytes]
+
+
+class BadLink:
+    """Passes on what comes at `port`; each direction holds every segment back for `delay` s, some for `hold` s more."""
+
+    def __init__(self, to: int) -> None:
+        self._to = to
+        self.delay = 0.0
+        self.hold, self.held_share = 0.0, 0.0
+        self.spoil: Spoil | None = None
+        self._random = random.Random(1)
+        self._passing = threading.Event()
+        self._passing.set()
+        self._sockets: list[socket.socket] = []
+        self._server = socket.create_server(("127.0.0.1", 0))
+        self.port: int = self._server.getsockname()[1]
+        threading.Thread(target=self._accept, daemon=True).start()
+
+    def cut(self) -> None:
+        """Nothing passes, in neither direction, and nobody is told: as with a cable that was pulled."""
+        self._passing.clear()
+
+    def mend(self) -> None:
+        """All passes again, what has waited first."""
+        self._passing.set()
+
+    def break_connections(self) -> None:
+        """Close all that is open; new connections are taken."""
+        for each in self._sockets:
+            with contextlib.suppress(OSError):
+                each.shutdown(socket.SHUT_RDWR)
+
+    def close(self) -> None:
+        """Pass on nothing any more."""
+        self._server.close()
+        self.mend()
+        self.break_connections()
+
+    def _accept(self) -> None:
+        with contextlib.suppress(OSError):
+            while True:
+                inner, _ = self._server.accept()
+                try:
+                    outer = socket.create_connection(("127.0.0.1", self._to))
+                except OSError:
+                    inner.close()
+                    continue
+                self._sockets += (inner, outer)
+                for one, other in ((inner, outer), (outer, inner)):
+                    one.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+                    threading.Thread(target=self._carry, args=(one, other), daemon=True).start()
+
+    def _carry(self, one: socket.socket, other: socket.socket) -> None:
+        due = 0.0
+        with contextlib.suppress(OSError):
+            while data := one.recv(SEGMENT):
+                held = self.hold if self._random.random() < self.held_share else 0.0
+                due = max(due, time.monotonic() + self.delay + held)  # in order, as TCP delivers
+                time.sleep(max(0.0, due - time.monotonic()))
+                self._passing.wait()
+                other.sendall(self.spoil(data) if self.spoil else data)
+        for each in (one, other):
+            with contextlib.suppress(OSError):
+                each.shutdown(socket.SHUT_RDWR)

@@ -1,0 +1,51 @@
+"""The part of `FakeConsole` that keeps profiles."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from bot_console.tui.console.model import ConsoleSnapshot, Profile
+from bot_console.tui.console.parameters.profiles import load
+from bot_console.tui.console.protocol import Answer
+
+CLOSED = "the console has closed"
+
+
+class FakeProfiles:
+    """Opens files as profiles, and saves what runs as one."""
+
+    current: ConsoleSnapshot
+    asked: list[tuple[Any, ...]]
+    closed: bool
+
+    def choose_robot(self, robot: str) -> None:
+        self.asked.append(("choose_robot", robot))
+
+    def change(self, **parts: Any) -> None:
+        """Replace parts of the snapshot."""
+        raise NotImplementedError
+
+    def all_saved(self) -> None:
+        """All values are in a file now."""
+        raise NotImplementedError
+
+    def open_profile(self, path: str) -> Answer:
+        self.asked.append(("open profile", path))
+        if self.closed:
+            return Answer(False, CLOSED)
+        profile = load(Path(path)) if Path(path).is_file() else Profile("", path, problem=f"there is no file {path}")
+        if not profile.problem:
+            self.change(profiles=(*self.current.profiles, profile))
+        return Answer(not profile.problem, profile.problem or profile.name)
+
+    def save_profile(self, name: str, description: str = "") -> Answer:
+        self.asked.append(("save profile", name, description))
+        if self.closed:
+            return Answer(False, CLOSED)
+        self.all_saved()
+        values = {
+            (node, each.name): each.value for node, tree in self.current.parameters.items() for each in tree.parameters
+        }
+        self.change(profiles=(*self.current.profiles, Profile(name, f"/home/{name}.yaml", description, values)))
+        return Answer(True, f"saved to /home/{name}.yaml")

@@ -1,0 +1,182 @@
+"""A live robot in processes of its own, and a witness in another one whose odometry tells whether it moves."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+
+MOVING, RESTING = 0.1, 0.02
+"""Speeds (m/s, or rad/s) of a robot that drives, and that odometry may show at rest."""
+PATIENCE = 90.0
+"""Seconds after which a rig gives up; nothing is measured by it."""
+
+WITNESS = """
+import time
+import rclpy
+from nav_msgs.msg import Odometry
+
+rclpy.init()
+node = rclpy.create_node("witness")
+def tell(message):
+    twist = message.twist.twist
+    print(time.monotonic(), max(abs(twist.linear.x), abs(twist.angular.z)), flush=True)
+node.create_subscription(Odometry, "odom", tell, 10)
+rclpy.spin(node)
+"""
+
+DRIVER = """
+import sys
+import rclpy
+from geometry_msgs.msg import Twist
+
+rclpy.init()
+node = rclpy.create_node("second_driver")
+publisher = node.create_publisher(Twist, sys.argv[1], 10)
+command = Twist()
+command.linear.x, command.angular.z = 0.5, 0.8
+node.create_timer(0.01, lambda: publisher.publish(command))
+rclpy.spin(node)
+"""
+
+BLIND = """
+import math
+import rclpy
+from geometry_msgs.msg import Twist
+from sensor_msgs.msg import LaserScan
+
+rclpy.init()
+node = rclpy.create_node("blind")
+scans = node.create_publisher(LaserScan, "scan", 10)
+twists = node.create_publisher(Twist, "cmd_vel_teleop", 10)
+scan = LaserScan(angle_increment=math.nan, ranges=[math.nan] * 9)
+twist = Twist()
+twist.linear.x = math.nan
+node.create_timer(0.01, lambda: (scans.publish(scan), twists.publish(twist)))
+rclpy.spin(node)
+"""
+
+SYSTEM = """
+from ament_index_python.packages import get_package_share_directory
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+CONFIG = get_package_share_directory("bot_console_robot") + "/config/indoor_config.yaml"
+
+
+def node(executable, name, remappings=()):
+    return Node(package="bot_console_robot", executable=executable, name=name, parameters=[CONFIG, {"seed": 1}],
+                remappings=list(remappings))
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        node("simulator_node", "simulator"),
+        node("controller_node", "motion_controller", [("cmd_vel", "cmd_vel_nav")]),
+        node("robot_node", "robot_navigator", [("cmd_vel", "cmd_vel_desired")]),
+    ])
+"""
+
+
+class LiveRobot:
+    """The base with its navigator in one process, the safety monitor in another, the witness in a third."""
+
+    def __init__(self, folder: Path, environment: Mapping[str, str]) -> None:
+        self.folder = folder
+        self.environment = {**os.environ, **environment}
+        self._seen: list[tuple[float, float]] = []
+        self._started: list[subprocess.Popen[bytes]] = []
+        self._log = (folder / "robot.log").open("ab")
+        (folder / "system.launch.py").write_text(SYSTEM)
+        self.console("--headless", "--duration", "1e9", "--launch", str(folder / "system.launch.py"), "--no-simulator")
+        self.monitor = self.start_monitor()
+        witness = self.program(WITNESS, stdout=subprocess.PIPE)
+        threading.Thread(target=self._read, args=(witness,), daemon=True).start()
+
+    def _read(self, witness: subprocess.Popen[bytes]) -> None:
+        assert witness.stdout is not None
+        for line in witness.stdout:
+            moment, speed = line.split()
+            self._seen.append((float(moment), float(speed)))
+
+    def console(self, *words: str, stdout: int | None = None) -> subprocess.Popen[bytes]:
+        """Start a command line of the program."""
+        line = [sys.executable, "-m", "bot_console.tui", *words]
+        process = subprocess.Popen(
+            line, cwd=self.folder, env=self.environment, stdin=subprocess.DEVNULL, stderr=self._log,
+            stdout=self._log if stdout is None else stdout, start_new_session=True,
+        )  # fmt: skip
+        self._started.append(process)
+        return process
+
+    def program(self, text: str, *words: str, stdout: int | None = None) -> subprocess.Popen[bytes]:
+        """Start a node as a program of its own."""
+        file = self.folder / f"program{len(self._started)}.py"
+        file.write_text(text)
+        return self.console("run", str(file), *words, stdout=stdout)
+
+    def start_monitor(self) -> subprocess.Popen[bytes]:
+        """Start the safety monitor."""
+        self.monitor = self.console("run", "bot_console_robot", "safety_node")
+        return self.monitor
+
+    def typed(self, *words: str) -> int:
+        """A command line, to its end."""
+        return self.console(*words).wait(PATIENCE)
+
+    def speeds(self, since: float, until: float = float("inf")) -> list[tuple[float, float]]:
+        """What the witness has seen between two moments of `time.monotonic`."""
+        return [each for each in list(self._seen) if since <= each[0] <= until]
+
+    def until(self, true: Callable[[], bool], what: str) -> None:
+        """Wait for something."""
+        deadline = time.monotonic() + PATIENCE
+        while not true():
+            assert time.monotonic() < deadline, f"no {what}: {(self.folder / 'robot.log').read_text()[-3000:]}"
+            time.sleep(0.02)
+
+    def drives(self) -> None:
+        """Wait until the robot drives."""
+        began = time.monotonic()
+        self.until(lambda: any(speed > MOVING for _, speed in self.speeds(began)), "driving robot")
+
+    def rests(self, since: float, within: float, watched: float) -> float:
+        """How long (s) after `since` it came to rest; raises where it moves later than `within`, or nobody sees it.
+
+        It is watched for so many seconds after that.
+        """
+        end = since + within + watched
+        self.until(lambda: any(moment >= end for moment, _ in self.speeds(since)), "odometry")
+        moving = [moment - since for moment, speed in self.speeds(since, end) if speed > RESTING]
+        last = max(moving, default=0.0)
+        assert last <= within, f"it moves {last:.2f} s after it was to stand"
+        return last
+
+    def close(self) -> None:
+        """End all processes."""
+        for each in self._started:
+            with contextlib.suppress(ProcessLookupError):
+                each.kill()
+        for each in self._started:
+            each.wait()
+        self._log.close()
+
+
+@contextlib.contextmanager
+def live_robot(folder: Path, sockets: Path, domain: int = 77) -> Iterator[LiveRobot]:
+    """A driving robot, in a domain of its own; `sockets` must be a short path."""
+    sockets.mkdir(mode=0o700, exist_ok=True)
+    robot = LiveRobot(
+        folder, {"BOT_CONSOLE_SOCKET_DIR": str(sockets), "ROS_DOMAIN_ID": str(domain), "ROS_HOME": str(folder),
+                 "XDG_STATE_HOME": str(folder), "OMP_NUM_THREADS": "1"},
+    )  # fmt: skip
+    try:
+        robot.drives()
+        yield robot
+    finally:
+        robot.close()

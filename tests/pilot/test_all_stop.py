@@ -1,0 +1,63 @@
+"""`!` holds the robot, and lets go of what this console holds; others' stops only after a question that names them."""
+
+from __future__ import annotations
+
+from bot_console.tui.console.robot.robot_model import RobotStop
+from bot_console.tui.screens.confirm import ConfirmScreen
+from piloting import Session, run
+from samples import live
+
+BEN = RobotStop("b", "ben\x1b[2J", "my [foot]")
+NODE = RobotStop("node", "simulator", "the safety monitor has gone", by_node=True)
+STOP = "exclamation_mark"
+
+
+def held_by(session: Session) -> list[str]:
+    return [each.key for each in session.console.current.drive.stops]
+
+
+def test_it_holds_and_lets_go() -> None:
+    async def play(session: Session) -> None:
+        await session.press(STOP)
+        assert held_by(session) == ["ours"] and "ALL STOP held (! releases)" in session.text()
+        await session.press(STOP)
+        assert held_by(session) == []
+
+    run(live(), play)
+
+
+def test_a_robot_that_somebody_else_holds_is_held_by_us_first_then_asked_about() -> None:
+    async def play(session: Session) -> None:
+        session.console.hold([BEN])
+        await session.settle()
+        assert "my [foot] (! holds it too" in session.text()
+        await session.press(STOP)
+        assert held_by(session) == ["b", "ours"] and "and 1 other stop (! releases)" in session.text()
+        await session.press(STOP)
+        assert isinstance(session.app.screen, ConfirmScreen) and "my [foot]" in session.text()
+        await session.press("n")
+        assert held_by(session) == ["b", "ours"]
+        await session.press(STOP, "y")
+        assert held_by(session) == [] and session.console.asked[-1] == ("release", "b")
+
+    run(live(), play, (120, 40))
+
+
+def test_a_stop_that_comes_while_the_question_is_open_is_not_released_by_its_yes() -> None:
+    async def play(session: Session) -> None:
+        session.console.hold([BEN])
+        await session.press(STOP, STOP)
+        session.console.hold([*session.console.current.drive.stops, RobotStop("c", "carl", "wait")])
+        await session.press("y")
+        assert held_by(session) == ["c"]
+
+    run(live(), play)
+
+
+def test_what_a_node_holds_by_itself_needs_no_question() -> None:
+    async def play(session: Session) -> None:
+        session.console.hold([NODE])
+        await session.press(STOP, STOP)
+        assert held_by(session) == []
+
+    run(live(), play)

@@ -1,0 +1,149 @@
+"""Arranging the panes: by key, by mouse, by name."""
+
+from __future__ import annotations
+
+from bot_console.tui.layout.tree import Tree, beside, panes
+from bot_console.tui.screens.arrange import ArrangeScreen
+from bot_console.tui.widgets.pane_area import PaneArea
+from piloting import Session, run
+from samples import live
+from textual.geometry import Region
+
+SIZE = (120, 40)
+
+
+def tree(session: Session) -> Tree:
+    return session.pane(PaneArea).shown
+
+
+def seen(session: Session) -> dict[str, Region]:
+    return {pane.id or "": pane.region for pane in session.app.visible_panes()}
+
+
+def test_split_close_and_take_it_back() -> None:
+    async def play(session: Session) -> None:
+        before = tree(session)
+        await session.press("V")
+        assert isinstance(session.app.screen, ArrangeScreen)
+        await session.press("v")
+        await session.type("steer")
+        await session.press("enter")
+        assert "steering" in seen(session) and session.app.current_pane.id == "steering"
+        parameters, steering = seen(session)["parameters"], seen(session)["steering"]
+        assert steering.x == parameters.right and steering.y == parameters.y
+        await session.press("x")
+        assert panes(tree(session)) == panes(before)
+        await session.press("u", "u")
+        assert tree(session) == before
+        await session.press("escape")
+        assert len(session.app.screen_stack) == 1
+
+    run(live(), play, SIZE)
+
+
+def test_the_keyboard_goes_where_the_arrows_say_and_panes_change_places() -> None:
+    async def play(session: Session) -> None:
+        await session.press("V", "right")
+        assert session.app.current_pane.id == "world"
+        await session.press("down")
+        assert session.app.current_pane.id == "plot"
+        where = seen(session)["plot"]
+        await session.press("K")
+        assert seen(session)["world"] == where and session.app.current_pane.id == "plot"
+        wide = seen(session)["plot"].width
+        await session.press("right_square_bracket", "right_square_bracket")
+        assert seen(session)["plot"].width > wide, "nothing lies to the right: it grows to the left"
+        await session.press("escape")
+
+    run(live(), play, SIZE)
+
+
+def test_growing_takes_from_the_neighbour() -> None:
+    async def play(session: Session) -> None:
+        before = seen(session)
+        await session.press("V", "right_square_bracket", "plus")
+        after = seen(session)
+        assert after["parameters"].width > before["parameters"].width
+        assert after["logs"].height < before["logs"].height
+        for _ in range(40):
+            await session.press("right_square_bracket")
+        assert seen(session)["world"].width >= 20, "no pane becomes too small to be used"
+
+    run(live(), play, SIZE)
+
+
+def test_a_layout_is_saved_under_a_name_and_opened_again() -> None:
+    async def play(session: Session) -> None:
+        await session.press("V", "x", "w")
+        await session.type("mine")
+        await session.press("enter")
+        kept = tree(session)
+        assert session.app.stage.arranging.arrangement.title == "mine"
+        await session.press("o")
+        await session.type("tuning")
+        await session.press("enter")
+        assert set(seen(session)) == {"parameters", "plot", "world"}
+        await session.press("o")
+        await session.type("mine")
+        await session.press("enter")
+        assert tree(session) == kept and "[0 mine]" in session.lines()[0]
+
+    run(live(), play, SIZE)
+
+
+def test_a_layout_without_room_shows_one_pane_and_says_so() -> None:
+    async def play(session: Session) -> None:
+        await session.press("V")
+        assert len(session.app.screen_stack) == 1 and "needs more" in session.text()
+
+    run(live(), play, (70, 22))
+
+
+def test_a_border_is_dragged() -> None:
+    async def play(session: Session) -> None:
+        before = seen(session)
+        edge = before["parameters"].right - 1
+        await session.pilot.mouse_down(offset=(edge, 5))
+        await session.pilot.hover(offset=(edge + 12, 5))
+        await session.pilot.hover(offset=(edge + 15, 5))
+        await session.pilot.mouse_up(offset=(edge + 15, 5))
+        await session.settle()
+        assert seen(session)["parameters"].width == before["parameters"].width + 15
+        session.app.stage.arranging.undo()
+        await session.settle()
+        assert seen(session) == before, "a drag is one step"
+
+    run(live(), play, SIZE)
+
+
+def test_a_tab_is_clicked() -> None:
+    async def play(session: Session) -> None:
+        at = session.lines()[0].index("Graph")
+        await session.pilot.click(offset=(at, 0))
+        await session.settle()
+        assert set(seen(session)) == {"graph"}
+        await session.pilot.click(offset=(3, 0))
+        await session.settle()
+        assert "logs" in seen(session)
+
+    run(live(), play, SIZE)
+
+
+def test_the_robot_is_stopped_while_arranging() -> None:
+    async def play(session: Session) -> None:
+        await session.press("V", "exclamation_mark")
+        assert session.console.asked[-1] == ("all_stop", True)
+
+    run(live(), play, SIZE)
+
+
+def test_tab_goes_through_what_is_seen_from_the_upper_left() -> None:
+    async def play(session: Session) -> None:
+        session.app.stage.arranging.arrangement.change(beside("plot", "parameters"))
+        session.app.stage.lay_out()
+        await session.press("tab")
+        first = session.app.current_pane.id
+        await session.press("tab")
+        assert {first, session.app.current_pane.id} == {"plot", "parameters"}
+
+    run(live(), play, SIZE)

@@ -1,0 +1,147 @@
+"""History: what became of each parameter, the way back, and the moment that log and plot look at."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from bot_console.tui.console.model import ChangeSource, Severity
+from bot_console.tui.panes.history.rows import ChangeRows
+from bot_console.tui.panes.logs.pane import LogsPane
+from bot_console.tui.panes.plot.pane import PlotPane
+from fakes import START
+from piloting import Session, run
+from samples import empty, live
+
+NAVIGATOR = "/robot_navigator"
+
+
+def shown(session: Session) -> list[tuple[str, object]]:
+    return [(each.name, each.new) for each in session.pane(ChangeRows).rows]
+
+
+def asked(session: Session) -> list[dict[str, dict[str, object]]]:
+    return [each[1] for each in session.console.asked if each[0] == "set_all"]
+
+
+def test_all_changes_are_listed_the_newest_first_with_who_and_why() -> None:
+    async def play(session: Session) -> None:
+        await session.press("H")
+        assert shown(session) == [("max_speed", 10.0), ("max_speed", 1.0), ("turn_rate", 1.5)]
+        text = session.text()
+        assert "✗ max_speed" in text and "too fast" in text
+        assert "profile outdoor" in text and "11-13" in text, "an earlier run stands with its date"
+        await session.press("down")
+        assert "ros2 param set /robot_navigator max_speed 1.0" in session.text()
+        session.console.take(NAVIGATOR, {"turn_rate": 2.0}, ChangeSource.OTHER)
+        await session.settle()
+        assert shown(session)[0] == ("turn_rate", 2.0)
+        assert session.pane(ChangeRows).current.new == 1.0, "the cursor stays on its change"
+
+    run(live(), play, (100, 30))
+
+
+def test_going_back_to_a_row_asks_and_sets_everything_together() -> None:
+    async def play(session: Session) -> None:
+        session.console.set_parameters(NAVIGATOR, {"max_speed": 2.0})
+        session.console.set_parameters(NAVIGATOR, {"turn_rate": 2.0})
+        session.console.set_parameters("/simulator", {"lidar.beams": 90})
+        await session.press("H", "down", "down", "u")
+        text = session.text()
+        assert "turn_rate  2.0 → 1.0" in text and "lidar.beams  90 → 360" in text
+        assert "max_speed" not in text.partition("Really?")[2].partition("Go back")[0], "it has not changed since"
+        await session.press("n")
+        assert asked(session) == []
+        await session.press("u", "y")
+        assert asked(session) == [{NAVIGATOR: {"turn_rate": 1.0}, "/simulator": {"lidar.beams": 360}}]
+        assert "2 values put back" in session.text()
+        tree = session.console.current.parameters[NAVIGATOR]
+        assert (tree.get("turn_rate").value, tree.get("max_speed").value) == (1.0, 2.0)
+
+    run(live(), play, (100, 30))
+
+
+def test_what_a_node_refuses_on_the_way_back_leaves_all_as_it_is_and_says_why() -> None:
+    async def play(session: Session) -> None:
+        session.console.set_parameters(NAVIGATOR, {"turn_rate": 2.0})
+        session.console.set_parameters("/simulator", {"lidar.beams": 90})
+        session.console.refusals[NAVIGATOR, "turn_rate"] = "not while driving"
+        await session.press("H", "down", "down", "u", "y")
+        assert "Nothing was set" in session.text() and "not while driving" in session.text()
+        assert session.console.current.parameters["/simulator"].get("lidar.beams").value == 90
+
+    run(live(), play, (100, 30))
+
+
+def test_one_change_alone_is_put_back_and_a_loss_of_safety_is_named() -> None:
+    async def play(session: Session) -> None:
+        session.console.set_parameters(NAVIGATOR, {"safety_distance": 1.5})
+        session.console.set_parameters(NAVIGATOR, {"turn_rate": 2.0})
+        await session.press("H", "down", "b")
+        assert "⚠" in session.text() and "lowers a safety margin" in session.text()
+        await session.press("y")
+        assert asked(session) == [{NAVIGATOR: {"safety_distance": 0.8}}]
+        await session.press("G", "up", "up", "b")
+        assert "was refused, so there is nothing" in session.text(), "a refusal"
+
+    run(live(), play, (100, 30))
+
+
+def test_a_filter_and_only_refusals() -> None:
+    async def play(session: Session) -> None:
+        await session.press("H", "slash")
+        await session.type("outdoor")
+        await session.press("enter")
+        assert shown(session) == [("turn_rate", 1.5)] and "1 of 3" in session.text()
+        await session.press("escape", "escape", "x")
+        assert shown(session) == [("max_speed", 10.0)]
+        await session.press("escape")
+        assert len(shown(session)) == 3
+
+    run(live(), play)
+
+
+def test_log_and_plot_look_at_the_moment_of_the_row() -> None:
+    async def play(session: Session) -> None:
+        for second in range(-20, 20):
+            session.console.say(Severity.INFO, "clock", f"second {second}", START + second * 10**9)
+        session.console.clear_logs()
+        for second in range(-20, 20):
+            session.console.say(Severity.INFO, "clock", f"second {second}", START + second * 10**9)
+        await session.press("2", "4", "H", "down")
+        at = session.app.time_cursor.stamp
+        assert at == START - 12 * 10**9
+        await session.press("2")
+        logs = session.pane(LogsPane)
+        assert session.console.log(logs._list.number(logs._list.cursor)).text == "second -12"
+        await session.press("4")
+        assert "◆" in session.text() and "max_speed 0.7 → 1.0" in session.text()
+        await session.press("full_stop")
+        assert "✗ max_speed 10.0: too fast" in session.text()
+        assert session.app.time_cursor.stamp == START - 5 * 10**9
+        await session.press("H")
+        assert session.pane(ChangeRows).current.accepted is False, "the row of the mark"
+        await session.press("escape", "4")
+        assert "◆" not in session.text() and session.pane(PlotPane)._timeline.paused_at is None
+
+    run(live(), play, (120, 40))
+
+
+def test_what_is_shown_is_exported(tmp_path: Path) -> None:
+    async def play(session: Session) -> None:
+        await session.press("H", "x", "e")
+        for _ in range(len("history.csv")):
+            await session.pilot.press("backspace")
+        await session.type(f"{tmp_path}/refused.csv")
+        await session.press("enter")
+        lines = (tmp_path / "refused.csv").read_text().splitlines()
+        assert len(lines) == 2 and "too fast" in lines[1]
+
+    run(live(), play)
+
+
+def test_an_empty_history_says_so() -> None:
+    async def play(session: Session) -> None:
+        await session.press("H", "u", "b", "p", "y", "x", "escape")
+        assert "No parameter was changed yet." in session.text()
+
+    run(empty(), play)

@@ -1,0 +1,192 @@
+"""Every list obeys the same keys: first and last row, pages, filter, Escape, next and previous match."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+
+import pytest
+from bot_console.tui.console.model import Kind, Severity
+from bot_console.tui.panes.parameters.pane import ParametersPane
+from bot_console.tui.panes.parameters.table import ParameterRows
+from bot_console.tui.screens.picker import PickerScreen
+from bot_console.tui.widgets.row_list import RowList
+from fake_launcher import FakeLauncher
+from fakes import FakeConsole
+from piloting import Session, run
+from samples import live, with_array
+
+LINES = 60
+MATCH = "kiwi"
+
+
+def crowded(elements: tuple[str, ...] = ()) -> tuple[FakeConsole, FakeLauncher]:
+    """A system in which every list is longer than the screen, with three rows that match."""
+    console, launcher = with_array(Kind.STRING_ARRAY, elements)
+    for at in range(LINES):
+        console.say(Severity.INFO, "/talker", f"{name(at)} {at}")
+    tree = console.current.parameters["/robot_navigator"]
+    first = tree.parameters[-1]
+    many = tuple(replace(first, name=f"{name(at)}_{at:02}", description="") for at in range(LINES))
+    info = console.current.launch
+    process = info.processes[0]
+    processes = tuple(replace(process, key=f"p{at}", label=f"{name(at)}-{at}") for at in range(LINES))
+    profile = console.current.profiles[0]
+    console.change(
+        parameters={"/robot_navigator": replace(tree, parameters=(*tree.parameters, *many))},
+        launch=replace(info, processes=processes),
+        profiles=tuple(replace(profile, name=f"{name(at)}{at:02}", title="", path="") for at in range(LINES)),
+    )
+    launcher.known = tuple(f"/launch/{name(at)}{at:02}.launch.py" for at in range(LINES))
+    return console, launcher
+
+
+def name(at: int) -> str:
+    return MATCH if at in (10, 30, 50) else "fruit"
+
+
+LISTS = {"parameters": "1", "logs": "2", "profiles": "7", "launch": "8"}
+
+
+def focused(session: Session) -> RowList:
+    rows = session.app.focused
+    assert isinstance(rows, RowList)
+    return rows
+
+
+def at_cursor(rows: RowList) -> str:
+    """What the row at the cursor is about; how wide its columns are does not count."""
+    return about("".join(each.text for each in rows.row(rows.cursor, 200)))
+
+
+def about(text: str) -> str:
+    found = re.search(rf"{MATCH}[\d _-]*\d", text)
+    return found[0] if found else text
+
+
+async def ends_and_pages(session: Session, rows: RowList, home: str, end: str) -> None:
+    await session.press(end)
+    last = rows.row_count() - 1
+    assert rows.cursor == last > 20
+    await session.press(home)
+    assert rows.cursor == 0
+    await session.press("pagedown")
+    assert rows.cursor == rows.size.height - 1
+    await session.press("pageup")
+    assert rows.cursor == 0
+
+
+@pytest.mark.parametrize("digit", LISTS.values(), ids=list(LISTS))
+@pytest.mark.parametrize(("home", "end"), [("g", "G"), ("home", "end")])
+def test_first_and_last_row_and_pages(digit: str, home: str, end: str) -> None:
+    async def play(session: Session) -> None:
+        await session.press(digit)
+        await ends_and_pages(session, focused(session), home, end)
+
+    run(crowded(), play)
+
+
+def matches(rows: RowList) -> Sequence[str]:
+    texts = ("".join(each.text for each in rows.row(index, 200)) for index in range(rows.row_count()))
+    return [about(text) for text in texts if MATCH in text]
+
+
+@pytest.mark.parametrize("digit", LISTS.values(), ids=list(LISTS))
+def test_a_filter_says_how_many_of_how_many_and_the_matches_are_gone_through_with_and_without_it(digit: str) -> None:
+    async def play(session: Session) -> None:
+        await session.press(digit)
+        rows = focused(session)
+        every = rows.row_count()
+        await session.press("slash", *MATCH, "enter")
+        assert len(matches(rows)) == 3 and rows.row_count() < every
+        assert " 3 of " in session.text() and f"/{MATCH}" in session.text()
+        assert MATCH in at_cursor(rows)
+        here = at_cursor(rows)
+        await session.press("n")
+        assert MATCH in at_cursor(rows) != here
+        await session.press("N")
+        assert at_cursor(rows) == here
+        await session.press("escape")
+        assert rows.row_count() == every and at_cursor(rows) == here, "the cursor stays on its thing"
+        seen = []
+        for _ in range(3):
+            await session.press("n")
+            seen.append(at_cursor(rows))
+        assert sorted(seen) == sorted(matches(rows)) and seen[-1] == here
+        await session.press("N")
+        assert at_cursor(rows) == seen[1]
+
+    run(crowded(), play, size=(120, 40))
+
+
+@pytest.mark.parametrize("digit", ["3", *LISTS.values()], ids=["graph", *LISTS])
+def test_where_nothing_was_looked_for_or_nothing_matches_that_is_said(digit: str) -> None:
+    async def play(session: Session) -> None:
+        await session.press(digit, "n")
+        assert "Nothing was looked for yet" in session.text()
+        await session.press("slash", *"zzz", "enter", "escape", "n")
+        assert "Nothing here matches zzz" in session.text()
+
+    run(live(), play, size=(120, 40))
+
+
+def test_the_graph_goes_from_match_to_match_too() -> None:
+    async def play(session: Session) -> None:
+        await session.press("3", "slash", *"scan", "enter", "escape", "n")
+        from bot_console.tui.widgets.diagram_view import DiagramView
+
+        assert "scan" in session.pane(DiagramView).selected
+
+    run(live(), play, size=(120, 40))
+
+
+def test_elements_are_searched_and_none_is_hidden() -> None:
+    async def play(session: Session) -> None:
+        await session.press("1", "slash", *"a_list", "enter", "enter")
+        rows = focused(session)
+        await ends_and_pages(session, rows, "g", "G")
+        await session.press("slash", *MATCH, "enter")
+        assert rows.row_count() == LINES and rows.cursor == 10
+        await session.press("n", "n")
+        assert rows.cursor == 50
+        await session.press("N")
+        assert rows.cursor == 30
+
+    run(crowded(tuple(f"{name(at)}_{at}" for at in range(LINES))), play)
+
+
+def test_a_picker_has_the_same_ends_and_pages() -> None:
+    async def play(session: Session) -> None:
+        await session.press("8", "o")
+        assert isinstance(session.app.screen, PickerScreen)
+        rows = session.app.screen.query_one(RowList)
+        await ends_and_pages(session, rows, "home", "end")
+        await session.type(MATCH)
+        assert rows.row_count() == 3 and "3 of " in session.text()
+
+    run(crowded(), play)
+
+
+def test_no_key_of_a_pane_acts_while_something_is_typed() -> None:
+    async def play(session: Session) -> None:
+        await session.press("4", "a", "up", "escape", "down")
+        before = session.text()
+        await session.press("a", "up", "escape")
+        assert session.text() == before
+        await session.press("up")
+        assert session.text() != before, "up chooses another curve while nothing is typed"
+
+    run(live(), play)
+
+
+def test_a_row_ends_before_the_scroll_bar_so_that_its_ellipsis_is_seen() -> None:
+    async def play(session: Session) -> None:
+        await session.press("1")
+        rows = session.pane(ParametersPane).query_one(ParameterRows)
+        session.pane(ParametersPane).action_toggle_built_in()
+        await session.settle()
+        assert rows.show_vertical_scrollbar
+        assert {rows.render_line(y).cell_length for y in range(rows.size.height)} == {rows.size.width - 1}
+
+    run(live(), play, (60, 20))

@@ -1,0 +1,80 @@
+"""The log pane under a flood: it shows the newest lines, counts what there is, and no line twice."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import numpy as np
+from bot_console.tui.console.logs.store import LogStore
+from bot_console.tui.console.logs.view import LogViews
+from bot_console.tui.console.model import LogFilter, Severity
+from bot_console.tui.panes.logs.pane import LogRows, LogsPane
+from fakes import START, FakeConsole
+from piloting import Session, run
+from samples import live
+
+LINES, AT_ONCE = 100_000, 5_000
+SITE = ("node.py", "callback", 7)
+
+
+class Flooded(FakeConsole):
+    """A console with a log of its own size, searched beside the screen as that of a robot is."""
+
+    def __init__(self) -> None:
+        super().__init__(live()[0].current)
+        self.logs = LogStore(2 * LINES)
+        self.views = LogViews(self.logs)
+
+    def view_logs(self, which: LogFilter, instead_of: Any = None) -> Any:
+        return self.views.open(which, instead_of)
+
+    def flood(self, first: int) -> None:
+        """So many lines at once, from a number on; each tenth is a warning."""
+        for number in range(first, first + AT_ONCE):
+            severity = Severity.WARN if number % 10 == 0 else Severity.INFO
+            self.logs.add(START, severity, "talker", f"line {number}", SITE)
+            if number % AT_ONCE == AT_ONCE // 2:
+                self.change(logs=self.logs.state)  # the newer half comes while this one is drawn
+
+
+async def drawn(session: Session, until: str) -> list[tuple[int, int]]:
+    """Beat until a line is seen; the counts that stood on the screen meanwhile."""
+    counts: list[tuple[int, int]] = []
+    while until not in session.text():
+        session.app._beat()
+        await session.pilot.pause()
+        found = re.search(r"(\d+) of (\d+)", session.text())
+        assert found, session.text()
+        counts.append((int(found[1]), int(found[2])))
+    return counts
+
+
+def shown(session: Session) -> np.ndarray[Any, Any]:
+    numbers: Any = session.pane(LogsPane).query_one(LogRows).numbers
+    return numbers.array()
+
+
+def test_a_hundred_thousand_lines_are_followed_counted_and_shown_once() -> None:
+    console = Flooded()
+
+    async def play(session: Session) -> None:
+        await session.press("2")
+        for first in range(0, LINES, AT_ONCE):
+            console.flood(first)
+            counts = await drawn(session, f"line {first + AT_ONCE - 1} ")
+            assert counts and all(part <= whole for part, whole in counts)
+        assert np.array_equal(shown(session), np.arange(LINES)), "no line twice, none missing"
+        console.change(logs=console.logs.state)
+        await drawn(session, f"{LINES} of {LINES}")
+        await session.press("w")
+        await drawn(session, f"{LINES // 10} of {LINES} · >= WARN")
+        assert np.array_equal(shown(session), np.arange(0, LINES, 10))
+        console.flood(LINES)
+        counts = await drawn(session, f"line {LINES + AT_ONCE - 10} ")
+        assert all(part <= whole for part, whole in counts)
+
+    try:
+        run((console, live()[1]), play)
+    finally:
+        console.views.close()

@@ -1,0 +1,229 @@
+"""Topics: measured while seen, read as a tree, published; services called, goals sent and cancelled."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.console.traffic import Field, Reply
+from bot_console.tui.panes.topics.pane import TopicsPane
+from bot_console.tui.panes.topics.table import TopicRows
+from geometry_msgs.msg import Twist
+from piloting import Clock, Session, run
+from samples import ODOM, ODOM_TOPIC, empty, graph, live, odometry
+
+SIZE = (100, 30)
+SET_BOOL, FIBONACCI = "std_srvs/srv/SetBool", "example_interfaces/action/Fibonacci"
+
+
+def with_services() -> GraphInfo:
+    """The robot, with a service and an action of its own."""
+    known = graph()
+    server = NodeInfo(
+        "/server",
+        services=(Endpoint("/enable", (SET_BOOL,)),),
+        action_servers=(Endpoint("/count", (FIBONACCI,)),),
+    )
+    return replace(known, nodes=(*known.nodes, server), services=(Endpoint("/enable", (SET_BOOL,)),))
+
+
+def tick(session: Session, seconds: float = 1.0) -> None:
+    """Let time go on."""
+    pane = session.pane(TopicsPane)
+    pane.clock.now += seconds
+    pane.tick()
+
+
+async def opened(session: Session, *keys: str) -> TopicsPane:
+    """Open the pane under a clock that the test steps."""
+    pane = session.pane(TopicsPane)
+    pane.clock = Clock()
+    await session.press("9", *keys)
+    tick(session)
+    await session.settle()
+    return pane
+
+
+async def at(session: Session, name: str) -> None:
+    """Put the cursor on a row."""
+    rows = session.pane(TopicRows)
+    rows.cursor = [each.name for each in rows.rows].index(name)
+    await session.settle()
+
+
+def test_figures_stand_beside_each_topic_and_faults_are_said() -> None:
+    async def play(session: Session) -> None:
+        await opened(session)
+        line = next(each for each in session.lines() if "/odom" in each)
+        assert "1/3" in line and " 50 " in line and "37 kB" in line and "2.1 ms" in line
+        await at(session, "/cmd_vel_teleop")
+        assert "!/cmd_vel_teleop" in session.text() and "nobody publishes it" in session.text()
+
+    run(live(), play, SIZE)
+
+
+def test_only_rows_in_view_are_measured_and_none_while_the_pane_is_hidden() -> None:
+    topics = tuple(Endpoint(f"/t{number:03}", ("std_msgs/msg/Float64",)) for number in range(300))
+
+    async def play(session: Session) -> None:
+        session.console.change(graph=GraphInfo((NodeInfo("/n", topics),), topics))
+        pane = await opened(session)
+        measuring = session.console.traffic.measuring
+        assert "/t000" in measuring and 10 < len(measuring) < 30
+        await session.press("G")
+        tick(session)
+        assert "/t299" in session.console.traffic.measuring and "/t000" not in session.console.traffic.measuring
+        await session.press("1")
+        pane.tick()
+        assert session.console.traffic.measuring == ()
+
+    run(live(), play, SIZE)
+
+
+def test_the_newest_message_is_a_tree_that_freezes_and_folds() -> None:
+    async def play(session: Session) -> None:
+        await opened(session)
+        await at(session, ODOM_TOPIC)
+        await session.press("enter")
+        assert "2.5 m" in session.text() and "yaw 90.0°" in session.text() and "0.58 m/s" in session.text()
+        assert "36 values" in session.text()
+        await session.press("space")
+        moved = odometry()
+        moved.pose.pose.position.x = 3.5
+        session.console.traffic.hear(moved, ODOM)
+        tick(session)
+        await session.settle()
+        assert "+1 new" in session.text() and "2.5 m" in session.text()
+        await session.press("space")
+        assert "3.5 m" in session.text() and "frozen" not in session.text()
+        await session.press("down", "down", "down", "down", "left")
+        assert "3.5 m" not in session.text(), "what the pose holds is folded"
+        await session.press("escape")
+        assert session.console.traffic.listening == ""
+
+    run(live(), play, SIZE)
+
+
+def test_a_field_at_the_cursor_is_plotted() -> None:
+    async def play(session: Session) -> None:
+        session.console.series["/cmd_vel/linear.x"] = ([1.0], [1.0])
+        await opened(session)
+        await at(session, "/cmd_vel")
+        session.console.traffic.messages["/cmd_vel"] = (Twist(), "geometry_msgs/msg/Twist")
+        await session.press("enter", "down", "p")
+        assert ("watch", "/cmd_vel/linear.x") in session.console.asked
+        await session.press("9", "escape", "p")
+        assert "/cmd_vel/linear.x" in session.text(), "the list offers the numbers of the topic"
+
+    run(live(), play, SIZE)
+
+
+def test_a_message_is_filled_in_and_published_once_and_at_a_rate() -> None:
+    async def play(session: Session) -> None:
+        await opened(session)
+        await at(session, "/cmd_vel")
+        await session.press("P", "enter")
+        await session.type("fast")
+        assert "no number" in session.text()
+        await session.press("ctrl+u")
+        await session.type("0.5")
+        await session.press("enter", "s", "r", "enter")
+        asked = session.console.asked
+        assert ("publish", "/cmd_vel", {"linear.x": "0.5"}, 0.0) in asked
+        assert ("publish", "/cmd_vel", {"linear.x": "0.5"}, 10.0) in asked
+        await session.press("escape")
+        tick(session)
+        await session.settle()
+        assert "▶" in session.text()
+        await session.press("exclamation_mark")
+        assert session.console.traffic.repeated() == {}, "an all-stop ends what drives the robot"
+
+    run(live(), play, SIZE)
+
+
+def test_earlier_messages_come_back() -> None:
+    async def play(session: Session) -> None:
+        session.console.traffic.remembered["/cmd_vel"] = [{"linear.x": "0.1"}, {"linear.x": "0.2"}]
+        await opened(session)
+        await at(session, "/cmd_vel")
+        await session.press("P", "left_square_bracket")
+        assert "0.2 m/s" in session.text()
+        await session.press("left_square_bracket")
+        assert "0.1 m/s" in session.text() and "2 of 2" in session.text()
+        await session.press("right_square_bracket", "right_square_bracket", "s")
+        assert session.console.asked[-1] == ("publish", "/cmd_vel", {}, 0.0)
+
+    run(live(), play, SIZE)
+
+
+def test_a_quaternion_is_typed_as_a_yaw_and_a_stamp_is_now() -> None:
+    async def play(session: Session) -> None:
+        await opened(session)
+        await at(session, ODOM_TOPIC)
+        await session.press("P")
+        assert "now s" in session.text()
+        for _ in range(8):
+            await session.press("down")
+        assert "yaw" in session.text()
+        rows = session.app.screen.query_one("SlotRows")
+        rows.cursor = [each.path for each in rows.slots].index("pose.pose.orientation")
+        await session.press("enter")
+        session.app.focused.value = "90°"
+        await session.press("enter", "s")
+        assert session.console.asked[-1] == ("publish", ODOM_TOPIC, {"pose.pose.orientation": "90°"}, 0.0)
+
+    run(live(), play, (100, 50))
+
+
+def test_a_service_is_called_and_its_answer_shown() -> None:
+    async def play(session: Session) -> None:
+        session.console.change(graph=with_services())
+        session.console.traffic.response = Reply(True, "", 0.0123, (Field("message", "message", 0, "string", "done"),))
+        await opened(session, "m")
+        await session.press("enter", "enter")
+        await session.press("ctrl+u")
+        await session.type("true")
+        await session.press("enter", "s")
+        assert ("call", "/enable", {"data": "true"}) in session.console.asked
+        assert "answered after 12.3 ms" in session.text() and "message: done" in session.text()
+
+    run(live(), play, SIZE)
+
+
+def test_a_goal_is_sent_watched_and_cancelled() -> None:
+    async def play(session: Session) -> None:
+        session.console.change(graph=with_services())
+        await opened(session, "m", "m")
+        await session.press("enter", "s")
+        goals = session.console.traffic.sent_goals
+        progress = (Field("sequence", "sequence", 0, "sequence<int32>", "[0, 1]"),)
+        goals["/count"] = replace(goals["/count"], feedback=progress, feedback_count=2)
+        session.app.screen.look()
+        await session.settle()
+        assert "executing" in session.text() and "2 feedback" in session.text() and "[0, 1]" in session.text()
+        await session.press("x")
+        session.app.screen.look()
+        await session.settle()
+        assert "canceled" in session.text()
+
+    run(live(), play, SIZE)
+
+
+def test_built_in_services_are_left_out_until_they_are_asked_for() -> None:
+    async def play(session: Session) -> None:
+        session.console.change(graph=with_services())
+        await opened(session, "m")
+        assert "─ Services ─" in session.text()
+        assert "/enable" in session.text() and "/set_parameters" not in session.text()
+        await session.press("D")
+        assert "/set_parameters" in session.text()
+
+    run(live(), play, SIZE)
+
+
+def test_an_empty_system_says_so() -> None:
+    async def play(session: Session) -> None:
+        await opened(session, "enter", "P", "p", "x", "y", "space")
+        assert "No topics yet" in session.text()
+
+    run(empty(), play)

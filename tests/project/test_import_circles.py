@@ -1,0 +1,157 @@
+"""No module imports, by whatever way, one that imports it: late imports within functions count, too.
+
+What stands under `if TYPE_CHECKING` is never run and does not count.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+from bot_console.runtime.importer import PACKAGES
+
+ROOT = Path(__file__).parents[2]
+GENERATED = ROOT / "runtime" / "rosidl" / "generated"
+ALLOWED: dict[frozenset[str], str] = {}
+"""Circles that stay, as the set of their modules, each with the reason. There is none."""
+NATIVE = "rclpy._rclpy_pybind11"
+"""Stands for upstream's C extension, so it is below everything of rclpy."""
+Graph = dict[str, set[str]]
+
+
+def modules() -> dict[str, Path]:
+    """Every module of ours by its one name: of the ROS packages that under which they are imported."""
+    found: dict[str, Path] = {}
+    for top in ("runtime", "tui", "nodes"):
+        for path in (ROOT / top).rglob("*.py"):
+            if GENERATED in path.parents:
+                continue
+            parts = path.relative_to(ROOT).with_suffix("").parts
+            found[canonical("bot_console." + ".".join(parts).removesuffix(".__init__"))] = path
+    return found
+
+
+def canonical(name: str) -> str:
+    """The one name of a module that has two."""
+    inside = name.removeprefix("bot_console.runtime.")
+    if inside != name and inside.partition(".")[0] in PACKAGES:
+        return inside
+    return name.replace("bot_console_robot", "bot_console.nodes", 1) if name.startswith("bot_console_robot") else name
+
+
+class Imports(ast.NodeVisitor):
+    """The names that a module imports when it runs, whenever that is."""
+
+    def __init__(self, package: str) -> None:
+        self._package = package
+        self.found: list[tuple[str, str | None]] = []
+
+    def visit_If(self, node: ast.If) -> None:
+        if "TYPE_CHECKING" not in ast.unparse(node.test):
+            self.generic_visit(node)
+        else:
+            for each in node.orelse:
+                self.visit(each)
+
+    def visit_Import(self, node: ast.Import) -> None:
+        self.found += [(each.name, None) for each in node.names]
+
+    def visit_ImportFrom(self, node: ast.ImportFrom) -> None:
+        above = self._package.split(".")[: len(self._package.split(".")) - node.level + 1] if node.level else []
+        base = ".".join([*above, *([node.module] if node.module else [])])
+        self.found += [(base, each.name) for each in node.names]
+
+
+def imported(name: str, path: Path, known: dict[str, Path]) -> Iterator[str]:
+    package = name if path.name == "__init__.py" else name.rpartition(".")[0]
+    visitor = Imports(package)
+    visitor.visit(ast.parse(path.read_text(encoding="utf-8")))
+    for base, attribute in visitor.found:
+        module = canonical(base)
+        inner = f"{module}.{attribute}"
+        target = inner if attribute and inner in known else module
+        if target in known and target != name:
+            yield target
+
+
+@cache
+def graph() -> Graph:
+    known = modules()
+    return {name: set(imported(name, path, known)) for name, path in known.items()}
+
+
+def circles(edges: Graph) -> list[frozenset[str]]:
+    """The strongly connected components of more than one module (Tarjan)."""
+    index: dict[str, int] = {}
+    low: dict[str, int] = {}
+    stack: list[str] = []
+    found: list[frozenset[str]] = []
+
+    def visit(start: str) -> None:
+        work = [(start, iter(sorted(edges[start])))]
+        index[start] = low[start] = len(index)
+        stack.append(start)
+        while work:
+            name, rest = work[-1]
+            for target in rest:
+                if target not in index:
+                    index[target] = low[target] = len(index)
+                    stack.append(target)
+                    work.append((target, iter(sorted(edges[target]))))
+                    break
+                if target in stack:
+                    low[name] = min(low[name], index[target])
+            else:
+                work.pop()
+                if work:
+                    low[work[-1][0]] = min(low[work[-1][0]], low[name])
+                if low[name] == index[name]:
+                    at = stack.index(name)
+                    members = frozenset(stack[at:])
+                    del stack[at:]
+                    if len(members) > 1:
+                        found.append(members)
+
+    for name in sorted(edges):
+        if name not in index:
+            visit(name)
+    return found
+
+
+def test_no_circle():
+    left = [sorted(each) for each in circles(graph()) if each not in ALLOWED]
+    assert not left, "\n".join(" <-> ".join(each) for each in left)
+
+
+def test_what_is_allowed_is_there():
+    assert set(ALLOWED) <= set(circles(graph()))
+
+
+def test_what_is_below_the_public_modules_of_rclpy_knows_none_of_them():
+    up = {
+        (name, target)
+        for name, targets in graph().items()
+        if name.startswith("rclpy.impl.")
+        for target in targets
+        if target.startswith("rclpy") and not target.startswith("rclpy.impl") and target != NATIVE
+    }
+    assert not up
+
+
+def test_what_a_node_is_made_of_knows_no_node():
+    up = {name for name, targets in graph().items() if name.startswith("rclpy.node_parts.") and "rclpy.node" in targets}
+    assert not up
+
+
+def test_late_imports_count_and_those_for_types_do_not(tmp_path):
+    late = tmp_path / "a.py"
+    late.write_text("def f():\n    from x import b\n")
+    typed = tmp_path / "b.py"
+    typed.write_text("from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from x import a\n")
+    known = {"x.a": late, "x.b": typed}
+    assert circles({name: set(imported(name, path, known)) for name, path in known.items()}) == []
+    typed.write_text("from . import a\n")
+    edges = {name: set(imported(name, path, known)) for name, path in known.items()}
+    assert circles(edges) == [frozenset(known)]

@@ -1,0 +1,30 @@
+"""The middleware names its process by the real id: `os.getpid` gives a node that is a thread a made-up one."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def made_up(text: str) -> Iterator[int]:
+    """The lines that ask `os` for the process id."""
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Attribute) and node.attr == "getpid":
+            if isinstance(node.value, ast.Name) and node.value.id == "os":
+                yield node.lineno
+        elif isinstance(node, ast.ImportFrom) and node.module == "os" and any(e.name == "getpid" for e in node.names):
+            yield node.lineno
+
+
+def test_what_is_looked_for_is_found() -> None:
+    assert sorted(made_up("import os\nos.getpid()\nfrom os import getpid\nreal.getpid()\n")) == [2, 3]
+
+
+def test_nothing_in_the_middleware_asks_for_it() -> None:
+    files = sorted((ROOT / "runtime" / "rmw").rglob("*.py"))
+    assert files
+    found = [f"{file}:{line}" for file in files for line in made_up(file.read_text(encoding="utf-8"))]
+    assert found == [], "use bot_console.runtime.process.real.getpid"

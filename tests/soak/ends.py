@@ -1,0 +1,121 @@
+"""Starts and ends of the console in every way: `python tests/soak/ends.py --ends 500`, JSON.
+
+Each end must leave a usable terminal, no process, no socket and no temporary file of a process that has ended in order.
+Prints how many ends of each kind there were, and what was wrong with those that failed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import shutil
+import signal
+import sys
+import tempfile
+import time
+from collections import Counter
+from collections.abc import Callable
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "acceptance" / "console"))
+from terminal import Terminal
+
+PATIENCE = 60.0
+UNCLEAN = ("killed", "crash")
+"""Kinds after which files may be left: the next start removes them."""
+
+
+def sent(*numbers: signal.Signals) -> Callable[[Terminal], None]:
+    """These signals, one at once after the other."""
+
+    def send(terminal: Terminal) -> None:
+        for number in numbers:
+            os.kill(terminal.process.pid, number)
+
+    return send
+
+
+def armed(terminal: Terminal) -> None:
+    """`q` while the steering is armed."""
+    terminal.type("6")
+    terminal.read_until(lambda: b"disarmed" in terminal.output, "the steering pane")
+    terminal.type("\r")
+    terminal.read_until(lambda: b"ARMED" in terminal.output, "the armed steering")
+    terminal.type("q")
+
+
+KINDS: dict[str, Callable[[Terminal], None]] = {
+    "q": lambda terminal: terminal.type("q"),
+    "Ctrl-C": lambda terminal: terminal.type("\x03"),
+    "TERM": sent(signal.SIGTERM),
+    "HUP": sent(signal.SIGHUP),
+    "QUIT": sent(signal.SIGQUIT),
+    "TERM and HUP": sent(signal.SIGTERM, signal.SIGHUP),
+    "closed terminal": lambda terminal: terminal.hang_up(),
+    "killed": sent(signal.SIGKILL),
+    "crash": sent(signal.SIGSEGV),
+    "armed": armed,
+}
+
+
+def end(kind: str, folder: Path, base: Path) -> str:
+    """Start a console and end it; what was wrong, empty when nothing was."""
+    terminal = Terminal(["-m", "bot_console.tui", "--seed", "1"], folder)
+    try:
+        terminal.read_until(lambda: b"robot_navigator" in terminal.output, "the robot")
+        KINDS[kind](terminal)
+        code = terminal.process.wait(PATIENCE) if terminal.master < 0 else terminal.wait()
+        if code in (-signal.SIGSEGV, -signal.SIGABRT) and kind != "crash":
+            return f"ended by signal {-code}"
+        deadline = time.monotonic() + PATIENCE
+        while wrong := _left(terminal, kind, base):
+            if time.monotonic() > deadline:
+                return wrong
+            if terminal.master >= 0:
+                terminal.drain(0.1)
+            else:
+                time.sleep(0.1)
+    except (AssertionError, OSError) as error:
+        return str(error)[:300]
+    finally:
+        terminal.close()
+    return ""
+
+
+def _left(terminal: Terminal, kind: str, base: Path) -> str:
+    if terminal.master >= 0 and not terminal.is_usable():
+        return "the terminal is not usable"
+    if processes := terminal.processes():
+        return f"processes are left: {processes}"
+    files = [str(each.relative_to(base)) for each in base.rglob("*") if not each.is_dir()]
+    return f"files are left: {files}" if files and kind not in UNCLEAN else ""
+
+
+def main() -> None:
+    """Run as the words of the command say."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--ends", type=int, default=500)
+    options = parser.parse_args()
+    folder, base = Path(tempfile.mkdtemp(prefix="ends")), Path(tempfile.mkdtemp(prefix="bcs"))
+    os.environ |= {"BOT_CONSOLE_SOCKET_DIR": str(base), "XDG_STATE_HOME": str(folder), "XDG_CONFIG_HOME": str(folder)}
+    os.environ["TMPDIR"] = str(base)
+    counts: Counter[str] = Counter()
+    failed: list[str] = []
+    kinds = list(KINDS)
+    try:
+        for number in range(options.ends):
+            kind = kinds[number % len(kinds)]
+            counts[kind] += 1
+            if wrong := end(kind, folder, base):
+                failed.append(f"{kind}: {wrong}")
+            print(f"{number + 1} of {options.ends}, {kind}, {len(failed)} failed", file=sys.stderr, flush=True)
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+        shutil.rmtree(base, ignore_errors=True)
+    print(json.dumps({"ends": counts, "failed": failed}, indent=2))
+    sys.exit(bool(failed))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,156 @@
+"""Fixtures of launch descriptions: what runs beside tests, what comes after it, and how a failure is told."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+HEAD = """
+import sys
+import launch, launch_pytest, pytest
+from launch.actions import ExecuteProcess
+from launch_pytest import tools
+
+PROGRAM = "import sys, time; print('oops', file=sys.stderr, flush=True); print('hi', flush=True); time.sleep(%s)"
+
+def greeter(seconds):
+    return ExecuteProcess(cmd=[sys.executable, '-c', PROGRAM % seconds], cached_output=True)
+
+@pytest.fixture
+def proc():
+    return greeter(60)
+
+@launch_pytest.fixture
+def described(proc):
+    return launch.LaunchDescription([proc, launch_pytest.actions.ReadyToTest()])
+
+@pytest.fixture(scope='module')
+def common_proc():
+    return greeter(60)
+
+@launch_pytest.fixture(scope='module')
+def common(common_proc):
+    return launch.LaunchDescription([common_proc]), 42
+"""
+BESIDE = """
+@pytest.mark.launch(fixture=described)
+def test_plain(proc, launch_context, launch_service, event_loop):
+    assert tools.wait_for_start_sync(launch_context, proc, timeout=30)
+    assert tools.wait_for_output_sync(launch_context, proc, lambda text: text.split() == ['hi'], timeout=30)
+    assert not tools.wait_for_output_sync(launch_context, proc, lambda text: text == 'never', timeout=0.05)
+    tools.assert_stderr_sync(launch_context, proc, lambda text: 'oops' in text, timeout=30)
+    assert not tools.wait_for_exit_sync(launch_context, proc, timeout=0.05)
+    assert launch_service.context is launch_context and launch_service.event_loop is event_loop
+
+@pytest.mark.launch(fixture=described)
+async def test_coroutine(proc, launch_context, event_loop):
+    import asyncio
+    assert asyncio.get_running_loop() is event_loop
+    await tools.assert_output(launch_context, proc, lambda text: text == 'hi\\n', timeout=30)
+
+@pytest.mark.launch(fixture=described)
+@pytest.mark.parametrize('number', [1, 2])
+def test_generator(proc, launch_context, number):
+    assert tools.wait_for_start_sync(launch_context, proc, timeout=30)
+    assert proc.return_code is None
+    yield
+    assert proc.return_code is not None
+
+@pytest.mark.launch(fixture=described)
+async def test_async_generator(proc, launch_context):
+    await tools.wait_for_output(launch_context, proc, lambda text: text == 'hi\\n', timeout=30)
+    yield
+    assert proc.return_code is not None
+
+@pytest.mark.launch(fixture=described, shutdown=True)
+def test_afterwards(proc):
+    assert proc.return_code is not None
+
+def test_without_a_launch():
+    pass
+"""
+COMMON = """
+PIDS = set()
+
+@pytest.mark.launch(fixture=common, shutdown=True)
+def test_end(common_proc):
+    assert common_proc.return_code is not None and len(PIDS) == 1
+
+@pytest.mark.launch(fixture=common)
+def test_one(common_proc, common, launch_context):
+    tools.wait_for_start_sync(launch_context, common_proc, timeout=30)
+    PIDS.add(common_proc.process_details['pid'])
+    assert common[1] == 42 and common_proc.return_code is None
+
+@pytest.mark.launch(fixture=common)
+def test_two(common_proc):
+    PIDS.add(common_proc.process_details['pid'])
+    yield
+    assert common_proc.return_code is not None
+"""
+BAD = """
+@pytest.mark.launch(fixture=described)
+def test_output(proc, launch_context):
+    def check(text):
+        assert text == 'something else'
+    tools.wait_for_output_sync(launch_context, proc, check, timeout=0.2)
+
+@pytest.mark.launch(fixture=described)
+def test_after(proc):
+    yield
+    assert proc.return_code is None, 'it has ended'
+
+@pytest.mark.launch(fixture=described)
+def test_twice(proc):
+    yield
+    yield
+
+@launch_pytest.fixture
+def broken():
+    def late(context):
+        raise ValueError('no such thing')
+    return launch.LaunchDescription([launch.actions.OpaqueFunction(function=late)])
+
+@pytest.mark.launch(fixture=broken)
+def test_never():
+    pass
+"""
+
+
+def _run(folder: Path, text: str, *options: str) -> subprocess.CompletedProcess[str]:
+    (folder / "test_it.py").write_text(HEAD + text)
+    words = ["test", "-p", "no:cacheprovider", "-q", *options, "test_it.py"]
+    program = f"import sys; from bot_console.tui.cli import main; sys.exit(main({words!r}))"
+    command = [sys.executable, "-c", program]
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=120, check=False)
+
+
+def test_plain_tests_coroutines_and_generators_run_beside_and_after_a_launch(tmp_path: Path) -> None:
+    done = _run(tmp_path, BESIDE)
+
+    assert "7 passed" in done.stdout, done.stdout
+
+
+def test_a_fixture_of_a_module_runs_once_and_what_comes_after_it_is_last(tmp_path: Path) -> None:
+    done = _run(tmp_path, COMMON, "-vv")
+
+    assert "4 passed" in done.stdout, done.stdout
+    order = re.findall(r"::(\S+) PASSED", done.stdout)
+    assert order == ["test_one", "test_two", "test_end", "test_two[shutdown_test]"]
+
+
+def test_failures_are_told_with_their_own_assertion(tmp_path: Path) -> None:
+    done = _run(tmp_path, BAD)
+
+    assert "3 failed, 1 error" in done.stdout, done.stdout
+    for text in ("something else", "it has ended", "has to have one yield", "before it was ready: no such thing"):
+        assert text in done.stdout
+
+
+def test_the_mark_wants_a_fixture_of_its_own(tmp_path: Path) -> None:
+    done = _run(tmp_path, "@pytest.mark.launch\ndef test_it(): pass\n")
+
+    assert done.returncode != 0
+    assert "pytest.mark.launch takes fixture=" in done.stdout

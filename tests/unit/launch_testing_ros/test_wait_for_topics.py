@@ -1,0 +1,50 @@
+"""Waiting for messages."""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+import rclpy
+from launch_testing_ros import WaitForTopics
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from std_msgs.msg import Int32, String
+
+
+def _spin(executor: SingleThreadedExecutor) -> None:
+    with contextlib.suppress(ExternalShutdownException):
+        executor.spin()
+
+
+@pytest.fixture
+def talker() -> Iterator[Any]:
+    """A node that says something again and again, whoever listens."""
+    rclpy.init()
+    node = rclpy.create_node("talker")
+    publisher = node.create_publisher(String, "said", 10)
+    node.create_timer(0.02, lambda: publisher.publish(String(data="hi")))
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    thread = threading.Thread(target=_spin, args=(executor,), daemon=True)
+    thread.start()
+    yield node
+    executor.shutdown()
+    thread.join(5.0)
+    node.destroy_node()
+    rclpy.shutdown()
+
+
+def test_messages_that_come_are_kept(talker: Any) -> None:
+    with WaitForTopics([("said", String)], timeout=20.0) as waited:
+        assert waited.topics_received() == {"said"}
+        assert waited.received_messages("said")[0].data == "hi"
+        with pytest.raises(KeyError):
+            waited.received_messages("other")
+
+
+def test_what_does_not_come_is_named(talker: Any) -> None:
+    with pytest.raises(RuntimeError, match="never"), WaitForTopics([("never", Int32), ("said", String)], timeout=0.2):
+        pass

@@ -1,0 +1,121 @@
+"""Ways over a map."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from bot_console_robot.navigation.driving import Limits, WayFollower
+from bot_console_robot.navigation.planner import Grid, NoWay, Planner
+from bot_console_robot.navigation.tasks import COLLISION_AHEAD, FAILED_TO_MAKE_PROGRESS, Seen, Spin, Straight, Way
+from hypothesis import given
+from hypothesis import strategies as st
+
+CLEARANCE = 0.25
+
+
+def room(*walls: tuple[slice, slice]) -> Grid:
+    """A room of 6 by 4 m with walls of cells of 5 cm."""
+    cells = np.zeros((80, 120), np.int8)
+    for rows, columns in walls:
+        cells[rows, columns] = 100
+    return Grid(cells, 0.05, (-1.0, -1.0))
+
+
+WALL = (slice(0, 60), slice(58, 62))
+"""From the lower edge up to 1 m below the upper one, at x = 2."""
+
+
+def clear(grid: Grid, points: list[tuple[float, float]]) -> float:
+    """How near (m) a way comes to a taken cell."""
+    rows, columns = np.nonzero(grid.cells)
+    taken = np.stack([columns + 0.5, rows + 0.5], axis=1) * grid.resolution + grid.origin
+    nearest = math.inf
+    for a, b in itertools.pairwise(points):
+        for share in np.linspace(0, 1, 50):
+            place = np.array(a) + share * (np.array(b) - np.array(a))
+            nearest = min(nearest, float(np.hypot(*(taken - place).T).min(initial=math.inf)))
+    return nearest
+
+
+def test_with_nothing_between_the_way_is_straight() -> None:
+    assert Planner(room(), CLEARANCE).way((0.0, 0.0), (4.0, 1.5)) == [(4.0, 1.5)]
+
+
+def test_a_way_goes_round_a_wall_and_keeps_clear() -> None:
+    grid = room(WALL)
+    start, goal = (0.0, 0.0), (4.0, 0.0)
+    way = Planner(grid, CLEARANCE).way(start, goal)
+    assert len(way) > 1 and way[-1] == goal
+    assert max(y for _, y in way) > 2.0
+    assert clear(grid, [start, *way]) >= CLEARANCE - 0.08
+
+
+@given(st.tuples(st.floats(-0.6, 1.6), st.floats(-0.6, 2.6)), st.tuples(st.floats(2.5, 4.6), st.floats(-0.6, 2.6)))
+def test_every_way_reaches_its_goal_and_hits_nothing(start: tuple[float, float], goal: tuple[float, float]) -> None:
+    grid = room(WALL)
+    way = Planner(grid, CLEARANCE).way(start, goal)
+    assert way[-1] == goal
+    assert clear(grid, [start, *way]) >= CLEARANCE - 0.12
+
+
+@pytest.mark.parametrize(
+    ("goal", "why"),
+    [
+        ((2.0, 0.0), "the goal is in a wall or outside"),
+        ((90.0, 0.0), "the goal is in a wall or outside"),
+        ((math.nan, 0.0), "not a finite number"),
+        ((4.0, 0.0), "walls are all around"),
+    ],
+)
+def test_where_there_is_no_way_it_is_said_why(goal: tuple[float, float], why: str) -> None:
+    closed = room((slice(0, 80), slice(50, 70)))
+    with pytest.raises(NoWay, match=why):
+        Planner(closed, CLEARANCE).way((0.0, 0.0), goal)
+
+
+def drive(task: Way | Spin | Straight, pose: tuple[float, float, float], ahead: float = 9.0) -> tuple[float, ...]:
+    """The pose after a task was driven to its end without slip."""
+    time = 0.0
+    while not task.done:
+        speed, turn = task.step(Seen(time, pose, ahead, ahead))
+        heading = pose[2] + turn * 0.05
+        pose = pose[0] + speed * 0.05 * math.cos(heading), pose[1] + speed * 0.05 * math.sin(heading), heading
+        time += 0.05
+        assert time < 120.0
+    return pose
+
+
+def test_a_way_is_followed_to_its_end_and_heading() -> None:
+    task = Way([(1.0, 0.0), (1.0, 1.0)], math.pi, Limits())
+    x, y, heading = drive(task, (0.0, 0.0, 0.0))
+    assert (x, y) == pytest.approx((1.0, 1.0), abs=0.15)
+    assert abs(math.remainder(heading - math.pi, math.tau)) < 0.1
+    assert task.error_code == 0
+
+
+def test_what_stands_ahead_holds_the_robot_until_it_is_given_up() -> None:
+    task = Way([(3.0, 0.0)], 0.0, Limits())
+    pose = drive(task, (0.0, 0.0, 0.0), ahead=0.2)
+    assert pose == (0.0, 0.0, 0.0)
+    assert task.error_code == FAILED_TO_MAKE_PROGRESS
+
+
+def test_a_spin_may_be_more_than_a_turn() -> None:
+    task = Spin(7.0, Limits())
+    assert drive(task, (0.0, 0.0, 0.0))[2] == pytest.approx(7.0, abs=0.1)
+
+
+def test_straight_back_and_no_farther_than_is_free() -> None:
+    assert drive(Straight(-0.5, 0.2, 0.0, Limits()), (0.0, 0.0, 0.0))[0] == pytest.approx(-0.5, abs=0.1)
+    blocked = Straight(0.5, 0.2, 0.0, Limits())
+    assert drive(blocked, (0.0, 0.0, 0.0), ahead=0.2)[0] == 0.0
+    assert blocked.error_code == COLLISION_AHEAD
+
+
+def test_points_on_the_way_are_passed_and_not_driven_to() -> None:
+    follower = WayFollower([(0.1, 0.0), (0.2, 0.0), (2.0, 0.0)], 0.0, Limits())
+    assert follower.velocity((0.0, 0.0, 0.0), 9.0) == (0.4, 0.0)
+    assert follower.points == [(2.0, 0.0)]

@@ -1,0 +1,33 @@
+"""A machine that is too busy to simulate in real time: told once, in words that do not blame the robot."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+import rclpy
+from bot_console_robot.simulator_node import QUIET_NS, Simulator
+
+SECOND = 1_000_000_000
+
+
+def test_a_lag_is_told_once_and_again_only_after_a_quiet_while(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS_DOMAIN_ID", "7901")
+    rclpy.init()
+    try:
+        node: Any = Simulator()
+        told: list[str] = []
+        now = node._steady.now().nanoseconds
+        monkeypatch.setattr(node, "_steady", SimpleNamespace(now=lambda: SimpleNamespace(nanoseconds=now)))
+        monkeypatch.setattr(node, "get_logger", lambda: SimpleNamespace(warning=told.append))
+        for _ in range(5):
+            now += 2 * SECOND
+            node._tick()
+        assert len(told) == 1 and told[0].startswith("Simulation lags: ")
+        assert told[0].endswith("too busy to simulate in real time; the robot is slow, not broken")
+        now += QUIET_NS + SECOND
+        node._tick()
+        assert len(told) == 2
+    finally:
+        rclpy.shutdown()

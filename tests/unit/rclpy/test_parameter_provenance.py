@@ -1,0 +1,64 @@
+"""A node tells what it declares, in which line, and which override it took."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import pytest
+import rclpy
+from bot_console.runtime.process.facts import anybody_listens, on_fact
+from rclpy.context import Context
+from rclpy.parameter import Parameter
+
+Told = dict[str, tuple[Any, str, str]]
+
+
+@pytest.fixture
+def told() -> Iterator[Told]:
+    found: Told = {}
+
+    def hear(kind: str, facts: Mapping[str, Any]) -> None:
+        assert kind == "declared" and facts["node"] == "/n"
+        found.update({name: (default, place, source) for name, default, place, source in facts["parameters"]})
+
+    forget = on_fact(hear)
+    yield found
+    forget()
+
+
+def test_default_line_and_the_override_that_counts(told: Told, tmp_path: Path) -> None:
+    file = tmp_path / "p.yaml"
+    file.write_text("/**:\n  ros__parameters:\n    a: 2\n    b: 2\n    c: 2\n")
+    context = Context()
+    rclpy.init(args=["--ros-args", "--params-file", str(file), "-p", "b:=3"], context=context)
+    node = rclpy.create_node("n", context=context, parameter_overrides=[Parameter("c", value=4)])
+    node.declare_parameters("", [("a", 1), ("b", 1), ("c", 1), ("d", 1)])
+    node.declare_parameter("e", [1.0, 2.0])
+    context.shutdown()
+    sources = {name: told[name][2] for name in "abcde"}
+    assert sources == {"a": str(file), "b": "-p", "c": "parameter_overrides of its program", "d": "", "e": ""}
+    assert told["a"][0] == 1 and told["e"][0] == [1.0, 2.0]
+    places = {told[name][1] for name in "abcd"}
+    assert len(places) == 1
+    path, _, line = places.pop().rpartition(":")
+    assert path == __file__
+    assert 'declare_parameters("", [("a"' in Path(path).read_text().splitlines()[int(line) - 1]
+
+
+def test_a_later_file_and_a_later_word_count(told: Told, tmp_path: Path) -> None:
+    first, second = tmp_path / "1.yaml", tmp_path / "2.yaml"
+    for each in (first, second):
+        each.write_text("n:\n  ros__parameters:\n    a: 2\n")
+    context = Context()
+    words = ["--ros-args", "-p", "a:=1", "--params-file", str(first), "--params-file", str(second)]
+    rclpy.init(args=words, context=context)
+    rclpy.create_node("n", context=context).declare_parameter("a", 0)
+    context.shutdown()
+    # A plain -p stands under /**, which came first; a node's own key comes behind it.
+    assert told["a"][2] == str(second)
+
+
+def test_nothing_is_worked_out_where_nobody_listens() -> None:
+    assert not anybody_listens()

@@ -1,0 +1,203 @@
+"""A client of a router: how it gets there, why it does not, and what it does when the router goes and comes back."""
+
+import json
+import re
+import socket
+import threading
+from pathlib import Path
+
+import pytest
+from bot_console.runtime.rmw.zenoh.link_probe import LinkProbe
+from bot_console.runtime.rmw.zenoh.network import Way, client_settings, open_network_session, with_environment
+from bot_console.runtime.rmw.zenoh.reach import Tls, place_of
+from bot_console.runtime.rmw.zenoh.router import Router
+from bot_console.runtime.rmw.zenoh.session import SessionError
+from bot_console.runtime.rmw.zenoh.settings import Serving
+from certificates import make_certificates
+from ports import free_port
+
+PATIENCE = 20.0
+
+
+@pytest.fixture(scope="module")
+def files(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("tls")
+    return make_certificates(folder), make_certificates(folder, "stranger")
+
+
+@pytest.fixture(scope="module")
+def secure(files):
+    own, _ = files
+    endpoint = f"tls/localhost:{free_port()}"
+    router = Router(Serving((endpoint,), Tls(own.ca, own.certificate, own.key).as_listener()))
+    yield endpoint
+    router.close()
+
+
+def refusal(way: Way) -> str:
+    with pytest.raises(SessionError) as refused:
+        open_network_session(0, way)
+    return str(refused.value)
+
+
+def test_both_sides_show_their_certificates(secure, files):
+    own, _ = files
+    session = open_network_session(0, Way((secure,), Tls(own.ca, own.certificate, own.key)))
+    assert session.attendance(session.zid[:8], PATIENCE) == {session.zid[:8]}
+    session.close()
+
+
+def test_a_router_of_another_authority_is_refused_and_that_is_said(secure, files):
+    _, stranger = files
+    tls = Tls(stranger.ca, stranger.certificate, stranger.key)
+    assert "the router's certificate is refused" in refusal(Way((secure,), tls, patience=0.3))
+
+
+def test_a_client_without_or_with_a_wrong_certificate_is_refused_and_that_is_said(secure, files):
+    own, stranger = files
+    assert "--tls-certificate" in refusal(Way((secure,), Tls(own.ca), patience=0.3))
+    wrong = Tls(own.ca, stranger.certificate, stranger.key)
+    assert "--tls-certificate" in refusal(Way((secure,), wrong, patience=0.3))
+
+
+def test_files_that_cannot_be_used_are_named(secure, files, tmp_path):
+    own, _ = files
+    text = tmp_path / "text"
+    text.write_text("hello")
+    assert f"{text} is no PEM file" in refusal(Way((secure,), Tls(str(text)), patience=0.3))
+    assert "cannot read /nowhere" in refusal(Way((secure,), Tls("/nowhere"), patience=0.3))
+    assert "go together" in refusal(Way((secure,), Tls(own.ca, own.certificate), patience=0.3))
+
+
+def test_where_nobody_listens_it_is_said_what_to_start():
+    assert "rmw_zenohd" in refusal(Way((f"tcp/127.0.0.1:{free_port()}",), patience=0.3))
+    assert "no host of the name" in refusal(Way(("tcp/no-such-robot.invalid:7447",), patience=0.3))
+
+
+@pytest.mark.parametrize("text", ["robot", "robot:7447", "tcp/robot", "tcp/:7447", "tcp/robot:70000", "tcp/robot:x"])
+def test_what_is_no_endpoint_is_told_with_an_example(text):
+    with pytest.raises(ValueError, match="tcp/robot:7447"):
+        place_of(text)
+
+
+def test_places_of_endpoints():
+    assert place_of("tls/[::1]:7447#iface=lo") == ("tls", "::1", 7447)
+
+
+def test_the_variables_of_rmw_zenoh_are_honoured(monkeypatch, tmp_path):
+    port = free_port()
+    router = Router(Serving((f"tcp/127.0.0.1:{port}",)))
+    file = tmp_path / "session.json5"
+    file.write_text("{ mode: 'peer', connect: { endpoints: ['tcp/127.0.0.1:1'] } }  // as for a node")
+    monkeypatch.setenv("ZENOH_SESSION_CONFIG_URI", str(file))
+    monkeypatch.setenv("ZENOH_CONFIG_OVERRIDE", f'connect/endpoints=["tcp/127.0.0.1:{port}"];connect/timeout_ms=3000')
+    session = open_network_session(0, with_environment(Way(patience=0.3)))
+    assert session.attendance(session.zid[:8], PATIENCE)
+    session.close()
+    router.close()
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "told"),
+    [
+        ("ZENOH_SESSION_CONFIG_URI", "/nowhere.json5", "there is no file /nowhere.json5"),
+        ("ZENOH_CONFIG_OVERRIDE", "connect", "path=value"),
+        ("ZENOH_CONFIG_OVERRIDE", "mode=", "path=value"),
+    ],
+)
+def test_variables_that_mean_nothing_are_refused(monkeypatch, name, value, told):
+    monkeypatch.setenv(name, value)
+    with pytest.raises(SessionError, match=told):
+        with_environment(Way(("tcp/robot:7447",)))
+
+
+def test_a_setting_that_zenoh_does_not_know_is_refused():
+    assert "does not take" in refusal(Way(("tcp/127.0.0.1:1",), override=(("mode", "'boss'"),)))
+
+
+def test_a_client_listens_nowhere_and_looks_for_nobody():
+    settings = client_settings("1" * 32, Way(("tcp/robot:7447",)))
+    assert settings["mode"] == "client" and settings["listen"] == {"endpoints": []}
+    assert not settings["scouting"]["multicast"]["enabled"] and not settings["scouting"]["gossip"]["enabled"]
+    assert json.dumps(settings)
+
+
+def test_a_router_that_comes_back_is_found_again_and_what_was_declared_works():
+    serving = Serving((f"tcp/127.0.0.1:{free_port()}",))
+    router, way = Router(serving), Way(serving.endpoints)
+    one, two = open_network_session(0, way), open_network_session(0, way)
+    heard = threading.Event()
+    two.declare_subscriber("t", lambda payload, attachment: heard.set())
+    publisher = one.declare_publisher("t")
+    lost, back = threading.Event(), threading.Event()
+    one.watch_links(lambda zid, on: (back if on and lost.is_set() else lost).set() if not on or lost.is_set() else None)
+    router.close()
+    assert lost.wait(PATIENCE)
+    router = Router(serving)
+    assert back.wait(PATIENCE)
+    for _ in range(round(PATIENCE / 0.05)):
+        publisher.put(b"again", b"")
+        if heard.wait(0.05):
+            break
+    assert heard.is_set()
+    for each in (one, two, router):
+        each.close()
+
+
+def test_the_access_list_of_the_documentation_keeps_guests_from_moving_and_changing_the_robot(tmp_path):
+    text = (Path(__file__).parents[4] / "docs" / "your-robot.md").read_text(encoding="utf-8")
+    (listed,) = re.findall(r"^```json5\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+    file = tmp_path / "access.json5"
+    file.write_text(listed)
+    serving = Serving((f"tcp/127.0.0.1:{free_port()}",))
+    router, way = Router(serving, str(file)), Way(serving.endpoints)
+    robot, guest = open_network_session(0, way), open_network_session(0, way)
+    heard, asked = [], []
+    for topic in ("scan", "cmd_vel", "ns/cmd_vel"):
+        robot.declare_subscriber(f"0/{topic}/t", lambda payload, attachment, topic=topic: heard.append(topic))
+    for service in ("n/get_parameters", "n/set_parameters"):
+
+        def answer(query, service=service):
+            asked.append(service)
+            query.answer(b"", b"")
+
+        robot.declare_queryable(f"0/{service}/t", answer)
+    publishers = [guest.declare_publisher(f"0/{topic}/t") for topic in ("cmd_vel", "ns/cmd_vel", "scan")]
+    for _ in range(round(PATIENCE / 0.02)):
+        for each in publishers:
+            each.put(b"", b"")
+        if heard.count("scan") >= 3:
+            break
+        threading.Event().wait(0.02)
+    for service in ("n/set_parameters", "n/get_parameters"):
+        done = threading.Event()
+        guest.declare_querier(f"0/{service}/t", 2.0).get(b"", b"", lambda *reply: None, done.set)
+        assert done.wait(PATIENCE)
+    assert set(heard) == {"scan"} and asked == ["n/get_parameters"]
+    for each in (robot, guest, router):
+        each.close()
+
+
+def test_a_taken_port_is_told():
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        place = f"tcp/127.0.0.1:{taken.getsockname()[1]}"
+        with pytest.raises(SessionError, match=f"cannot listen on {place}"):
+            Router(Serving((place,)))
+
+
+def test_a_link_that_does_not_answer_keeps_the_time_of_its_last_answer():
+    now, answers = [100.0], [True]
+
+    def ask(timeout: float) -> bool:
+        now[0] += 0.25
+        return answers[0]
+
+    probe = LinkProbe(ask, "tcp/robot:7447", lambda: now[0])
+    probe.end()
+    probe.look()
+    assert (probe.state.heard, probe.state.delay) == (100.25, 0.25)
+    answers[0] = False
+    probe.look()
+    assert probe.state.heard == 100.25

@@ -1,0 +1,73 @@
+"""Interface packages beside the core: those that come along, those that are added, and what they cost."""
+
+from __future__ import annotations
+
+import importlib
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from bot_console.runtime import further_interfaces, interface_cache
+from bot_console.runtime.rosidl.cdr import deserialize, serialize
+from bot_console.runtime.user_folders import cache_folder
+
+PACKAGES = sorted(further_interfaces.unverified_folders())
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_every_definition_makes_classes_that_travel(package: str) -> None:
+    folder = further_interfaces.unverified_folders()[package]
+    for path in sorted(folder.rglob("*.*")):
+        kind = path.parent.name
+        made = getattr(importlib.import_module(f"{package}.{kind}"), path.stem)
+        parts = {"msg": (made,), "srv": (), "action": ()}[kind] or (
+            (made.Request, made.Response) if kind == "srv" else (made.Goal, made.Result, made.Feedback)
+        )
+        for part in parts:
+            sent = serialize(part())
+            assert serialize(deserialize(sent, part)) == sent
+
+
+def test_the_packages_are_those_that_programs_ask_for() -> None:
+    assert set(PACKAGES) == {
+        *("ackermann_msgs", "can_msgs", "control_msgs", "geographic_msgs", "irobot_create_msgs", "map_msgs"),
+        *("nav2_msgs", "pcl_msgs", "turtlebot3_msgs", "vision_msgs"),
+    }
+
+
+def test_they_cost_nothing_until_they_are_asked_for() -> None:
+    text = (
+        "import sys; from bot_console.runtime.importer import install; install(); import rclpy, std_msgs.msg;"
+        "print([name for name in sys.modules if 'further_interfaces' in name or 'interface_cache' in name])"
+    )
+    assert subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True).stdout == "[]\n"
+
+
+def test_a_second_import_takes_the_code_from_the_cache() -> None:
+    made: list[str] = []
+
+    def source() -> str:
+        made.append("x")
+        return "answer = 42"
+
+    for definition in ("int32 a", "int32 a", "int32 b"):
+        names: dict[str, object] = {}
+        exec(interface_cache.compiled("cached.msg", definition, source), names)
+        assert names["answer"] == 42
+    assert len(made) == 2
+
+
+def test_a_spoilt_cache_is_made_again() -> None:
+    interface_cache.compiled("spoilt.msg", "int32 a", lambda: "answer = 1")
+    for path in (cache_folder() / "interfaces").iterdir():
+        path.write_bytes(b"nonsense")
+    names: dict[str, object] = {}
+    exec(interface_cache.compiled("spoilt.msg", "int32 a", lambda: "answer = 2"), names)
+    assert names["answer"] == 2
+
+
+def test_a_cache_that_cannot_be_written_is_no_fault(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    monkeypatch.setenv("BOT_CONSOLE_USER_DIR", str(tmp_path / "file"))
+    assert interface_cache.compiled("nowhere.msg", "", lambda: "x = 1").co_filename == "<nowhere.msg>"

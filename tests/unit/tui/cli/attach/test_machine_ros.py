@@ -1,0 +1,108 @@
+"""A real ROS 2 is an `rclpy` that is none of ours; which system is meant is decided, asked, or refused."""
+
+import importlib.machinery
+import sys
+from pathlib import Path
+
+import pytest
+from bot_console.tui.cli.attach.choice import NO_ROS, choose
+from bot_console.tui.cli.attach.machine_ros import RUNTIME, MachineRos, find_machine_ros, how_to_install
+
+HERE = f"{sys.version_info.major}.{sys.version_info.minor}"
+
+
+@pytest.fixture(autouse=True)
+def nothing_sourced(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
+    monkeypatch.setenv("ROS_DISTRO", "jazzy")
+
+
+def make_rclpy(folder: Path, extension: str = "") -> Path:
+    package = folder / "rclpy"
+    package.mkdir(parents=True)
+    (package / "__init__.py").touch()
+    if extension:
+        (package / f"_rclpy_pybind11{extension}").touch()
+    return package
+
+
+def test_the_variable_alone_is_no_ros() -> None:
+    assert find_machine_ros([]) is None
+
+
+def test_an_rclpy_on_the_path_is_found_whether_it_has_an_extension_for_this_python_or_none(tmp_path: Path) -> None:
+    one = make_rclpy(tmp_path / "a", importlib.machinery.EXTENSION_SUFFIXES[0])
+    assert find_machine_ros([str(one.parent)]) == MachineRos(one)
+    two = make_rclpy(tmp_path / "b")
+    assert find_machine_ros([str(two.parent)]) == MachineRos(two)
+
+
+def test_one_for_another_python_says_which_and_how_to_install(tmp_path: Path) -> None:
+    package = make_rclpy(tmp_path, ".cpython-37m-x86_64-linux-gnu.so")
+    found = find_machine_ros([str(tmp_path)])
+    assert found == MachineRos(package, "3.7")
+    text = how_to_install(found)
+    assert "\n" not in text
+    assert all(
+        part in text for part in (f"runs on {HERE}", "python3.7 -m pip install --user", "--system-site-packages")
+    )
+
+
+def test_what_is_sourced_counts_though_this_python_does_not_see_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    package = make_rclpy(tmp_path / "lib/python3.7/site-packages")
+    monkeypatch.setenv("AMENT_PREFIX_PATH", f"/nowhere:{tmp_path}")
+    assert find_machine_ros([]) == MachineRos(package, "3.7")
+
+
+def test_neither_ours_nor_what_stands_in_for_it_in_processes_that_we_start_counts(tmp_path: Path) -> None:
+    assert find_machine_ros([str(RUNTIME)]) is None
+    (tmp_path / "rclpy.py").write_text("stands in")
+    assert find_machine_ros([str(tmp_path)]) is None
+
+
+THERE, OTHER = MachineRos(Path("/opt/rclpy")), MachineRos(Path("/opt/rclpy"), "3.7")
+
+
+@pytest.mark.parametrize(
+    ("ros", "embedded", "system_there", "found", "ros_chosen", "code"),
+    [
+        (False, False, False, None, False, 0),
+        (False, False, True, None, False, 0),
+        (False, False, False, THERE, True, 0),
+        (False, False, False, OTHER, False, 1),
+        (False, False, True, OTHER, False, 0),
+        (False, False, True, THERE, False, 2),
+        (True, False, True, THERE, True, 0),
+        (True, False, True, OTHER, False, 1),
+        (True, False, False, None, False, 1),
+        (False, True, True, THERE, False, 0),
+    ],
+)
+def test_which_system_is_meant(ros, embedded, system_there, found, ros_chosen, code) -> None:
+    kind = choose(ros=ros, embedded=embedded, system_there=system_there, find=lambda: found, interactive=lambda: False)
+    assert (kind.ros is THERE, kind.code) == (ros_chosen, code)
+    assert bool(kind.text) == bool(code)
+
+
+def test_without_a_terminal_both_are_listed_and_the_options_named() -> None:
+    kind = choose(ros=False, embedded=False, system_there=True, find=lambda: THERE, interactive=lambda: False)
+    assert all(part in kind.text for part in ("/opt/rclpy", "a system of bot-console", "--ros", "--embedded"))
+
+
+@pytest.mark.parametrize(("answer", "ros_chosen", "code"), [("1", True, 0), ("2", False, 0), ("", False, 1)])
+def test_a_person_is_asked(answer: str, ros_chosen: bool, code: int) -> None:
+    asked: list[str] = []
+
+    def ask(question: str) -> str:
+        asked.append(question)
+        return answer
+
+    kind = choose(ros=False, embedded=False, system_there=True, find=lambda: THERE, ask=ask, interactive=lambda: True)
+    assert (kind.ros is THERE, kind.code) == (ros_chosen, code)
+    assert len(asked) == 1
+
+
+def test_no_ros_at_all_says_what_to_source() -> None:
+    assert choose(ros=True, embedded=False, system_there=False, find=lambda: None).text == NO_ROS

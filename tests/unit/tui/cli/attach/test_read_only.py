@@ -1,0 +1,24 @@
+"""`--read-only` holds whatever the console is attached to."""
+
+from __future__ import annotations
+
+import pytest
+from bot_console.tui.cli.arguments import Options
+from bot_console.tui.cli.attach.options import parse
+from bot_console.tui.cli.attach.session import AttachedSession
+from bot_console.tui.console.connection import RosConsole
+from bot_console.tui.console.no_console import NoCommandLine
+from bot_console.tui.console.read_only import ReadOnlyConsole, ReadOnlyLauncher
+
+
+@pytest.mark.parametrize("words", [[], ["--pane", "logs"]])
+def test_the_option_reaches_the_session(words: list[str]) -> None:
+    assert parse(["--read-only", *words]).look.read_only and not parse(words).look.read_only
+
+
+@pytest.mark.parametrize("read_only", [False, True])
+def test_the_panes_of_an_attached_session_are_given_what_refuses(read_only: bool) -> None:
+    console = RosConsole()
+    app = AttachedSession(console, NoCommandLine(), Options(attach=True, read_only=read_only)).app
+    assert isinstance(app.console_of_robot, ReadOnlyConsole) is read_only
+    assert isinstance(app.launcher, ReadOnlyLauncher) is read_only

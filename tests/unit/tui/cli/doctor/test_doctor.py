@@ -1,0 +1,128 @@
+"""Each finding of the doctor says how a thing is and how to mend it; only what fails makes the exit code 1."""
+
+import itertools
+import json
+import os
+import subprocess
+import sys
+
+import pytest
+from bot_console.tui.cli.doctor.finding import Finding, Level, exit_code
+from bot_console.tui.cli.doctor.machine import domain_finding, python_finding, sockets_findings
+from bot_console.tui.cli.doctor.nodes import base_finding, pair_findings, type_findings
+from bot_console.tui.cli.doctor.system import link_finding
+from bot_console.tui.cli.doctor.terminal import colours_finding, letters_finding, size_finding
+from bot_console.tui.cli.doctor.terminal import link_finding as terminal_link
+from geometry_msgs.msg import Twist
+from rclpy.context import Context
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from std_msgs.msg import String
+
+_domains = itertools.count(3800)
+
+
+@pytest.fixture
+def node(monkeypatch):
+    monkeypatch.setattr("bot_console.tui.cli.doctor.nodes._spin", lambda *a, **k: None)
+    context = Context()
+    context.init([], domain_id=next(_domains))
+    made = Node("base", context=context)
+    yield made
+    made.destroy_node()
+    context.try_shutdown()
+
+
+@pytest.mark.parametrize(
+    ("finding", "level"),
+    [
+        (size_finding(120, 40), Level.OK),
+        (size_finding(50, 20), Level.FAIL),
+        (letters_finding("UTF-8"), Level.OK),
+        (letters_finding("ANSI_X3.4-1968"), Level.WARN),
+        (colours_finding({"TERM": "xterm-256color"}), Level.OK),
+        (colours_finding({"TERM": "vt100"}), Level.WARN),
+        (colours_finding({}), Level.WARN),
+        (terminal_link(0.02, 1e6), Level.OK),
+        (terminal_link(0.5, 1e6), Level.WARN),
+        (terminal_link(0.02, 1e3), Level.WARN),
+        (terminal_link(None, None), Level.NOTE),
+        (python_finding((3, 11)), Level.OK),
+        (python_finding((3, 9)), Level.WARN),
+        (domain_finding(""), Level.OK),
+        (domain_finding("7"), Level.OK),
+        (domain_finding("seven"), Level.FAIL),
+        (domain_finding("200"), Level.WARN),
+        (link_finding("tcp/robot:7447", 0.01), Level.OK),
+        (link_finding("tcp/robot:7447", 0.5), Level.WARN),
+        (link_finding("tcp/robot:7447", None), Level.FAIL),
+    ],
+)
+def test_what_is_wrong_has_a_mend(finding: Finding, level: Level) -> None:
+    assert finding.level is level
+    assert bool(finding.mend) == (level in (Level.WARN, Level.FAIL))
+    assert exit_code([finding]) == (level is Level.FAIL)
+
+
+def test_sockets_left_over_are_counted(socket_folder: str) -> None:
+    assert [each.level for each in sockets_findings()] == [Level.OK]
+    for name in ("99999999.0123abcd", "99999999.0123abcd.lock"):
+        open(os.path.join(socket_folder, "0", name), "w").close()
+    assert any("1 of programs that were killed" in each.text for each in sockets_findings())
+    os.chmod(socket_folder, 0o755)
+    (refused,) = sockets_findings()
+    assert refused.level is Level.FAIL and "chmod 700" in refused.mend
+
+
+def test_a_base_without_a_time_out_is_warned_of_and_one_with_is_not(node) -> None:
+    assert base_finding(node).level is Level.NOTE
+    node.create_subscription(Twist, "/cmd_vel", lambda message: None, 10)
+    found = base_finding(node)
+    assert found.level is Level.WARN and "/base" in found.text and "cmd_vel_timeout" in found.mend
+
+
+def test_the_names_of_time_outs_are_known(node, monkeypatch) -> None:
+    node.create_subscription(Twist, "/cmd_vel", lambda message: None, 10)
+    for name, level in (
+        ("cmd_vel_timeout", Level.OK),
+        ("command_timeout", Level.OK),
+        ("topics.key.timeout", Level.WARN),
+        ("bond_timeout", Level.WARN),
+    ):
+        monkeypatch.setattr("bot_console.tui.cli.doctor.nodes._parameters", lambda node, base, name=name: [name])
+        assert base_finding(node).level is level, name
+
+
+def test_pairs_that_do_not_match_are_told_and_types_are_known(node) -> None:
+    assert [each.level for each in pair_findings(node)] == [Level.OK]
+    weak = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+    node.create_publisher(String, "/words", weak)
+    node.create_subscription(String, "/words", lambda message: None, 10)
+    (found,) = pair_findings(node)
+    assert found.level is Level.WARN and found.text.startswith("/words: /base hears nothing of /base")
+    assert found.mend == "change the QoS of one of them"
+    assert [each.level for each in type_findings(node)] == [Level.OK]
+
+
+def run(*words: str) -> subprocess.CompletedProcess[str]:
+    line = [sys.executable, "-m", "bot_console.tui", "doctor", *words]
+    return subprocess.run(line, capture_output=True, text=True, timeout=100, check=False)
+
+
+def test_as_json_for_scripts() -> None:
+    done = run("--json")
+    found = json.loads(done.stdout)
+    assert done.returncode == 0 and not done.stderr
+    assert {"terminal", "python", "ros", "domain", "sockets", "graph"} == {each["about"] for each in found}
+    assert set(found[0]) == {"level", "about", "text", "mend"}
+
+
+def test_a_robot_that_is_not_reached_fails_with_the_reason() -> None:
+    done = run("--connect", "tcp/127.0.0.1:1")
+    assert done.returncode == 1
+    assert "✗ link       FAIL: tcp/127.0.0.1:1: the host is there, but no router listens on port 1" in done.stdout
+
+
+def test_wrong_usage_is_2() -> None:
+    assert run("--connect", "robot").returncode == 2
+    assert run("--connect", "tcp/a:1", "--ros").returncode == 2

@@ -1,0 +1,112 @@
+"""What the doctor reads off the wire: tokens, attachments of old releases, clocks; and that a capture is a fixture."""
+
+import json
+import time
+
+import pytest
+from bot_console.runtime.rmw.zenoh.attachment import gid_of, pack, unpack
+from bot_console.runtime.rmw.zenoh.keys import data_key
+from bot_console.runtime.rmw.zenoh.network import Way, open_network_session
+from bot_console.runtime.rmw.zenoh.router import Router
+from bot_console.runtime.rmw.zenoh.settings import Serving
+from bot_console.runtime.rmw.zenoh.tokens import TokenNode, entity_token, node_token, parse_token
+from bot_console.tui.cli.doctor.finding import Level
+from bot_console.tui.cli.doctor.wire import captured, watch_wire, wire_findings
+from ports import free_port
+
+STRING, HASH = "std_msgs/msg/String", "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
+OLD = b"\x0fsequence_number" + bytes(40)
+LATE_S = 20.0
+
+
+class Robot:
+    """A session that shows a node with one topic, and publishes on it with whatever attachment."""
+
+    def __init__(self, endpoint: str) -> None:
+        self.session = open_network_session(0, Way((endpoint,)))
+        self._node = TokenNode(self.session.zid, 0, "", "/", "robot")
+        self.session.declare_token(node_token(0, self._node))
+
+    def topic(self, name: str, number: int):
+        token = entity_token(0, self._node, number, "MP", name, STRING, HASH, "::,10:,:,:,,")
+        self.session.declare_token(token)
+        return token, self.session.declare_publisher(data_key(0, name, STRING, HASH))
+
+
+@pytest.fixture
+def place():
+    serving = Serving((f"tcp/127.0.0.1:{free_port()}",))
+    router = Router(serving)
+    yield serving.endpoints[0]
+    router.close()
+
+
+@pytest.fixture
+def robot(place):
+    made = Robot(place)
+    yield made
+    made.session.close()
+
+
+def watched(place, publishing=lambda: None):
+    """What the doctor sees while something is published again and again."""
+    import threading
+
+    session, ended = open_network_session(0, Way((place,))), threading.Event()
+
+    def publish():
+        while not ended.wait(0.02):
+            publishing()
+
+    thread = threading.Thread(target=publish)
+    thread.start()
+    try:
+        return watch_wire(session, 2.0)
+    finally:
+        ended.set()
+        thread.join()
+        session.close()
+
+
+def levels(wire, about):
+    return [(each.level, each.text) for each in wire_findings(wire, 0.0) if each.about == about]
+
+
+def test_a_robot_as_it_should_be_has_nothing_against_it_and_its_capture_fits_byte_by_byte(place, robot):
+    token, publisher = robot.topic("/words", 1)
+    attachment = pack(7, time.time_ns(), gid_of(token))
+    wire = watched(place, lambda: publisher.put(b"\x00\x01\x00\x00", pack(7, time.time_ns(), gid_of(token))))
+    assert {each.level for each in wire_findings(wire, 0.0)} == {Level.OK}
+    read = json.loads(json.dumps(captured(wire, ["a test"])))
+    assert [parse_token(each).kind for each in read["tokens"]] == ["MP", "NN"] or len(read["tokens"]) == 2
+    (sample, *_) = read["samples"]
+    number, _, gid = unpack(bytes.fromhex(sample["attachment"]))
+    assert (number, gid, sample["topic"], len(attachment)) == (7, gid_of(token), "/words", 33)
+
+
+def test_the_attachment_of_an_old_release_is_recognised_and_named(place, robot):
+    _, publisher = robot.topic("/words", 1)
+    wire = watched(place, lambda: publisher.put(b"\x00\x01\x00\x00", OLD))
+    ((level, text),) = levels(wire, "messages")
+    assert level is Level.FAIL and "/words" in text and "too old (before Jazzy 0.2.4" in text
+
+
+def test_a_clock_that_is_wrong_is_told_with_its_sign(place, robot):
+    token, publisher = robot.topic("/words", 1)
+
+    def late():
+        publisher.put(b"\x00\x01\x00\x00", pack(1, time.time_ns() - round(LATE_S * 1e9), gid_of(token)))
+
+    ((level, text),) = levels(watched(place, late), "clock")
+    assert level is Level.WARN and "20.0 s behind this one" in text
+
+
+def test_tokens_that_are_none_are_counted_and_shown(place, robot):
+    robot.session.declare_token("@ros2_lv/0/zid/1/2/XX/%/%/robot")
+    found = levels(watched(place), "graph")
+    assert any(level is Level.WARN and text.startswith("1 tokens are not of the format") for level, text in found)
+
+
+def test_an_empty_domain_says_where_to_look(place):
+    ((level, text),) = levels(watched(place), "graph")
+    assert level is Level.WARN and "no node is seen" in text

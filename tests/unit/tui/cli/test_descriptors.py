@@ -1,0 +1,46 @@
+"""What is written past Python to descriptors 1 and 2 comes as lines; the screen has duplicates."""
+
+import os
+import subprocess
+import sys
+
+PROGRAM = """
+import os, sys
+from bot_console.tui.cli.live.descriptors import captured_descriptors
+
+told = []
+with captured_descriptors(lambda severity, label, text: told.append((label, text))):
+    os.write(2, b"a warning of a library\\nhalf")
+    os.write(2, b" a line\\n\\n")
+    os.system("echo from a child")
+    sys.__stderr__.write("<screen>")
+    sys.__stdout__.write("<out>")
+    print("is a screen:", os.isatty(sys.__stdout__.fileno()), file=sys.__stdout__)
+os.write(2, b"<after>")
+print(told)
+"""
+
+
+def test_lines_are_told_and_only_the_screens_words_go_to_the_screen() -> None:
+    done = subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True, timeout=60, check=True)
+    assert done.stderr == "<screen><after>"
+    out, told = done.stdout.split("\n", 1)
+    assert out == "<out>is a screen: False"
+    lines = [text for _, text in eval(told)]
+    assert sorted(lines) == ["a warning of a library", "from a child", "half a line"]
+    assert {label for label, _ in eval(told)} == {"stderr"}
+
+
+def test_a_child_that_outlives_the_console_does_not_keep_it() -> None:
+    program = PROGRAM.replace('"echo from a child"', '"sleep 30 &"')
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, timeout=25, check=True)
+    assert b"half a line" in done.stdout
+
+
+def test_the_descriptors_are_as_before_afterwards() -> None:
+    from bot_console.tui.cli.live.descriptors import captured_descriptors
+
+    before = [os.fstat(number)[:3] for number in (1, 2)], sys.__stdout__, sys.__stderr__
+    with captured_descriptors(lambda *line: None):
+        assert [os.fstat(number)[:3] for number in (1, 2)] != before[0]
+    assert ([os.fstat(number)[:3] for number in (1, 2)], sys.__stdout__, sys.__stderr__) == before

@@ -1,0 +1,94 @@
+"""Lint finds what parameters leave unsaid, in the line where it is mended, and nothing in what is well said."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from bot_console.tui.cli.lint.run import files_of, lint_files, run
+
+NODE = """\
+from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
+from rclpy.node import Node
+
+class Robot(Node):
+    def __init__(self):
+        super().__init__('robot')
+        self.declare_parameter('speed', 1)
+        self.declare_parameter('name', 'r', ParameterDescriptor(description='What it is called'))
+        self.declare_parameter('range', 2.0, ParameterDescriptor(description='How far it sees'))
+        good = ParameterDescriptor(description='Gain (1/s)', floating_point_range=[FloatingPointRange(to_value=9.0)])
+        self.declare_parameter('gain', 2.0, good)
+        self.add_on_set_parameters_callback(self.changed)
+
+    def changed(self, parameters):
+        return SetParametersResult(successful=True)
+
+
+class Quiet(Node):
+    def __init__(self):
+        super().__init__('quiet')
+        self.declare_parameter('mode', 'a', ParameterDescriptor(description='Which way'))
+"""
+FILE = """\
+robot:
+  ros__parameters:
+    speed: 2
+    spead: 2
+robt:
+  ros__parameters:
+    speed: 2
+/**:
+  ros__parameters:
+    use_sim_time: true
+    gain: 1.0
+"""
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    (tmp_path / "robot.py").write_text(NODE)
+    (tmp_path / "params.yaml").write_text(FILE)
+    (tmp_path / "other.yaml").write_text("image: map.pgm\n")
+    return tmp_path
+
+
+def test_each_fault_is_found_in_its_line(package: Path) -> None:
+    found = {
+        (Path(each.place).name, each.line, each.fault, each.subject) for each in lint_files(files_of(str(package)))
+    }
+    assert found == {
+        ("robot.py", 7, "no description", "speed"),
+        ("robot.py", 7, "no range", "speed"),
+        ("robot.py", 7, "float as int", "speed"),
+        ("robot.py", 9, "no range", "range"),
+        ("robot.py", 9, "no unit", "range"),
+        ("robot.py", 14, "accepts anything", "Robot.changed"),
+        ("robot.py", 18, "no validation", "Quiet"),
+        ("params.yaml", 4, "dead parameter", "/robot spead"),
+        ("params.yaml", 7, "dead key", "/robt"),
+    }
+
+
+def test_a_callback_that_can_refuse_is_no_fault(tmp_path: Path) -> None:
+    text = NODE.replace("successful=True", "successful=parameters[0].value > 0")
+    (tmp_path / "robot.py").write_text(text)
+    assert "accepts anything" not in {each.fault for each in lint_files([tmp_path / "robot.py"])}
+
+
+def test_words_json_and_exit_codes(package: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run([str(package / "robot.py")]) == 1
+    said = capsys.readouterr()
+    assert "robot.py:7: speed: float as int; write the default with a point" in said.out and "7 found" in said.err
+    assert run([str(package), "--json"]) == 1
+    rows = json.loads(capsys.readouterr().out)
+    assert {"place", "line", "fault", "subject", "mend"} == set(rows[0]) and len(rows) == 9
+    assert run([str(package / "other.yaml")]) == 0
+    assert run(["no_such_package_anywhere"]) == 2
+
+
+def test_our_own_robot_has_no_fault() -> None:
+    own = [each for each in files_of("bot_console_robot") if each.name.endswith("_node.py")]
+    assert len(own) > 5
+    assert [each.text() for each in lint_files(own) if "/demos/" not in each.place] == []

@@ -1,0 +1,125 @@
+"""Lines that are typed after the colon."""
+
+from __future__ import annotations
+
+import threading
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+from bot_console.tui.cli.live.ros2_command_line import Ros2CommandLine
+from bot_console.tui.cli.started_lines import launched_by
+from bot_console.tui.cli.system.workspaces import PROGRAM_LAUNCH
+from bot_console.tui.console.no_console import done
+from bot_console.tui.console.protocol import Answer
+from bot_console.tui.console.read_only import ReadOnlyLauncher
+
+PATIENCE = 30.0
+
+
+@pytest.mark.parametrize("line", ["ros2 interface show std_msgs/msg/String", "interface show std_msgs/msg/String"])
+def test_a_line_gives_what_it_printed(line):
+    assert "string data" in Ros2CommandLine().run(line).result(PATIENCE)
+
+
+def test_a_refusal_is_printed_too():
+    assert "invalid choice" in Ros2CommandLine().run("ros2 nosuch").result(PATIENCE)
+
+
+def test_colcon_has_nothing_to_do():
+    assert "Nothing has to be built" in Ros2CommandLine().run("colcon build").result(PATIENCE)
+
+
+def test_a_quotation_mark_without_its_twin_is_told():
+    with pytest.raises(ValueError, match="quotation"):
+        Ros2CommandLine().run("ros2 topic pub 'x").result(PATIENCE)
+
+
+class Launches(ReadOnlyLauncher):
+    """Keeps what it is to launch."""
+
+    def __init__(self, answer: Answer) -> None:
+        self.launched: list[tuple[str, dict[str, str]]] = []
+        self._answer = answer
+
+    def launch(self, path: str, arguments: Any) -> Any:
+        self.launched.append((path, dict(arguments)))
+        return done(self._answer)
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "node.py").write_text("print('here')\n")
+    (tmp_path / "x.launch.py").write_text("")
+    return tmp_path
+
+
+def test_what_is_run_or_launched_goes_to_the_launcher(folder: Path) -> None:
+    launches = Launches(Answer(True, ""))
+    lines = Ros2CommandLine(launches)
+    assert "stands in the Launch pane" in lines.run("ros2 run node.py --ros-args -p 'a:=b c'").result(PATIENCE)
+    assert "x.launch.py runs" in lines.run("launch x.launch.py a:=1").result(PATIENCE)
+    assert launches.launched == [
+        (str(PROGRAM_LAUNCH), {"program": str(folder / "node.py"), "words": "--ros-args -p 'a:=b c'"}),
+        (str(folder / "x.launch.py"), {"a": "1"}),
+    ]
+    assert Ros2CommandLine(Launches(Answer(False, "why"))).run("run node.py").result(PATIENCE) == "why"
+
+
+@pytest.mark.parametrize(
+    ("line", "problem"),
+    [
+        ("run nowhere.py", "does not exist"),
+        ("run bot_console_robot", "name an executable"),
+        ("run no_such_package node", "no_such_package"),
+        ("launch no_such_package x.launch.py", "no_such_package"),
+        ("launch bot_console_robot no.launch.py", "was not found"),
+        ("launch x.launch.py wrong", "malformed launch argument"),
+    ],
+)
+def test_what_cannot_be_started_is_told(folder: Path, line: str, problem: str) -> None:
+    launches = Launches(Answer(True, ""))
+    assert problem in Ros2CommandLine(launches).run(line).result(PATIENCE)
+    assert launches.launched == []
+
+
+@pytest.mark.parametrize("line", ["launch x.launch.py --show-args", "run", "run --help", "topic list", "launch"])
+def test_lines_that_start_nothing_are_run_as_ever(folder: Path, line: str) -> None:
+    assert launched_by(line.split()) is None
+
+
+def until(condition: Any) -> None:
+    deadline = time.monotonic() + PATIENCE
+    while not condition():
+        assert time.monotonic() < deadline
+        threading.Event().wait(0.01)
+
+
+def test_a_line_that_goes_on_is_read_while_it_runs_and_ends_when_it_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    import rclpy
+    from std_msgs.msg import String
+
+    monkeypatch.setenv("ROS_DOMAIN_ID", "87")
+    context = rclpy.Context()
+    rclpy.init(context=context)
+    node = rclpy.create_node("talker", context=context)
+    publisher = node.create_publisher(String, "words", 10)
+    stream = Ros2CommandLine().stream("ros2 topic echo /words")
+    assert stream is not None and not stream.ended
+    until(lambda: publisher.get_subscription_count() == 1)
+    publisher.publish(String(data="hello"))
+    until(lambda: "data: hello" in stream.lines())
+    assert stream.lines() is stream.lines()
+    stream.stop()
+    until(lambda: stream.ended)
+    node.destroy_node()
+    rclpy.shutdown(context=context)
+
+
+@pytest.mark.parametrize(
+    "line", ["ros2 topic list", "topic echo", "topic echo --once /a", "topic hz --help", "topic echo 'a"]
+)
+def test_other_lines_are_no_streams(line: str) -> None:
+    assert Ros2CommandLine().stream(line) is None

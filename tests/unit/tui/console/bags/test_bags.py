@@ -1,0 +1,217 @@
+"""Bags: what is written is read by others as well, what a kill leaves is mended, what is played comes in its order."""
+
+from __future__ import annotations
+
+import shutil
+import sqlite3
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+import rclpy
+from bot_console.tui.console.bags.definitions import definition, type_name
+from bot_console.tui.console.bags.player import Player, Playing
+from bot_console.tui.console.bags.qos import noted, offered
+from bot_console.tui.console.bags.reader import Bag, NoBag
+from bot_console.tui.console.bags.recorder import Recorder, Ring
+from bot_console.tui.console.bags.writer import BagWriter
+from bot_console.tui.files.save_file import NotSaved
+from geometry_msgs.msg import Twist
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.serialization import deserialize_message, serialize_message
+from rosidl_runtime_py.utilities import get_message
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import Float64MultiArray, String
+
+SECOND = 10**9
+
+
+@pytest.fixture
+def node() -> Iterator[rclpy.node.Node]:
+    rclpy.init()
+    made = rclpy.create_node("bags")
+    yield made
+    made.destroy_node()
+    rclpy.try_shutdown()
+
+
+def words(folder: Path, *texts: str) -> Path:
+    """A bag with a text each second."""
+    writer = BagWriter(folder)
+    writer.topic("/words", String, [])
+    for second, text in enumerate(texts, 1):
+        writer.write("/words", serialize_message(String(data=text)), second * SECOND, 0)
+    writer.close()
+    return folder
+
+
+def texts(bag: Bag) -> list[str]:
+    return [deserialize_message(each.data, String).data for each in bag.messages()]
+
+
+def test_others_read_it(tmp_path: Path) -> None:
+    highlevel = pytest.importorskip("rosbags.highlevel")
+    mcap = pytest.importorskip("mcap.reader")
+    writer = BagWriter(tmp_path / "bag")
+    scan = LaserScan(ranges=[1.0, 2.5], angle_min=-0.5)
+    scan.header.frame_id = "laser"
+    qos = noted([QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)])
+    for name, kind, message in (
+        ("/scan", LaserScan, scan),
+        ("/twist", Twist, Twist()),
+        ("/array", Float64MultiArray, Float64MultiArray(data=[1.0, 2.0])),
+    ):
+        writer.topic(name, kind, qos)
+        writer.write(name, serialize_message(message), SECOND, SECOND - 1)
+    writer.close()
+    with highlevel.AnyReader([tmp_path / "bag"]) as reader:
+        read = {each.topic: reader.deserialize(raw, each.msgtype) for each, _, raw in reader.messages()}
+        assert reader.message_count == 3 and reader.duration == 1
+        assert reader.connections[0].ext.offered_qos_profiles[0].depth == 5
+    assert list(read["/scan"].ranges) == [1.0, 2.5] and read["/scan"].header.frame_id == "laser"
+    assert list(read["/array"].data) == [1.0, 2.0]
+    with (tmp_path / "bag" / "bag_0.mcap").open("rb") as file:
+        found = [(schema.name, message.log_time) for schema, _, message in mcap.make_reader(file).iter_messages()]
+    assert ("sensor_msgs/msg/LaserScan", SECOND) in found and len(found) == 3
+
+
+def test_a_definition_has_all_that_it_needs() -> None:
+    text = definition(Twist)
+    assert text.startswith("geometry_msgs/Vector3 linear\n") and "MSG: geometry_msgs/Vector3\nfloat64 x\n" in text
+    assert type_name(Twist) == "geometry_msgs/msg/Twist"
+    assert "std_msgs/MultiArrayDimension[] dim" in definition(Float64MultiArray)
+    assert "float64[36] covariance" in definition(get_message("geometry_msgs/msg/PoseWithCovariance"))
+
+
+def test_what_is_written_comes_back(tmp_path: Path) -> None:
+    bag = Bag(words(tmp_path / "bag", "a", "b", "c"))
+    assert texts(bag) == ["a", "b", "c"] and not bag.mended
+    about = bag.metadata
+    assert (about.begin, about.end, about.count) == (SECOND, 3 * SECOND, 3)
+    assert about.topics["/words"].type == "std_msgs/msg/String"
+    assert [each.received for each in bag.messages(begin=2 * SECOND)] == [2 * SECOND, 3 * SECOND]
+    assert list(bag.messages(["/other"])) == []
+
+
+@pytest.mark.parametrize("part", [0.3, 0.5, 0.7, 0.9, 0.999])
+def test_a_file_that_was_cut_is_mended_and_keeps_what_came_whole(tmp_path: Path, part: float) -> None:
+    folder = tmp_path / "bag"
+    writer = BagWriter(folder)
+    writer.topic("/words", String, [])
+    for second in range(1, 101):
+        writer.write("/words", serialize_message(String(data=str(second))), second * SECOND, 0)
+        writer.flush()
+    writer.close()
+    file = folder / "bag_0.mcap"
+    whole = file.read_bytes()
+    file.write_bytes(whole[: int(len(whole) * part)])
+    bag = Bag(folder)
+    found = [int(each) for each in texts(bag)]
+    assert bag.mended == ["bag_0.mcap"] and found == list(range(1, len(found) + 1)) and len(found) > 15
+    assert not Bag(folder).mended and Bag(folder).metadata.count == len(found)
+
+
+def test_bags_of_sqlite_are_read(tmp_path: Path) -> None:
+    folder = tmp_path / "bag"
+    folder.mkdir()
+    base = sqlite3.connect(folder / "bag_0.db3")
+    base.execute("create table topics (id integer primary key, name, type, serialization_format, offered_qos_profiles)")
+    base.execute("create table messages (id integer primary key, topic_id, timestamp, data)")
+    base.execute("insert into topics values (1, '/words', 'std_msgs/msg/String', 'cdr', '')")
+    for second, text in ((2, "b"), (1, "a")):
+        data = serialize_message(String(data=text))
+        base.execute("insert into messages (topic_id, timestamp, data) values (1, ?, ?)", (second * SECOND, data))
+    base.commit()
+    base.close()
+    assert texts(Bag(folder)) == ["a", "b"] and Bag(folder).metadata.count == 2
+
+
+def test_what_is_no_bag_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "bad.mcap").write_bytes(b"nothing of the kind")
+    (tmp_path / "bad.db3").write_bytes(b"nothing of the kind")
+    for name, says in (
+        ("none", "no such bag"),
+        ("empty", "no .mcap"),
+        ("bad.mcap", "no MCAP"),
+        ("bad.db3", "database"),
+    ):
+        with pytest.raises(NoBag, match=says):
+            Bag(tmp_path / name)
+
+
+def test_metadata_lead_nowhere_else(tmp_path: Path) -> None:
+    folder = words(tmp_path / "bag", "mine")
+    words(tmp_path / "other", "theirs")
+    about = folder / "metadata.yaml"
+    about.write_text(about.read_text().replace("bag_0.mcap", "../other/other_0.mcap"))
+    assert texts(Bag(folder)) == ["mine"]
+
+
+def test_a_bag_is_never_written_over(tmp_path: Path) -> None:
+    words(tmp_path / "bag", "a")
+    with pytest.raises(NotSaved, match="is there already"):
+        BagWriter(tmp_path / "bag")
+
+
+def test_recorded_and_played_again(tmp_path: Path, node: rclpy.node.Node) -> None:
+    latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    publisher = node.create_publisher(String, "/words", latched)
+    other = node.create_publisher(String, "/hidden", 10)
+    publisher.publish(String(data="before"))
+    writer = BagWriter(tmp_path / "bag")
+    recorder = Recorder(node, writer, lambda name: name == "/words", get_message)
+    for text in ("one", "two"):
+        publisher.publish(String(data=text))
+        other.publish(String(data="no"))
+        rclpy.spin_once(node, timeout_sec=0.1)
+        rclpy.spin_once(node, timeout_sec=0.1)
+    recorder.close()
+    writer.close()
+    bag = Bag(tmp_path / "bag")
+    assert texts(bag)[-2:] == ["one", "two"] and list(recorder.subscribed) == ["/words"]
+    assert bag.metadata.topics["/words"].qos[0]["durability"] == "transient_local"
+    heard: list[str] = []
+    node.create_subscription(String, "/again", lambda message: heard.append(message.data), 10)
+    player = Player(node, bag, Playing(rate=1e6, remaps={"/words": "/again"}), get_message)
+    player.run(threading.Event())
+    for _ in range(10):
+        rclpy.spin_once(node, timeout_sec=0.05)
+    assert heard == texts(bag) and player.published == len(heard)
+
+
+def test_a_topic_whose_type_is_not_here_is_told(tmp_path: Path, node: rclpy.node.Node) -> None:
+    folder = words(tmp_path / "bag", "a")
+    bag = Bag(folder)
+    bag.metadata.topics["/words"].type = "nobody_msgs/msg/Such"
+    player = Player(node, bag, Playing(), get_message)
+    player.run(threading.Event())
+    assert "nobody_msgs/msg/Such" in player.unknown["/words"] and player.published == 0
+
+
+def test_a_ring_keeps_the_last_seconds_and_no_more_than_its_bytes(tmp_path: Path) -> None:
+    ring = Ring(seconds=10, most=1000)
+    ring.topic("/words", String, [], "")
+    data = serialize_message(String(data="x"))
+    for second in range(1, 31):
+        ring.write("/words", data, second * SECOND, 0)
+    writer = BagWriter(tmp_path / "bag")
+    assert ring.pour(writer) == 11
+    writer.close()
+    assert Bag(tmp_path / "bag").metadata.begin == 20 * SECOND
+    for second in range(31, 60):
+        ring.write("/words", b"\0" * 400, second * SECOND // 100 + 30 * SECOND, 0)
+    shutil.rmtree(tmp_path / "bag")
+    writer = BagWriter(tmp_path / "bag")
+    assert ring.pour(writer) == 2
+    writer.close()
+
+
+def test_offers_are_noted_and_made_again() -> None:
+    weak = QoSProfile(depth=7, reliability=ReliabilityPolicy.BEST_EFFORT)
+    again = offered(noted([weak]))
+    assert again.reliability == ReliabilityPolicy.BEST_EFFORT and again.depth == 7
+    both = offered(noted([weak, QoSProfile(depth=2, durability=DurabilityPolicy.TRANSIENT_LOCAL)]))
+    assert both.reliability == ReliabilityPolicy.RELIABLE and both.durability == DurabilityPolicy.TRANSIENT_LOCAL
+    assert offered([{"depth": "many", "history": 3}]).depth == 10

@@ -1,0 +1,86 @@
+"""A graph compared with a file, and written as one."""
+
+from __future__ import annotations
+
+import pytest
+from bot_console.tui.console.graph.expected import differences, read, written
+from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+
+ODOM = ("nav_msgs/msg/Odometry",)
+GRAPH = GraphInfo(
+    (
+        NodeInfo("/sim", (Endpoint("/odom", ODOM),), services=(Endpoint("/reset", ("std_srvs/srv/Trigger",)),)),
+        NodeInfo("/nav", (), (Endpoint("/odom", ODOM),)),
+        NodeInfo("/_bot_console", (), (Endpoint("/odom", ODOM),)),
+    )
+)
+FILE = """
+nodes: [/sim, nav]
+topics:
+  /odom: {type: nav_msgs/msg/Odometry, publishers: [/sim], subscribers: [/nav], rate: 50, tolerance: 0.1}
+services: {/reset: std_srvs/srv/Trigger}
+"""
+
+
+def test_a_graph_that_is_as_expected_has_no_differences() -> None:
+    assert differences(read(FILE), GRAPH) == []
+    assert differences(read(FILE), GRAPH, {"/odom": 54.0}) == []
+
+
+def test_rates_have_a_tolerance() -> None:
+    expected = read(FILE)
+    assert expected.rated == ["/odom"]
+    assert differences(expected, GRAPH, {"/odom": 44.0}) == ["topic /odom has 44 Hz instead of 50 Hz (tolerance 10%)"]
+    assert "has nothing instead of 50 Hz" in differences(expected, GRAPH, {})[0]
+
+
+def test_everything_that_is_missing_or_other_is_a_line() -> None:
+    expected = read(
+        """
+nodes: [/sim, /lost]
+topics:
+  /odom: {type: std_msgs/msg/String, publishers: [/other], subscribers: []}
+  /scan:
+services: {/reset: std_srvs/srv/SetBool, /gone: std_srvs/srv/Trigger}
+actions: {/go: a/action/B}
+"""
+    )
+    assert differences(expected, GRAPH) == [
+        "node /lost is missing",
+        "topic /odom is of type nav_msgs/msg/Odometry, not std_msgs/msg/String",
+        "/other publishes /odom no more, or not yet",
+        "/sim publishes /odom, which was not expected",
+        "/nav subscribes to /odom, which was not expected",
+        "topic /scan is missing",
+        "service /gone is missing",
+        "service /reset is of type std_srvs/srv/Trigger, not std_srvs/srv/SetBool",
+        "action /go is missing",
+    ]
+
+
+def test_with_exact_nothing_else_may_be_there() -> None:
+    found = differences(read("{nodes: [/sim], exact: true}"), GRAPH)
+    assert found == ["node /nav was not expected", "topic /odom was not expected"]
+
+
+def test_what_is_written_is_as_expected_when_it_is_read() -> None:
+    text = written(GRAPH, {"/odom": 49.7})
+    again = read(text)
+    assert again.topics["/odom"].rate == 50.0 and "/_bot_console" not in text
+    assert differences(again, GRAPH, {"/odom": 49.7}) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("nodes: /sim", "nodes should be a list of names"),
+        ("topic: {}", "'topic' in the file is not known; known are nodes, topics"),
+        ("topics: [/odom]", "topics should be a mapping"),
+        ("topics: {/odom: {rte: 5}}", "'rte' in /odom is not known"),
+        ("topics: {/odom: {rate: fast}}", "'fast' at /odom should be a number"),
+        ("nodes: [", "this is no YAML"),
+    ],
+)
+def test_a_file_that_cannot_be_used_is_explained(text: str, said: str) -> None:
+    with pytest.raises(ValueError, match=said.replace("[", r"\[").replace("(", r"\(")):
+        read(text)

@@ -1,0 +1,79 @@
+"""Why a launch file cannot be run, where launch tells what it was at and where it does not."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import pytest
+from bot_console.tui.console.launch import fault
+from bot_console.tui.console.launch.fault import fault_text
+from launch.invalid_launch_file_error import InvalidLaunchFileError
+from launch.launch_description_sources import AnyLaunchDescriptionSource
+from launch.launch_place import ATTRIBUTE, LaunchPlace
+
+from launch import LaunchContext
+
+ASKED = "/robot/asked.launch.py"
+LIBRARY = ast.__file__
+
+
+def told(error: Exception, file: str, line: int | None, entity: object = None) -> Exception:
+    setattr(error, ATTRIBUTE, LaunchPlace(file, line, entity))
+    return error
+
+
+def as_upstream(error: BaseException) -> BaseException:
+    """An exception as a launch raises it that tells nothing on it."""
+    if error.__cause__ is not None:
+        as_upstream(error.__cause__)
+    error.__dict__.pop(ATTRIBUTE, None)
+    return error
+
+
+def read_error(path: Path, text: str) -> BaseException:
+    path.write_text(text)
+    with pytest.raises(InvalidLaunchFileError) as caught:
+        AnyLaunchDescriptionSource(str(path)).get_launch_description(LaunchContext())
+    return caught.value
+
+
+def test_what_launch_has_told():
+    assert fault_text(told(ValueError("no"), "/a.launch.xml", 7), ASKED) == "/a.launch.xml, line 7: no"
+    assert fault_text(told(ValueError("no"), "/a.launch.xml", None), ASKED) == "/a.launch.xml: no"
+    assert fault_text(ValueError("no"), ASKED) == f"{ASKED}: no"
+
+
+def test_a_library_that_makes_actions_is_told_as_the_launch_file_that_uses_it():
+    entity = object()
+    error = told(ValueError("no"), LIBRARY, 7, entity)
+    assert fault_text(error, ASKED, lambda asked: "/uses.launch.py" if asked is entity else "") == "/uses.launch.py: no"
+    assert fault_text(error, ASKED) == f"{ASKED}: no"
+
+
+def test_an_installed_launch_file_that_cannot_be_read_is_told_itself():
+    assert fault_text(told(ValueError("no"), LIBRARY, 7), ASKED) == f"{LIBRARY}, line 7: no"
+
+
+def test_a_launch_that_tells_nothing(tmp_path):
+    path = tmp_path / "a.launch.py"
+    error = as_upstream(read_error(path, "\n\n1 / 0\n"))
+    assert fault_text(error, ASKED) == f"{path}, line 3: ZeroDivisionError: division by zero"
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "said"),
+    [("a.launch.xml", "<launch>\n<", "line 2: "), ("a.launch.yaml", "launch:\n- {a", "line 2: ")],
+)
+def test_a_parsers_line_is_of_the_file_that_was_asked_for_only_while_that_is_read(tmp_path, name, text, said):
+    error = as_upstream(read_error(tmp_path / name, text))
+    assert fault_text(error, ASKED, reading=True).startswith(f"{ASKED}, {said}")
+    assert fault_text(error, ASKED).startswith(f"{ASKED}: ")
+
+
+def test_nothing_private_and_no_frame_is_read():
+    tree = ast.parse(Path(fault.__file__).read_text())
+    names = {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
+    names |= {node.value for node in ast.walk(tree) if isinstance(node, ast.Constant) and isinstance(node.value, str)}
+    assert not {"f_locals", "tb_frame", "tb_next"} & names
+    assert not [each for each in names if each.startswith("_") and not each.startswith("__")]

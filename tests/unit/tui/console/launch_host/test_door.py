@@ -1,0 +1,40 @@
+"""The socket by which further consoles come in."""
+
+from __future__ import annotations
+
+import queue
+import socket
+from pathlib import Path
+
+from bot_console.tui.console.launch_host.door import Door, doors, knock
+
+
+def test_who_knocks_is_let_in_until_it_is_closed(tmp_path: Path) -> None:
+    entered: queue.Queue[socket.socket] = queue.Queue()
+    door = Door(str(tmp_path), entered.put)
+    (tmp_path / "4711.0a1b2c3d").write_text("another file of the folder")
+    assert doors(str(tmp_path)) == [door.path]
+    outside = knock(door.path)
+    assert outside is not None
+    inside = entered.get(timeout=30)
+    outside.sendall(b"hello")
+    assert inside.recv(5) == b"hello"
+    door.close()
+    assert doors(str(tmp_path)) == [] and knock(door.path) is None
+    for each in (outside, inside):
+        each.close()
+
+
+def test_the_door_of_a_dead_host_is_removed_and_a_new_one_takes_its_place(tmp_path: Path) -> None:
+    dead = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+    dead.bind(str(tmp_path / "99.host"))
+    dead.close()
+    assert knock(str(tmp_path / "99.host")) is None
+    assert doors(str(tmp_path)) == []
+    first = Door(str(tmp_path), lambda connection: None)
+    second = Door(str(tmp_path), lambda connection: None)  # of a process that has got the same id
+    connection = knock(second.path)
+    assert connection is not None
+    connection.close()
+    second.close()
+    first.close()

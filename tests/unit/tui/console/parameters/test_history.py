@@ -1,0 +1,149 @@
+"""The history: kept between runs, bounded, and whole whatever ends the program."""
+
+from __future__ import annotations
+
+import sqlite3
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from bot_console.tui.console.model import Change, ChangeSource, Value
+from bot_console.tui.console.parameters.history import TRIMMED_EVERY, History
+from bot_console.tui.console.parameters.journal import Journal
+from bot_console.tui.console.parameters.patch import same
+
+SECOND = 10**9
+
+
+def change(at: int, new: Value = 1.0, source: ChangeSource = ChangeSource.EDIT, **more: object) -> Change:
+    return Change(at, at * SECOND, "/robot", "speed", 0.5, new, source, **more)  # type: ignore[arg-type]
+
+
+def kept(file: Path, run: int = 99) -> list[Change]:
+    history = History(file, run)
+    found = list(history.earlier(100))
+    history.close()
+    return found
+
+
+def test_the_changes_of_a_run_are_there_in_the_next_one_numbered_below_zero(tmp_path: Path) -> None:
+    file = tmp_path / "state" / "history.sqlite"
+    first = Journal(history=History(file, 1))
+    first.record(SECOND, "/robot", "speed", (0.5, 1.0), ChangeSource.PROFILE, by="indoor")
+    first.record(2 * SECOND, "/robot", "speed", (1.0, 9.0), ChangeSource.EDIT, "too fast")
+    assert [each.seq for each in first.after(-10)] == [0, 1], "its own are no earlier ones"
+    first.close()
+    second = Journal(history=History(file, 2))
+    second.record(3 * SECOND, "/robot", "speed", (1.0, 2.0), ChangeSource.EDIT)
+    assert [each.seq for each in second.after(-10)] == [-2, -1, 0]
+    profile, refusal, _ = second.after(-10)
+    assert (profile.source, profile.by, profile.accepted) == (ChangeSource.PROFILE, "indoor", True)
+    assert (refusal.new, refusal.accepted, refusal.reason) == (9.0, False, "too fast")
+    assert [each.seq for each in second.after(-1)] == [-1, 0]
+    assert [each.seq for each in second.after(0)] == [0]
+    assert (second.state.first, second.state.end, second.state.problem) == (0, 1, "")
+
+
+VALUES: list[Value] = [
+    *(None, True, 0, -(2**63), 1.0, float("nan"), float("-inf"), "größe\n'\"", ()),
+    *((1, 2), (1.0, 2.5), ("a", ""), (True, False), (b"\x00", b"\xff")),
+]
+
+
+@pytest.mark.parametrize("value", VALUES, ids=repr)
+def test_every_value_comes_back_as_it_was(tmp_path: Path, value: Value) -> None:
+    history = History(tmp_path / "h", 1)
+    history.add(change(1, value))
+    history.close()
+    (found,) = kept(tmp_path / "h")
+    assert same(found.new, value)
+
+
+def test_it_is_bounded(tmp_path: Path) -> None:
+    history = History(tmp_path / "h", 1, rows=50)
+    for number in range(TRIMMED_EVERY + 10):
+        history.add(change(number, number))
+    history.close()
+    found = kept(tmp_path / "h")
+    assert len(found) <= 60 and found[-1].new == TRIMMED_EVERY + 9
+
+
+def test_a_change_that_two_consoles_saw_stands_once_as_that_of_who_made_it(tmp_path: Path) -> None:
+    ours, theirs = History(tmp_path / "h", 1), History(tmp_path / "h", 2)
+    ours.add(change(10))
+    theirs.add(change(10, source=ChangeSource.OTHER))
+    theirs.add(change(20, source=ChangeSource.OTHER))
+    found = kept(tmp_path / "h")
+    assert [(each.stamp // SECOND, each.source.value) for each in found] == [(10, "edit"), (20, "elsewhere")]
+    for each in (ours, theirs):
+        each.close()
+
+
+def test_a_file_that_is_no_database_is_put_aside_and_said(tmp_path: Path) -> None:
+    file = tmp_path / "history.sqlite"
+    file.write_bytes(b"not a database at all, and longer than a header of SQLite is. " * 40)
+    history = History(file, 7)
+    assert "begins anew" in history.problem
+    (aside,) = tmp_path.glob("*.broken-7")
+    assert aside.read_bytes().startswith(b"not a database")
+    history.add(change(1))
+    history.close()
+    assert len(kept(file)) == 1
+
+
+def test_a_folder_that_cannot_be_made_costs_nothing_but_the_history(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    journal = Journal(history=History(tmp_path / "file" / "history.sqlite", 1))
+    journal.record(1, "/n", "p", (1, 2), ChangeSource.EDIT)
+    assert "not kept" in journal.state.problem and len(journal.after(0)) == 1
+    journal.close()
+
+
+WRITER = """
+import sys
+from pathlib import Path
+from bot_console.tui.console.model import ChangeSource
+from bot_console.tui.console.parameters.history import History
+from bot_console.tui.console.parameters.journal import Journal
+from bot_console.tui.files.save_file import save_file
+
+folder, run = Path(sys.argv[1]), int(sys.argv[2])
+journal = Journal(history=History(folder / "history.sqlite", run))
+number = 0
+while True:
+    journal.record(number, "/robot", f"p{run}", (number, number + 1), ChangeSource.EDIT)
+    save_file(folder / "saved.yaml", f"# {run}\\n" + f"value: {number}\\n" * 200)
+    print(number, flush=True)
+    number += 1
+"""
+
+
+def test_nothing_that_was_confirmed_is_lost_when_the_program_is_killed(tmp_path: Path) -> None:
+    """1,000 changes and saves in ten programs, each killed in the midst of what it does next."""
+    confirmed: dict[str, int] = {}
+    for run in range(1, 11):
+        command = [sys.executable, "-c", WRITER, str(tmp_path), str(run)]
+        with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as program:
+            assert program.stdout is not None
+            for line in program.stdout:
+                confirmed[f"p{run}"] = int(line)
+                if int(line) >= 99:
+                    break
+            program.kill()
+            # What it could still say before it was killed is confirmed as well.
+            for line in program.stdout:
+                if line.endswith("\n"):
+                    confirmed[f"p{run}"] = int(line)
+        lines = (tmp_path / "saved.yaml").read_text().splitlines()
+        assert len(lines) == 201 and len(set(lines[1:])) == 1, "a broken file"
+    with sqlite3.connect(tmp_path / "history.sqlite") as link:
+        assert link.execute("PRAGMA integrity_check").fetchone() == ("ok",)
+    history = History(tmp_path / "history.sqlite", 99)
+    there: dict[str, list[int]] = {}
+    for each in history.earlier(100_000):
+        there.setdefault(each.name, []).append(int(each.new))  # type: ignore[arg-type]
+    history.close()
+    assert sum(confirmed.values()) >= 990
+    for name, last in confirmed.items():
+        assert there[name][: last + 1] == list(range(1, last + 2))

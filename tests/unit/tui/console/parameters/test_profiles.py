@@ -1,0 +1,192 @@
+"""Profiles: what a file means for the running nodes, where files are found, and that none loses anything."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import pytest
+from bot_console.runtime.rmw.parameter_precedence import ParameterTable
+from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree, Range, Value
+from bot_console.tui.console.parameters.file import save
+from bot_console.tui.console.parameters.patch import new_text, same
+from bot_console.tui.console.parameters.profiles import differences, find, load, unmatched
+from bot_console.tui.console.parameters.shelf import Shelf
+from bot_console.tui.console.parameters.text import sections, value_at
+
+PUBLIC = sorted((Path(__file__).parent / "public").glob("*.yaml"))
+KINDS = {bool: Kind.BOOL, int: Kind.INTEGER, float: Kind.DOUBLE, str: Kind.STRING}
+
+
+def kind_of(value: Value) -> Kind:
+    if isinstance(value, tuple):
+        return Kind[f"{KINDS[type(value[0])].name}_ARRAY"] if value else Kind.STRING_ARRAY  # type: ignore[index]
+    return KINDS[type(value)]
+
+
+def tree(node: str, values: Mapping[str, Value], **more: object) -> ParameterTree:
+    found = (ParameterInfo(node, name, kind_of(value), value, default=value, **more) for name, value in values.items())  # type: ignore[arg-type]
+    return ParameterTree(node, tuple(found))
+
+
+def declaring(path: Path) -> dict[str, ParameterTree]:
+    """Nodes that have what a file has; a wildcard stands for one node of its own."""
+    values: dict[str, dict[str, Value]] = {}
+    for section in sections(path.read_text()):
+        node = "/some_node" if "*" in section.key else section.key
+        values.setdefault(node, {}).update({name: value_at(name, at) for name, at in section.places.items()})
+    return {node: tree(node, found) for node, found in values.items()}
+
+
+def changed(value: Value) -> Value:
+    if isinstance(value, bool):
+        return not value
+    if isinstance(value, tuple):
+        return (*value[:-1], changed(value[-1]))  # type: ignore[return-value]
+    return f"{value}_2" if isinstance(value, str) else value + 1  # type: ignore[operator]
+
+
+def with_value(trees: dict[str, ParameterTree], node: str, name: str, value: Value) -> dict[str, ParameterTree]:
+    values = {each.name: each.value for each in trees[node].parameters}
+    return {**trees, node: tree(node, {**values, name: value})}
+
+
+@pytest.mark.parametrize("path", PUBLIC, ids=lambda path: path.stem)
+def test_a_file_of_a_public_package_previews_applies_and_saves_with_only_the_changed_line_different(
+    path: Path, tmp_path: Path
+) -> None:
+    trees, profile = declaring(path), load(path)
+    assert not profile.problem and not differences(profile, trees)
+    assert all("*" in key for key in unmatched(profile, {})) is False
+    original = path.read_text()
+    for node, found in trees.items():
+        for each in found.parameters:
+            new = changed(each.value)
+            other = with_value(trees, node, each.name, new)
+            (seen,) = differences(profile, other)
+            assert (seen.node, seen.name, seen.now, seen.refusal, seen.unknown) == (node, each.name, new, "", False)
+            if node == "/some_node":
+                continue  # saved, it gets a section of its own: the wildcard is meant for others, too
+            place = tmp_path / "saved.yaml"
+            place.write_text(original)
+            save(place, {node: other[node]}, (node,))
+            before, after = original.splitlines(), place.read_text().splitlines()
+            assert len(before) == len(after)
+            differing = [one for one, two in zip(before, after, strict=True) if one != two]
+            assert len(differing) == 1, (each.name, differing)
+
+
+@pytest.mark.parametrize("path", PUBLIC, ids=lambda path: path.stem)
+def test_a_node_started_with_such_a_file_gets_what_the_preview_shows(path: Path) -> None:
+    table = ParameterTable()
+    table.add_file(str(path))
+    for node, found in declaring(path).items():
+        given = table.for_node(node)
+        for each in found.parameters:
+            value = given[each.name]
+            assert same(tuple(value) if isinstance(value, list) else value, each.value)
+
+
+EVERYTHING = """\
+# All that a parameter file may hold.  \n\
+/**:
+    ros__parameters:
+        use_sim_time: false   # for all
+/robot:
+  ros__parameters:
+    a_bool: yes
+    an_int: 0x10
+    a_double: 1e3
+    infinite: .inf
+    less: -.inf
+    nothing: .nan
+    anchored: &speed 2.5   # an anchor that nobody uses
+    text: 'it''s'
+    long: "a\\tb"
+    group: {x: 1, y: [1, 2]}
+    dotted.name: 3
+    empty: []
+    list:
+    - 1.5   # the first
+    - 2.5
+    words: [a, "b, c"]
+    flags: [true, false]
+/*/lidar:
+  ros__parameters: {beams: 360}
+"""
+
+
+def test_dump_load_dump_is_byte_equal_for_a_file_with_everything(tmp_path: Path) -> None:
+    path = tmp_path / "all.yaml"
+    path.write_bytes(EVERYTHING.encode())
+    trees = {each: found for each, found in declaring(path).items() if each == "/robot"}
+    save(path, trees)
+    assert path.read_bytes() == EVERYTHING.encode()
+    table = ParameterTable()
+    table.add_file(str(path))
+    given = table.for_node("/robot")
+    for each in trees["/robot"].parameters:
+        value = given[each.name]
+        if each.value != ():  # to which ROS gives no type, and so no value
+            assert same(tuple(value) if isinstance(value, list) else value, each.value)
+    text = new_text({"/robot": {each.name: each.value for each in trees["/robot"].parameters if each.value != ()}})
+    (tmp_path / "dump.yaml").write_text(text)
+    again = declaring(tmp_path / "dump.yaml")["/robot"]
+    assert new_text({"/robot": {each.name: each.value for each in again.parameters}}) == text
+
+
+def test_keys_that_mean_no_node_and_parameters_that_no_node_has_are_told(tmp_path: Path) -> None:
+    (tmp_path / "p.yaml").write_text(
+        "/**:\n  ros__parameters: {speed: 2.0, other: 1}\n/n:\n  ros__parameters: {speed: 9.0, gone: 1}\n"
+        "/x/*:\n  ros__parameters: {a: 1}\n"
+    )
+    profile = load(tmp_path / "p.yaml")
+    trees = {"/n": tree("/n", {"speed": 1.0}, range=Range(0.0, 5.0)), "/m": tree("/m", {"speed": 1.0})}
+    found = {(each.node, each.name): each for each in differences(profile, trees)}
+    assert set(found) == {("/n", "speed"), ("/n", "gone"), ("/m", "speed")}
+    assert "out of range" in found["/n", "speed"].refusal, "the later key counts"
+    assert found["/n", "gone"].unknown and found["/m", "speed"].then == 2.0
+    assert unmatched(profile, trees) == ("/x/*",)
+
+
+def test_a_launch_profile_names_a_launch_file_with_its_arguments(tmp_path: Path) -> None:
+    (tmp_path / "robot.launch.py").write_text("")
+    (tmp_path / "two.yaml").write_text("# Two robots.\nlaunch: robot.launch.py\narguments: {robots: 2, fast: true}\n")
+    (tmp_path / "bad.yaml").write_text("launch: nowhere.launch.py\n")
+    bad, two = find([tmp_path])
+    assert (two.title, two.launch) == ("Two robots.", str(tmp_path / "robot.launch.py"))
+    assert dict(two.arguments) == {"robots": "2", "fast": "true"} and not two.problem
+    assert "nowhere.launch.py" in bad.problem
+
+
+def test_profiles_are_found_opened_saved_and_keep_their_comments(tmp_path: Path) -> None:
+    for folder, speed in (("ours", 1.0), ("pkg/config", 2.0)):
+        (tmp_path / folder).mkdir(parents=True)
+        (tmp_path / folder / "indoor.yaml").write_text(f"/n:\n  ros__parameters: {{speed: {speed}}}\n")
+    (tmp_path / "pkg/config/map.yaml").write_text("image: map.pgm\n")
+    shelf = Shelf([tmp_path / "ours"], tmp_path / "own", [tmp_path / "pkg/config"])
+    assert [each.name for each in shelf.profiles] == ["indoor", "indoor (pkg)"]
+    trees = {"/n": tree("/n", {"speed": 3.0})}
+    assert shelf.save("mine", "For the hall.", trees).ok
+    path = tmp_path / "own" / "mine.yaml"
+    assert path.read_text() == "# For the hall.\n/n:\n  ros__parameters:\n    speed: 3.0\n"
+    path.write_text(path.read_text().replace("3.0", "3.0  # tried out"))
+    assert shelf.save("mine", "", with_value(trees, "/n", "speed", 4.0)).ok
+    assert path.read_text() == "# For the hall.\n/n:\n  ros__parameters:\n    speed: 4.0  # tried out\n"
+    assert not shelf.save("../mine", "", trees).ok
+    assert shelf.open(str(tmp_path / "pkg/config/map.yaml")).ok is False
+    before = shelf.profiles
+    shelf.look_again()
+    assert shelf.profiles is before
+
+
+def test_only_what_differs_is_saved_on_request(tmp_path: Path) -> None:
+    found = ParameterTree(
+        "/n",
+        (
+            ParameterInfo("/n", "same", Kind.INTEGER, 1, default=1),
+            ParameterInfo("/n", "other", Kind.INTEGER, 2, default=1),
+        ),
+    )
+    save(tmp_path / "p.yaml", {"/n": found}, only_changed=True)
+    assert (tmp_path / "p.yaml").read_text() == "/n:\n  ros__parameters:\n    other: 2\n"

@@ -1,0 +1,66 @@
+"""Where a value comes from: declared, given by the launch, the command line, a profile, or unknown."""
+
+from __future__ import annotations
+
+import pytest
+from bot_console.tui.console.model import Kind, ParameterInfo, Value
+from bot_console.tui.console.parameters.origin import START
+from bot_console.tui.console.parameters.provenance import Provenance
+
+PROFILES = {"/profiles/indoor.yaml": "indoor"}
+
+
+def first_sight(value: Value = 2.0) -> ParameterInfo:
+    return ParameterInfo("/n", "speed", Kind.DOUBLE, value, default=value, origin=START)
+
+
+def told(override: str, given: str = "", value: Value = 2.0) -> ParameterInfo:
+    provenance = Provenance(lambda path: PROFILES.get(path, ""))
+    if given:
+        assert provenance.learn("given", {"node": "/n", "parameters": {"speed": given}}) == "/n"
+    declared = ["speed", 1.0, "/ws/src/n.py:12", override]
+    assert provenance.learn("declared", {"node": "/n", "parameters": [declared]}) == "/n"
+    return provenance.applied(first_sight(value))
+
+
+@pytest.mark.parametrize(
+    ("override", "given", "value", "origin"),
+    [
+        ("", "", 1.0, "declared value"),
+        ("", "", 2.0, START),
+        ("-p", "", 2.0, "command line"),
+        ("-p", "launch file a.launch.py:3", 2.0, "launch file a.launch.py:3"),
+        ("/tmp/launch_params_x1", "launch argument speed", 2.0, "launch argument speed"),
+        ("/tmp/launch_params_x1", "", 2.0, "launch file"),
+        ("/profiles/indoor.yaml", "", 2.0, "profile indoor"),
+        ("/home/a/mine.yaml", "launch argument speed", 2.0, "parameter file /home/a/mine.yaml"),
+        ("parameter_overrides of its program", "", 2.0, "parameter_overrides of its program"),
+    ],
+)
+def test_the_override_that_counts_names_the_origin(override: str, given: str, value: Value, origin: str) -> None:
+    found = told(override, given, value)
+    assert found.origin == origin
+    assert (found.default, found.declared_at) == (1.0, "/ws/src/n.py:12")
+    assert found.changed is (value != 1.0), "a mark says what differs from what was declared"
+
+
+def test_what_nobody_told_stays_a_start_value() -> None:
+    assert Provenance().applied(first_sight()) == first_sight()
+    assert Provenance().learn("notice", {"text": "x"}) == ""
+
+
+def test_who_has_set_a_value_since_is_not_forgotten() -> None:
+    provenance = Provenance()
+    provenance.learn("declared", {"node": "/n", "parameters": [["speed", 1.0, "/n.py:1", "-p"]]})
+    known = ParameterInfo("/n", "speed", Kind.DOUBLE, 3.0, default=2.0, origin="set here at 10:00:00")
+    found = provenance.applied(known)
+    assert found.origin == "set here at 10:00:00" and found.default == 1.0
+
+
+def test_a_declared_list_is_a_tuple_and_a_type_is_no_default() -> None:
+    provenance = Provenance()
+    facts = [["speed", None, "/n.py:1", ""], ["list", [1, 2], "/n.py:2", ""]]
+    provenance.learn("declared", {"node": "/n", "parameters": facts})
+    assert provenance.applied(first_sight()).default == 2.0
+    array = ParameterInfo("/n", "list", Kind.INTEGER_ARRAY, (1, 2), default=(1, 2), origin=START)
+    assert provenance.applied(array).origin == "declared value"

@@ -1,0 +1,104 @@
+"""A subscription asks for what is offered, and for less as soon as a publisher offers less."""
+
+import itertools
+
+import pytest
+from bot_console.tui.console.offered import OfferedSubscription, weakest
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from std_msgs.msg import String
+
+_domains = itertools.count(3600)
+RELIABLE, BEST_EFFORT = ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
+LATCHED, VOLATILE = DurabilityPolicy.TRANSIENT_LOCAL, DurabilityPolicy.VOLATILE
+BEST = QoSProfile(depth=10, reliability=RELIABLE, durability=LATCHED)
+WEAK = QoSProfile(depth=10, reliability=BEST_EFFORT, durability=VOLATILE)
+
+
+@pytest.fixture
+def node():
+    context = Context()
+    context.init([], domain_id=next(_domains))
+    made = Node("console", context=context)
+    made.executor_of_test = SingleThreadedExecutor(context=context)
+    made.executor_of_test.add_node(made)
+    yield made
+    made.destroy_node()
+    context.try_shutdown()
+
+
+def settle(node):
+    for _ in range(20):
+        node.executor_of_test.spin_once(timeout_sec=0)
+
+
+def asked(node):
+    (info,) = node.get_subscriptions_info_by_topic("/t")
+    return info.qos_profile.reliability, info.qos_profile.durability
+
+
+@pytest.mark.parametrize(
+    ("offers", "wanted"),
+    [
+        ([(RELIABLE, LATCHED)], (RELIABLE, LATCHED)),
+        ([(RELIABLE, VOLATILE)], (RELIABLE, VOLATILE)),
+        ([(BEST_EFFORT, LATCHED)], (BEST_EFFORT, LATCHED)),
+        ([(RELIABLE, LATCHED), (BEST_EFFORT, VOLATILE)], (BEST_EFFORT, VOLATILE)),
+        ([(ReliabilityPolicy.UNKNOWN, DurabilityPolicy.UNKNOWN)], (BEST_EFFORT, VOLATILE)),
+    ],
+)
+def test_no_more_than_all_offer(offers, wanted):
+    profiles = [QoSProfile(depth=1, reliability=one, durability=two) for one, two in offers]
+    assert weakest(BEST, profiles) == wanted
+
+
+def test_no_more_than_is_wanted():
+    wanted = QoSProfile(depth=1, reliability=BEST_EFFORT, durability=VOLATILE)
+    assert weakest(wanted, [BEST]) == (BEST_EFFORT, VOLATILE)
+
+
+def test_a_weak_publisher_is_heard_and_the_others_still_are(node):
+    heard = []
+    strong = node.create_publisher(String, "/t", BEST)
+    subscription = OfferedSubscription(node, String, "/t", lambda message: heard.append(message.data), BEST)
+    strong.publish(String(data="strong"))
+    settle(node)
+    weak = node.create_publisher(String, "/t", WEAK)
+    subscription.follow()
+    assert asked(node) == (BEST_EFFORT, VOLATILE)
+    weak.publish(String(data="weak"))
+    strong.publish(String(data="strong again"))
+    settle(node)
+    assert heard == ["strong", "weak", "strong again"]
+
+
+def test_more_is_asked_for_again_when_the_weak_one_has_left_unless_that_would_bring_lines_twice(node):
+    strong, weak = node.create_publisher(String, "/t", BEST), node.create_publisher(String, "/t", WEAK)
+    heard = []
+    once = OfferedSubscription(node, String, "/t", lambda message: heard.append(message.data), BEST, once_weak=True)
+    once.follow()
+    strong.publish(String(data="one"))
+    settle(node)
+    node.destroy_publisher(weak)
+    once.follow()
+    settle(node)
+    assert heard == ["one"] and asked(node) == (BEST_EFFORT, VOLATILE)
+    once.destroy()
+    again = OfferedSubscription(node, String, "/t", lambda message: None, BEST)
+    again.follow()
+    assert asked(node) == (RELIABLE, LATCHED)
+
+
+def test_one_that_is_not_eager_asks_for_nothing_before_it_is_offered(node):
+    heard = []
+    subscription = OfferedSubscription(
+        node, String, "/offered_late", lambda message: heard.append(message.data), BEST, eager=False
+    )
+    subscription.follow()
+    assert node.get_subscriptions_info_by_topic("/offered_late") == []
+    node.create_publisher(String, "/offered_late", BEST).publish(String(data="kept"))
+    subscription.follow()
+    settle(node)
+    assert heard == ["kept"]

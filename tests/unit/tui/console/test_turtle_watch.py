@@ -1,0 +1,75 @@
+"""What the console knows of turtles."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+import rclpy
+from bot_console.tui.console.graph.watch import GraphWatch
+from bot_console.tui.console.robot.world_watch import WorldWatch
+from bot_console_demos.turtlesim.turtlesim_node import TurtleSim
+from geometry_msgs.msg import Twist
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from turtlesim.msg import Pose
+
+
+class Watched:
+    """A console's watch of the world, spun by hand."""
+
+    def __init__(self) -> None:
+        self.node = rclpy.create_node("_watch")
+        self.world = WorldWatch(self.node)
+        self.executor = SingleThreadedExecutor()
+        self.executor.add_node(self.node)
+        self.graph = GraphWatch(self.node, self.world.follow)
+
+    def spin_until(self, done: object) -> None:
+        """Spin until a condition holds; the test's own time limit ends what never comes."""
+        while not done():  # type: ignore[operator]
+            self.executor.spin_once(timeout_sec=0.1)
+            self.graph.look()
+
+
+@pytest.fixture
+def watched() -> Iterator[Watched]:
+    rclpy.init()
+    yield Watched()
+    rclpy.shutdown()
+
+
+def test_turtles_and_what_they_draw(watched: Watched) -> None:
+    sim = TurtleSim()
+    watched.executor.add_node(sim)
+    world = watched.world
+    watched.spin_until(lambda: world.info.fields and world.info.fields[0].drawing and world.info.fields[0].turtles)
+    (field,) = world.info.fields
+    assert (field.node, [each.name for each in field.turtles]) == ("/turtlesim", ["turtle1"])
+    assert set(field.drawing.pixels[3::4]) == {0}
+    driver = watched.node.create_publisher(Twist, "/turtle1/cmd_vel", 1)
+    driver.publish(Twist())
+    twist = Twist()
+    twist.linear.x = 2.0
+    driver.publish(twist)
+    watched.spin_until(lambda: 255 in world.info.fields[0].drawing.pixels[3::4])
+    assert world.info.fields[0].turtles[0].pose.x > 5.6
+    sim.destroy_node()
+    watched.spin_until(lambda: not world.info.fields)
+
+
+def test_a_turtlesim_that_tells_only_poses(watched: Watched) -> None:
+    other = Node("sim", namespace="/lab")
+    poses = other.create_publisher(Pose, "turtle9/pose", 1)
+    watched.graph.look()
+    for x in (1.0, 1.05, 2.0):
+        poses.publish(Pose(x=x, y=3.0, theta=0.5, linear_velocity=1.0))
+        before = watched.world.info
+        watched.spin_until(lambda before=before: watched.world.info is not before)
+    (field,) = watched.world.info.fields
+    assert (field.node, field.drawing) == ("/lab/sim", None)
+    assert (field.turtles[0].name, field.turtles[0].trail) == ("turtle9", ((1.0, 3.0), (2.0, 3.0)))
+    same = watched.world.info
+    poses.publish(Pose(x=2.0, y=3.0, theta=0.5, linear_velocity=1.0))
+    watched.executor.spin_once(timeout_sec=1.0)
+    assert watched.world.info is same

@@ -1,0 +1,109 @@
+"""Rates, amounts, ages and latencies from serialized messages."""
+
+from __future__ import annotations
+
+import struct
+
+import pytest
+from bot_console.tui.console.topics import meters
+from bot_console.tui.console.topics.meters import Meter, in_turn
+
+
+class Time:
+    """A clock of two faces that goes when it is told to."""
+
+    def __init__(self) -> None:
+        self.now = 1000.0
+
+    def monotonic(self) -> float:
+        return self.now
+
+    def time_ns(self) -> int:
+        return int(self.now * 1e9)
+
+
+@pytest.fixture
+def time(monkeypatch: pytest.MonkeyPatch) -> Time:
+    made = Time()
+    monkeypatch.setattr(meters, "time", made)
+    return made
+
+
+def message(stamp: float, size: int = 100) -> bytes:
+    """A serialized message that begins with a stamp."""
+    head = b"\0\1\0\0" + struct.pack("<iI", int(stamp), round((stamp % 1) * 1e9))
+    return head.ljust(size, b"\0")
+
+
+def play(meter: Meter, time: Time, rate: float, seconds: float, late: float = 0.0) -> None:
+    """Messages at a rate, looked at once a second."""
+    looked = time.now
+    for _ in range(round(seconds * rate)):
+        time.now += 1 / rate
+        meter.take(message(time.now - late))
+        if time.now - looked >= 1.0:
+            looked = time.now
+            meter.look()
+
+
+@pytest.mark.parametrize("rate", [0.5, 1, 10, 100])
+def test_a_steady_rate_is_told_exactly(time: Time, rate: float) -> None:
+    meter = Meter(True, time.time_ns)
+    play(meter, time, rate, 20, late=0.004)
+    found = meter.look()
+    assert found.rate == pytest.approx(rate, rel=0.01)
+    assert found.bandwidth == pytest.approx(100 * rate, rel=0.01)
+    assert found.latency == pytest.approx(0.004, abs=1e-6)
+    assert found.count == round(20 * rate)
+
+
+def test_a_topic_that_falls_silent_goes_to_zero_and_its_age_grows(time: Time) -> None:
+    meter = Meter(True, time.time_ns)
+    play(meter, time, 10, 10)
+    for _ in range(3):
+        time.now += 1.0
+        slower = meter.look()
+    assert slower.rate is not None and 0 < slower.rate < 9
+    for _ in range(10):
+        time.now += 1.0
+        meter.look()
+    assert meter.look().rate == 0.0 and meter.look().age == pytest.approx(13.0)
+
+
+def test_before_anything_came_nothing_is_known(time: Time) -> None:
+    meter = Meter(True, time.time_ns)
+    assert meter.look() == meters.Measure(None, None, None, None, 0)
+
+
+def test_stamps_of_another_clock_are_no_latency(time: Time) -> None:
+    meter = Meter(True, lambda: int(1.7e18))
+    play(meter, time, 10, 3)
+    assert meter.look().latency is None
+
+
+def test_a_message_without_a_header_has_no_latency(time: Time) -> None:
+    meter = Meter(False, time.time_ns)
+    play(meter, time, 10, 3)
+    assert meter.look().latency is None and meter.look().rate == pytest.approx(10, rel=0.01)
+
+
+def test_all_are_measured_while_few_messages_come() -> None:
+    assert in_turn({"/a": 100.0, "/b": 10.0}, [], 200) == {"/a", "/b"}
+
+
+def test_the_fastest_take_turns_and_each_has_its_turn() -> None:
+    rates = {"/slow": 1.0, **{f"/fast{number}": 100.0 for number in range(10)}}
+    resting: list[str] = []
+    seen: set[str] = set()
+    for _ in range(4):
+        chosen = in_turn(rates, resting, 400)
+        assert "/slow" in chosen and sum(rates[each] for each in chosen) <= 400
+        seen |= chosen
+        resting = [each for each in resting if each not in chosen] + [
+            each for each in rates if each not in chosen and each not in resting
+        ]
+    assert seen == rates.keys()
+
+
+def test_one_topic_alone_beyond_the_budget_is_measured_all_the_same() -> None:
+    assert in_turn({"/camera": 9000.0}, [], 1500) == {"/camera"}

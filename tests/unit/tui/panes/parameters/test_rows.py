@@ -1,0 +1,108 @@
+"""The tree of parameters: namespaces, nodes and groups, each folded by itself, at a bounded cost."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import replace
+
+import pytest
+from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree
+from bot_console.tui.console.query import parse
+from bot_console.tui.panes.parameters.rows import TreeRows, View, matches, rows
+
+
+def tree(node: str, *names: str) -> ParameterTree:
+    return ParameterTree(node, tuple(ParameterInfo(node, name, Kind.DOUBLE, 1.0, default=1.0) for name in names))
+
+
+def trees(*found: ParameterTree) -> dict[str, ParameterTree]:
+    return {each.node: each for each in sorted(found, key=lambda one: one.node)}
+
+
+def drawn(found: dict[str, ParameterTree], view: View | None = None) -> list[str]:
+    return [f"{'  ' * row.depth}{row.name or row.title or row.node}" for row in rows(found, view or View())]
+
+
+GROUPED = trees(
+    tree("/n", "gain", "pid.x.kp", "pid.x.ki", "pid.y.kp", "lidar/front/min", "lidar/front/max", "one.alone")
+)
+
+
+def test_dotted_and_slashed_names_are_groups_where_at_least_two_share_them() -> None:
+    assert drawn(GROUPED) == [
+        *("/n", "  gain", "  lidar/front/", "    max", "    min", "  one.alone"),
+        *("  pid.", "    x.", "      ki", "      kp", "    y.kp"),
+    ]
+
+
+def test_each_group_folds_by_itself() -> None:
+    assert drawn(GROUPED, View(folded=frozenset({"/n:pid.x."})))[6:] == ["  pid.", "    x.", "    y.kp"]
+    found = rows(GROUPED, View(folded=frozenset({"/n:pid."})))
+    assert (found[-1].name, found[-1].folded, found[-1].count) == ("pid.", True, 3)
+
+
+FLEET = trees(
+    tree("/a/b/one", "p"), tree("/a/b/two", "p"), tree("/a/three", "p"), tree("/alone/four", "p"), tree("/five", "p")
+)
+
+
+def test_namespaces_of_several_nodes_have_a_row_and_fold() -> None:
+    assert drawn(FLEET) == [
+        *("/a/", "  b/", "    one", "      p", "    two", "      p", "  three", "    p"),
+        *("/alone/four", "  p", "/five", "  p"),
+    ]
+    folded = rows(FLEET, View(folded=frozenset({"/a/b/"})))
+    assert [(each.title or each.node, each.count) for each in folded if not each.parameter][:3] == [
+        ("/a/", 3),
+        ("b/", 2),
+        ("three", 1),
+    ]
+    assert drawn(FLEET, View(folded=frozenset({"/a/"})))[:3] == ["/a/", "/alone/four", "  p"]
+
+
+def test_words_of_the_filter_may_stand_in_the_nodes_name_and_in_the_parameters() -> None:
+    found = trees(tree("/robot_navigator", "max_speed", "gain"), tree("/arm", "max_speed"))
+    shown = [(each.node, each.name) for each in rows(found, View(query=parse("nav speed"))) if each.parameter]
+    assert shown == [("/robot_navigator", "max_speed")]
+
+
+@pytest.mark.parametrize("words", ["nav", "!nav", "SPEED", "!speed", "node:arm", "!node:arm gain", "re:max.sp", "m/s"])
+def test_the_quick_way_finds_what_the_filter_means(words: str) -> None:
+    described = tree("/robot_navigator", "max_speed", "gain")
+    described = replace(
+        described, parameters=tuple(replace(each, description="Größe (m/s)") for each in described.parameters)
+    )
+    found = trees(described, tree("/arm", "max_speed", "navigator"))
+    shown = {(each.node, each.name) for each in rows(found, View(query=parse(words))) if each.parameter}
+    every = [each for one in found.values() for each in one.parameters]
+    assert shown == {(each.node, each.name) for each in every if matches(each, parse(words))}
+
+
+def many() -> dict[str, ParameterTree]:
+    names = [f"group{at // 5}.parameter_{at}" for at in range(24)]
+    found = [tree(f"/space{at // 20}/node{at:03}", *names, "max_speed" if at == 117 else "other") for at in range(200)]
+    return trees(*found)
+
+
+def test_five_thousand_parameters_cost_a_bounded_time_and_one_change_only_its_node() -> None:
+    """In processor time; the first tree against the limit, what follows against the first tree of the same run."""
+    found, made = many(), TreeRows()
+    assert sum(len(each.parameters) for each in found.values()) == 5_000
+    begin = time.process_time()
+    before = made.rows(found, View())
+    first = time.process_time() - begin
+    assert first < 1.0
+    node = found["/space5/node117"]
+    changed = replace(node, parameters=tuple(replace(each, value=2.0) for each in node.parameters))
+    begin = time.process_time()
+    after = made.rows({**found, node.node: changed}, View())
+    again = time.process_time() - begin
+    assert again < first / 2
+    assert len([one for one, other in zip(before, after, strict=True) if one is not other and one.parameter]) == 25
+    keystrokes = []
+    for typed in ("s", "sp", "117 sp", "117 speed"):
+        begin = time.process_time()
+        shown = made.rows(found, View(query=parse(typed)))
+        keystrokes.append(time.process_time() - begin)
+    assert [each.name for each in shown if each.parameter] == ["max_speed"]
+    assert sorted(keystrokes)[1] < 0.030, "the machine may interrupt one of them"

@@ -1,0 +1,56 @@
+"""Names and values of profiles: all of them where there is room, else cut with an ellipsis."""
+
+from __future__ import annotations
+
+import pytest
+from bot_console.tui.console.model import Profile, ProfileDifference
+from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, entries
+from rich.cells import cell_len
+from rich.style import Style
+from textual.widget import Widget
+
+LONG = "a_warehouse_with_a_very_long_name_indeed"
+
+
+@pytest.fixture(autouse=True)
+def _no_styles(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Widget, "get_component_rich_style", lambda *names, partial=False: Style())
+
+
+def text(rows: ProfileRows | DifferenceRows, index: int, width: int) -> str:
+    return "".join(each.text for each in rows.row(index, width))
+
+
+def profiles() -> ProfileRows:
+    rows = ProfileRows()
+    rows.rows = [Profile(LONG, "/p/long.yaml", title="A title"), Profile("indoor", "/p/indoor.yaml", title="Office")]
+    return rows
+
+
+def test_the_longest_profile_has_the_room_that_it_needs_and_titles_stand_below_each_other() -> None:
+    first, second = text(profiles(), 0, 120), text(profiles(), 1, 120)
+    assert LONG in first and first.index("A title") == second.index("Office")
+
+
+def test_where_there_is_no_room_an_ellipsis_stands() -> None:
+    assert "…" in text(profiles(), 0, 60) and "A title" in text(profiles(), 0, 60)
+
+
+def differences(name: str, now: str, then: str) -> DifferenceRows:
+    rows = DifferenceRows()
+    rows.rows = entries([ProfileDifference("/node", name, now, then)], {})
+    return rows
+
+
+def test_a_difference_says_where_it_is_cut() -> None:
+    name = "recovery.emergency_stop_distance_of_the_rear_bumper"
+    assert name in text(differences(name, "a", "b"), 1, 120)
+    narrow = text(differences(name, "a" * 40, "b" * 40), 1, 78)
+    assert name not in narrow and narrow.count("…") == 3, narrow
+
+
+def test_wide_letters_take_two_cells() -> None:
+    rows = ProfileRows()
+    rows.rows = [Profile("世界" * 4, "/p", title="T"), Profile("indoor", "/p", title="T")]
+    places = [cell_len(text(rows, index, 100).split("T")[0]) for index in (0, 1)]
+    assert places[0] == places[1]

@@ -1,0 +1,34 @@
+"""The log spells nodes as the graph does."""
+
+from __future__ import annotations
+
+from bot_console.tui.console.model import GraphInfo, LogRecord, NodeInfo, Severity
+from bot_console.tui.panes.logs.names import NodeNames
+from bot_console.tui.panes.logs.pane import line_text
+
+GRAPH = GraphInfo((NodeInfo("/arm/left/zoo"), NodeInfo("/arm"), NodeInfo("/talker")))
+
+
+def test_a_logger_is_its_node_and_a_child_of_it_says_so() -> None:
+    names = NodeNames()
+    assert names.of("arm.left.zoo") == "arm.left.zoo"
+    assert names.learn(GRAPH) and not names.learn(GRAPH)
+    assert names.of("arm.left.zoo") == "/arm/left/zoo"
+    assert names.of("arm.left.zoo.planner.fast") == "/arm/left/zoo.planner.fast"
+    assert names.of("arm.right") == "/arm.right"
+    assert names.of("talker") == "/talker"
+    assert names.of("talker-1") == "talker-1", "a process is no node"
+    assert names.of("") == ""
+
+
+def test_who_has_left_keeps_its_spelling() -> None:
+    names = NodeNames()
+    names.learn(GRAPH)
+    assert not names.learn(GraphInfo())
+    assert names.of("arm.left.zoo") == "/arm/left/zoo"
+
+
+def test_a_long_name_keeps_its_end_behind_an_ellipsis() -> None:
+    record = LogRecord(0, 0, Severity.INFO, "x", "hello")
+    assert "…_of_names/talker1 hello" in line_text(record, "/a_long_namespace_of_names/talker1", 60)
+    assert "/talker            hello" in line_text(record, "/talker", 60)

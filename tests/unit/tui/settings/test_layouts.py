@@ -1,0 +1,83 @@
+"""Layouts as files: saved, read back, refused with the reason; perspectives of rqt."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from bot_console.tui.cli.arguments import attach_parser, parse, parse_attach
+from bot_console.tui.cli.look import look_of
+from bot_console.tui.files.folders import config_folder
+from bot_console.tui.layout.arrangement import Arrangement
+from bot_console.tui.layout.named import BUILT_IN
+from bot_console.tui.layout.tree import below, beside
+from bot_console.tui.settings.layouts import FileLayouts
+
+PANES = ("parameters", "logs", "plot", "world", "graph", "steering")
+TREE = below(beside("plot", "logs", shares=(2, 1)), "world", shares=(3, 1))
+PERSPECTIVE = "{\"repr\": \"{'rqt_graph/RosGraph': [1], 'rqt_console/Console': [1], 'rqt_bag/Bag': [1]}\"}"
+
+
+def test_saved_and_read_back() -> None:
+    store = FileLayouts(PANES)
+    file = store.save("mine", TREE)
+    assert store.layouts()["mine"].tree == TREE
+    assert Path(file).read_text().startswith("# A layout") and "plot" in Path(file).read_text()
+
+
+def test_the_last_screen_comes_back() -> None:
+    store = FileLayouts(PANES)
+    assert Arrangement(store, *store.last()).title == "overview"
+    arrangement = Arrangement(store)
+    arrangement.change(TREE)
+    arrangement.remember()
+    again = Arrangement(store, *store.last())
+    assert again.title == "overview*" and again.tree(120, 40) == TREE
+
+
+def test_a_broken_file_is_named_and_the_others_are_there() -> None:
+    store = FileLayouts(PANES)
+    store.save("mine", TREE)
+    folder = config_folder() / "layouts"
+    (folder / "bad.yaml").write_text("layout: {beside: [plot, nothing]}")
+    (folder / "worse.yaml").write_text("layout: [")
+    (folder / "list.yaml").write_text("- 1")
+    assert set(store.layouts()) == {"mine"}
+    told = "\n".join(store.problems)
+    assert "there is no pane 'nothing'" in told and "worse.yaml: line 2" in told and "a line `layout:`" in told
+
+
+def test_every_layout_that_comes_along_fits_where_it_says() -> None:
+    for name, layout in BUILT_IN.items():
+        assert Arrangement(name=name).tree(120, 40) == layout.tree, name
+    assert Arrangement().tree(200, 60) == BUILT_IN["overview"].wide
+    assert Arrangement().tree(80, 24) is None
+
+
+def test_the_command_line_goes_before_the_settings() -> None:
+    config_folder().mkdir(parents=True)
+    (config_folder() / "settings.yaml").write_text("layout: tuning\ntheme: light\nglyphs: plain\n")
+    assert look_of(parse([])).arrangement.name == "tuning"
+    look = look_of(parse(["--layout", "watching", "--theme", "dark", "--no-plain"]))
+    assert (look.arrangement.name, look.theme, look.plain) == ("watching", "dark", False)
+    assert look_of(parse_attach(["--layout", "watching"], attach_parser())[0]).arrangement.name == "watching"
+    wrong = look_of(parse(["--layout", "none"]))
+    assert wrong.arrangement.name == "overview" and "there is no layout 'none'" in wrong.notes[0]
+
+
+@pytest.mark.parametrize(
+    "line", [["rqt", "--perspective-file", "{}"], ["--perspective-file", "{}"], ["rqt_gui", "-p", "{}"]]
+)
+def test_a_perspective_of_rqt(tmp_path: Path, line: list[str]) -> None:
+    path = tmp_path / "my.perspective"
+    path.write_text(PERSPECTIVE)
+    look = look_of(parse([each.format(path) for each in line]))
+    assert look.arrangement.tree(120, 40) == beside("graph", "logs") and look.arrangement.name == "my"
+    assert look.notes == ("rqt_bag of the perspective has no pane here",)
+
+
+def test_a_layout_file_as_perspective_and_one_that_is_missing(tmp_path: Path) -> None:
+    file = FileLayouts(PANES).save("mine", TREE)
+    assert look_of(parse(["--perspective-file", file])).arrangement.tree(120, 40) == TREE
+    look = look_of(parse(["--perspective-file", str(tmp_path / "none")]))
+    assert look.arrangement.name == "overview" and "No such file" in look.notes[0]

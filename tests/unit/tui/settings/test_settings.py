@@ -1,0 +1,98 @@
+"""The settings file: what it says is done, what it says wrongly is named, and neither stops a start."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from bot_console.tui.keymap import TABLE
+from bot_console.tui.remapping import remap, wrong_keys
+from bot_console.tui.settings.names import THEME_NAMES
+from bot_console.tui.settings.settings import TEMPLATE, Settings, read_settings
+from bot_console.tui.theme import THEMES
+from hypothesis import given
+from hypothesis import strategies as st
+
+
+@pytest.fixture
+def table(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The key table as it is, whatever a test makes of it."""
+    for scope, keys in list(TABLE.items()):
+        monkeypatch.setitem(TABLE, scope, keys)
+
+
+def written(folder: Path, text: str) -> Path:
+    path = folder / "settings.yaml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_no_file_and_the_new_file_mean_the_defaults(tmp_path: Path) -> None:
+    assert read_settings(tmp_path / "none.yaml") == Settings()
+    assert read_settings(written(tmp_path, TEMPLATE)) == Settings()
+    assert read_settings(written(tmp_path, "")) == Settings()
+
+
+def test_what_is_set_is_taken(tmp_path: Path) -> None:
+    text = "theme: light\nglyphs: plain\nlayout: tuning\nkeys: {parameters.undo: 'U2,ctrl+u'}\n"
+    assert read_settings(written(tmp_path, text)) == Settings(
+        "light", "plain", "tuning", {"parameters.undo": "U2,ctrl+u"}
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("theme: pink", "theme: 'pink' is none of dark"),
+        ("theme: 3", "theme: is a word"),
+        ("colour: red", "'colour' is no setting"),
+        ("- 1", "settings are lines such as"),
+        ("a: b: c", "line 1"),
+        ("keys: 3", "keys: lines such as"),
+        ("keys: {app.fly: f}", "there is no action 'app.fly'"),
+        ("keys: {app.quit: '?'}", "no list of keys"),
+        ("keys: {parameters.undo: slash}", "slash is taken by"),
+        ("keys: {parameters.undo: q}", "q is taken by parameters.undo and app.quit"),
+        ("keys: {app.quit: '1'}", "1 is taken by"),
+        ("theme: !!python/object:os.system x", "settings.yaml"),
+        ("a: &a [*a]", "is no setting"),
+        ("\x00", "settings.yaml"),
+    ],
+)
+def test_what_is_wrong_is_named_and_the_rest_is_taken(tmp_path: Path, text: str, says: str) -> None:
+    found = read_settings(written(tmp_path, text))
+    assert len(found.problems) == 1 and says in found.problems[0], found.problems
+    assert found.theme == "dark"
+
+
+def test_a_file_that_cannot_be_read_or_is_none(tmp_path: Path) -> None:
+    assert "irectory" in read_settings(tmp_path).problems[0]
+    assert "larger than" in read_settings(written(tmp_path, "#" * 200_000)).problems[0]
+
+
+@given(st.binary(max_size=200))
+def test_no_content_ends_a_start(content: bytes) -> None:
+    import tempfile
+
+    with tempfile.NamedTemporaryFile(suffix=".yaml") as file:
+        file.write(content)
+        file.flush()
+        assert isinstance(read_settings(Path(file.name)), Settings)
+
+
+def test_actions_get_other_keys_but_a_stop_is_always_a_stop(table: None) -> None:
+    given = remap({"app.quit": "ctrl+d", "app.stop": "f12"})
+    assert given == {"app.quit": "ctrl+d", "app.stop": "exclamation_mark,f12"}
+    keys = {key.id: key.keys for key in TABLE["app"]}
+    assert keys["app.quit"] == "ctrl+d" and keys["app.stop"] == "exclamation_mark,f12"
+    with pytest.raises(ValueError, match="no action"):
+        remap({"x": "y"})
+
+
+def test_the_table_as_it_is_has_nothing_wrong() -> None:
+    assert wrong_keys({}) == ""
+    assert wrong_keys({"app.quit": "ctrl+d"}) == ""
+
+
+def test_each_theme_that_can_be_named_is_there() -> None:
+    assert set(THEMES) == set(THEME_NAMES)

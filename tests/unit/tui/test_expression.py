@@ -1,0 +1,78 @@
+"""Expressions and units: arithmetic and nothing else, and no unit is guessed."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from bot_console.tui.console.model import Kind, ParameterInfo, Range, Value
+from bot_console.tui.expression import evaluate
+from bot_console.tui.panes.parameters.editing import at_share, stepped, typed_value
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("0.5*2", 1.0),
+        ("2**10", 1024),
+        ("-(3+4)//2", -4),
+        ("sqrt(16)", 4.0),
+        ("min(3, 2)", 2),
+        ("pi", math.pi),
+        ("x/2", 3),
+    ],
+)
+def test_arithmetic(text: str, value: float) -> None:
+    assert evaluate(text, {"x": 6}) == value
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        *("__import__('os')", "(1).real", "[1]", "x", "1 if 1 else 2", "'a'*9", "lambda: 1", "True", "1<2", "open(1)"),
+        *("9**9**9**9", "2**100000", "(" * 60 + "1", "1/0", "1e308*10*0 if", "sqrt(-1)", "(-8)**0.5", "round()"),
+    ],
+)
+def test_everything_else_is_refused_in_words(text: str) -> None:
+    with pytest.raises(ValueError, match=r"\w+ \w+"):
+        evaluate(text)
+
+
+def of(kind: Kind, unit: str, limits: Range | None = None, value: Value = 1.0) -> ParameterInfo:
+    return ParameterInfo("/n", "p", kind, value, f"What it is for ({unit})", range=limits)
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "value"),
+    [
+        *(("30 cm", "m", 0.3), ("0.5*2", "m", 1.0), ("2*25cm", "m", 0.5), ("90 deg", "rad", math.pi / 2)),
+        *(("36 km/h", "m/s", 10.0), ("60 rpm", "rad/s", 2 * math.pi), ("250 ms", "s", 0.25), ("2 m", "m", 2.0)),
+        *(("1e3", "m", 1000.0), (".inf", "m", math.inf), ("50 %", "", 0.5)),
+    ],
+)
+def test_a_number_with_a_unit_is_turned_into_that_of_the_parameter(text: str, unit: str, value: float) -> None:
+    found = typed_value(text, of(Kind.DOUBLE, unit))
+    assert found == pytest.approx(value) and isinstance(found, float)
+
+
+@pytest.mark.parametrize(("text", "unit"), [("3 kg", "m"), ("3 cm", ""), ("3 parsec", "m"), ("cm", "m"), ("", "m")])
+def test_a_unit_that_does_not_fit_is_told(text: str, unit: str) -> None:
+    with pytest.raises(ValueError, match=r"unit|number"):
+        typed_value(text, of(Kind.DOUBLE, unit))
+
+
+def test_integers_stay_whole() -> None:
+    assert typed_value("360/4*2", of(Kind.INTEGER, "", value=1)) == 180
+    with pytest.raises(ValueError, match="no integer"):
+        typed_value("1/3", of(Kind.INTEGER, "", value=1))
+    with pytest.raises(ValueError, match="64 bits"):
+        typed_value("2**63*1", of(Kind.INTEGER, "", value=1))
+
+
+def test_steps_and_shares_stay_in_the_range() -> None:
+    speed = of(Kind.DOUBLE, "m/s", Range(0.1, 5.0))
+    assert stepped(speed, 4.9, 10) == 5.0 and stepped(speed, 1.0, 1) == 1.05
+    assert (at_share(speed, 0), at_share(speed, 1), at_share(speed, 2)) == (0.1, 5.0, 5.0)
+    beams = of(Kind.INTEGER, "", Range(3, 3600, 3), 360)
+    assert at_share(beams, 0.5) == 1803 and stepped(beams, 360, -1) == 357
+    assert at_share(of(Kind.DOUBLE, "m"), 0.5) is None and stepped(speed, True, 1) is None

@@ -1,0 +1,1 @@
+"""Which panes are on the screen, and where."""

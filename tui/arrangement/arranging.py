@@ -1,0 +1,210 @@
+"""The panes on the screen: which layout, changed by which key; the app shows what comes of it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from typing import Protocol
+
+from bot_console.tui.files.save_file import NotSaved
+from bot_console.tui.layout.arrangement import CHROME, Arrangement
+from bot_console.tui.layout.placing import Box, boxes, fits, neighbour
+from bot_console.tui.layout.tree import Tree, Way, close, even, exchange, panes, resize, split, turn
+from bot_console.tui.pane_table import PaneEntry
+from bot_console.tui.widgets.prompt.question import Choice, Line, Option, Question
+from textual.fuzzy import Matcher
+
+STEP = 0.05
+"""The part of a split by which a key moves a border."""
+NAME = re.compile(r"\w[\w .-]{0,40}")
+
+
+class Screen(Protocol):
+    """What arranging needs of the app."""
+
+    def cells(self) -> tuple[int, int]:
+        """Columns and lines of the terminal."""
+        ...
+
+    def entries(self) -> Sequence[PaneEntry]:
+        """All panes that there are."""
+        ...
+
+    def selected(self) -> str:
+        """The pane that has the keyboard."""
+        ...
+
+    def select(self, pane: str) -> None:
+        """Give it the keyboard."""
+        ...
+
+    def lay_out(self) -> None:
+        """Show the arrangement as it is now."""
+        ...
+
+    def ask(self, question: Question[str]) -> None:
+        """Ask over the panes."""
+        ...
+
+    def tell(self, text: str) -> None:
+        """Say something in a corner."""
+        ...
+
+
+class Arranging:
+    """Does what the keys of the arranging screen say."""
+
+    def __init__(self, screen: Screen, arrangement: Arrangement) -> None:
+        self._screen = screen
+        self.arrangement = arrangement
+
+    def begin(self) -> bool:
+        """Whether there is room to arrange anything; says so where there is none."""
+        if self.tree is not None:
+            return True
+        columns, lines = self._screen.cells()
+        self._screen.tell(
+            f"Layout '{self.arrangement.name}' needs more than {columns}x{lines}; V then o opens another."
+        )
+        return False
+
+    @property
+    def tree(self) -> Tree | None:
+        """What the layout shows in a terminal of this size; None where it does not fit."""
+        return self.arrangement.tree(*self._screen.cells())
+
+    def select(self, dx: int, dy: int) -> None:
+        """Select the pane in a direction."""
+        self._screen.select(self._beside(dx, dy))
+
+    def exchange(self, dx: int, dy: int) -> None:
+        """Change places with the pane in a direction."""
+        here, there = self._screen.selected(), self._beside(dx, dy)
+        if here != there:
+            self._change(lambda tree: exchange(tree, here, there))
+
+    def split(self, way: Way) -> None:
+        """Ask for a pane and put it beside or below the selected one."""
+        here = self._screen.selected()
+        self._ask_pane(f"Pane {way} {here}", lambda pane: self._change(lambda tree: split(tree, here, pane, way), pane))
+
+    def put_another(self) -> None:
+        """Ask for a pane and put it in the place of the selected one."""
+        here = self._screen.selected()
+        self._ask_pane(
+            f"Pane instead of {here}", lambda pane: self._change(lambda tree: exchange(tree, here, pane), pane)
+        )
+
+    def close(self) -> None:
+        """Take the selected pane away; the last one stays."""
+        here = self._screen.selected()
+        self._change(lambda tree: close(tree, here))
+
+    def grow(self, columns: int, lines: int) -> None:
+        """Move a border of the selected pane by a step."""
+        here = self._screen.selected()
+        way: Way = "beside" if columns else "below"
+        self._change(lambda tree: resize(tree, here, way, STEP * (columns or lines)))
+
+    def even(self) -> None:
+        """Share the room equally."""
+        self._change(even)
+
+    def turn(self) -> None:
+        """Let the split that the selected pane stands in run the other way."""
+        here = self._screen.selected()
+        self._change(lambda tree: turn(tree, here))
+
+    def undo(self) -> None:
+        """Take the last change back."""
+        if self.arrangement.undo():
+            self._screen.lay_out()
+        else:
+            self._screen.tell("Nothing was changed.")
+
+    def open_layout(self) -> None:
+        """Ask for a layout and show it."""
+        layouts = self.arrangement.layouts()
+
+        def find(typed: str) -> Sequence[Option]:
+            return _best([Option(name, each.about) for name, each in layouts.items()], typed)
+
+        self._screen.ask(Choice("Layouts", self.load, find=find, hint="name", empty="No layout has this name."))
+
+    def load(self, name: str) -> None:
+        """Show a layout."""
+        self.arrangement.load(name)
+        tree = self.tree
+        if tree is None:
+            columns, lines = self._screen.cells()
+            self._screen.tell(f"'{name}' needs more than {columns}x{lines}; one pane at a time is shown.")
+        self._screen.lay_out()
+
+    def name_question(self) -> Line:
+        """Ask for a name and keep what is shown under it."""
+        return Line("save as", self.save, text=self.arrangement.name, check=wrong_name)
+
+    def save(self, name: str) -> None:
+        """Keep what is shown under a name."""
+        tree = self.tree
+        if tree is None:
+            return
+        try:
+            self._screen.tell(f"Layout saved: {self.arrangement.save(name.strip(), tree)}")
+        except NotSaved as error:
+            self._screen.tell(f"not saved: {error}")
+        self._screen.lay_out()
+
+    def dragged(self, tree: Tree, first: bool) -> None:
+        """A border was moved with the mouse."""
+        if fits(self._places(tree)):
+            (self.arrangement.change if first else self.arrangement.drag)(tree)
+            self._screen.lay_out()
+
+    def _beside(self, dx: int, dy: int) -> str:
+        tree, here = self.tree, self._screen.selected()
+        return neighbour(self._places(tree), here, dx, dy) if tree and here in panes(tree) else here
+
+    def _places(self, tree: Tree) -> dict[str, Box]:
+        columns, lines = self._screen.cells()
+        return boxes(tree, Box(0, 0, columns, lines - CHROME))
+
+    def _change(self, change: Callable[[Tree], Tree | None], select: str = "") -> None:
+        before = self.tree
+        after = change(before) if before is not None else None
+        if before is None or after == before:
+            return
+        if after is None:
+            self._screen.tell("The last pane stays.")
+        elif not fits(self._places(after)):
+            self._screen.tell("There is no room for that: a pane needs 20 columns and 4 lines.")
+        else:
+            self.arrangement.change(after)
+            self._screen.lay_out()
+            if select:
+                self._screen.select(select)
+
+    def _ask_pane(self, label: str, then: Callable[[str], object]) -> None:
+        shown = panes(self.tree or "")
+
+        def find(typed: str) -> Sequence[Option]:
+            known = [
+                Option(each.title, "moves here" if each.id in shown else "", each.id)
+                for each in sorted(self._screen.entries(), key=lambda entry: entry.id in shown)
+            ]
+            return _best(known, typed)
+
+        self._screen.ask(Choice(label, then, find=find, hint="pane", empty="No pane has this name."))
+
+
+def wrong_name(text: str) -> str:
+    """Why a text cannot be the name of a layout; empty when it can."""
+    return "" if NAME.fullmatch(text.strip()) else "letters, digits, blanks, - and _, at most 40"
+
+
+def _best(options: Sequence[Option], typed: str) -> Sequence[Option]:
+    if not typed.strip():
+        return options
+    matcher = Matcher(typed.strip())
+    scores = [(matcher.match(each.title), each) for each in options]
+    return [each for score, each in sorted(scores, key=lambda pair: -pair[0]) if score > 0]

@@ -1,0 +1,83 @@
+"""Panes that other packages bring: any Textual widget that takes a `Console`, in the frame of a pane.
+
+A package names them as entry points of the group `bot_console.panes`, `name = module:Class`. The class is called with
+the `Console` (`tui/console/protocol.py`). What it may have besides: `TITLE`, a word for the tabs; `HELP`, what it is
+for; `show(snapshot)`, called with each new `ConsoleSnapshot` while it is seen; `tick()`, called ten times a second,
+also while it is hidden; `let_go()`, called when it ends by a fault. A subclass of `Pane` is taken as it is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
+
+from bot_console.tui.console.model import ConsoleSnapshot
+from bot_console.tui.console.protocol import Console
+from bot_console.tui.pane_table import PaneEntry
+from bot_console.tui.panes.pane import Pane
+from textual.app import ComposeResult
+from textual.widget import Widget
+
+
+def _none() -> Any:
+    raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class PluginEntry(PaneEntry):
+    """A pane of another package; `find` imports its class, and may raise whatever that raises."""
+
+    find: Callable[[], Any] = field(default=_none)
+    source: str = ""
+    """Which package it is of, for a person to read."""
+
+    def load(self) -> type[Pane]:
+        """The class of the pane, or one that has a frame around the widget; raises `TypeError` where it is neither."""
+        found = self.find()
+        if not (isinstance(found, type) and issubclass(found, Widget)):
+            raise TypeError(f"{self.source}: {found!r} is no class of a Textual widget")
+        if issubclass(found, Pane):
+            return found
+        facts = {
+            "TITLE": str(getattr(found, "TITLE", "") or self.title),
+            "HELP": str(getattr(found, "HELP", "") or f"A pane of {self.source}."),
+            "WIDGET": found,
+        }
+        return type(found.__name__, (PluginPane,), facts)
+
+
+class PluginPane(Pane):
+    """A frame around another package's widget, which learns of snapshots as a pane does."""
+
+    can_focus = True
+    WIDGET: ClassVar[Callable[[Console], Widget]]
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self._widget = type(self).WIDGET(self.console)
+
+    def compose(self) -> ComposeResult:
+        """The widget fills the frame."""
+        yield self._widget
+
+    def show(self, snapshot: ConsoleSnapshot) -> None:
+        """Hand the snapshot on."""
+        self._hand_on("show", snapshot)
+
+    def tick(self) -> None:
+        """Hand the beat on."""
+        self._hand_on("tick")
+
+    def let_go(self) -> None:
+        """Tell it that it ends."""
+        self._hand_on("let_go")
+
+    def focus_target(self) -> None:
+        """The widget's first part that takes keys, else the frame."""
+        next((each for each in self.query(Widget) if each.focusable), self).focus()
+
+    def _hand_on(self, name: str, *args: object) -> None:
+        method = getattr(self._widget, name, None)
+        if callable(method):
+            method(*args)

@@ -1,0 +1,187 @@
+"""What is on the screen: the layout or one pane alone, which pane has the keyboard, tabs and keys to match."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from bot_console.tui.arrangement.arranging import Arranging
+from bot_console.tui.console.model import ConsoleSnapshot
+from bot_console.tui.layout.arrangement import Arrangement
+from bot_console.tui.layout.named import OVERVIEW
+from bot_console.tui.layout.tree import Tree, panes
+from bot_console.tui.pane_table import PANES, PaneEntry
+from bot_console.tui.panes.pane import Pane
+from bot_console.tui.screens.door import screen_for
+from bot_console.tui.widgets.key_bar import KeyBar
+from bot_console.tui.widgets.pane_area import PaneArea
+from bot_console.tui.widgets.prompt.question import Question
+from bot_console.tui.widgets.tabs import Tabs
+from textual.app import App
+from textual.geometry import Size
+from textual.widgets import Input, Static
+
+SMALLEST = (60, 20)
+"""Columns and lines below which nothing is shown but a word about it."""
+FIRST = "parameters"
+
+
+class Stage:
+    """The panes of an app as they are seen. Holds no widget: those are asked for, since a fault replaces some."""
+
+    def __init__(
+        self, app: App[None], arrangement: Arrangement, wanted: str, newest: Callable[[], ConsoleSnapshot]
+    ) -> None:
+        self._app = app
+        self._newest = newest
+        self._wanted = wanted
+        self._focused = FIRST
+        self._extent = Size(80, 24)
+        self._panes: list[Pane] = []
+        self.plugins: list[PaneEntry] = []
+        """Panes that others bring."""
+        self.arranging = Arranging(self, arrangement)
+
+    def entries(self) -> Sequence[PaneEntry]:
+        """All panes that there are."""
+        return (*PANES, *self.plugins)
+
+    def panes(self) -> list[Pane]:
+        """All panes, in the order in which they stand on the screen."""
+        self._panes = self._panes or list(self._app.screen_stack[0].query(Pane))
+        return self._panes
+
+    def visible(self) -> list[Pane]:
+        """The panes that are drawn now, from the upper left."""
+        order = panes(self._shown())
+        return sorted((each for each in self.panes() if each.display), key=lambda each: order.index(each.id or ""))
+
+    def current(self) -> Pane | None:
+        """The pane that has the keyboard, else the one chosen last."""
+        focused = self._app.screen_stack[0].focused
+        for widget in focused.ancestors_with_self if focused else ():
+            if isinstance(widget, Pane):
+                return widget
+        return next((each for each in self.panes() if each.id == self._focused), None)
+
+    def cells(self) -> tuple[int, int]:
+        """Columns and lines of the terminal."""
+        return self._extent.width, self._extent.height
+
+    def selected(self) -> str:
+        """The pane that has the keyboard, by its id."""
+        pane = self.current()
+        return pane.id or "" if pane is not None else ""
+
+    def select(self, pane: str) -> None:
+        """Give a pane that is seen the keyboard."""
+        for each in self.visible():
+            if each.id == pane:
+                self._focused = pane
+                each.focus_target()
+        self.show_keys()
+
+    def ask(self, question: Question[Any]) -> None:
+        """Ask over the panes."""
+        self._app.push_screen(screen_for(question))
+
+    def tell(self, text: str) -> None:
+        """Say something in a corner."""
+        self._app.notify(text, markup=False)
+
+    def resized(self, size: Size) -> None:
+        """The terminal has another size."""
+        self._extent = size
+        self.lay_out()
+
+    def changed(self) -> None:
+        """A pane stands where another was, or one has come."""
+        self._panes = []
+        self.lay_out()
+
+    def go(self, name: str) -> None:
+        """Show a pane alone, or the layout."""
+        self._wanted = name
+        if name != OVERVIEW:
+            self._focused = name
+        elif (tree := self.arranging.tree) is not None and self._focused not in panes(tree):
+            self._focused = FIRST if FIRST in panes(tree) else panes(tree)[0]
+        self._app.screen_stack[0].set_focus(None)
+        self.lay_out()
+
+    def next(self, step: int) -> None:
+        """Go to the next pane: of those seen together, else of all."""
+        seen = self.visible()
+        found = seen if len(seen) > 1 else self.panes()
+        now = self.current()
+        target = found[(found.index(now) + step) % len(found)] if now in found else found[0]
+        self._focused = target.id or ""
+        if target.display:
+            target.focus_target()
+        else:
+            self.go(self._focused)
+
+    def zoom(self) -> None:
+        """One pane alone, or the layout again."""
+        pane = self.current()
+        self.go(OVERVIEW if self._wanted != OVERVIEW or pane is None else pane.id or OVERVIEW)
+
+    def lay_out(self) -> None:
+        """Show what is wanted, as far as there is room."""
+        screen = self._app.screen_stack[0]
+        width, height = self._extent
+        small = width < SMALLEST[0] or height < SMALLEST[1]
+        screen.set_class(small, "small")
+        if small:
+            screen.query_one("#too-small", Static).update(too_small(width, height))
+        shown = self._shown()
+        screen.query_one(PaneArea).place(shown)
+        for pane in self.panes():
+            before = pane.display
+            pane.display = pane.id in panes(shown)
+            if pane.display and not before:
+                pane.show(self._newest())
+        self._tabs(shown)
+        pane = self.current()
+        if pane is not None and not pane.display:
+            pane = next(iter(self.visible()), None)
+        if pane is not None and not self.typing():
+            pane.focus_target()
+        self.show_keys()
+
+    def typing(self) -> bool:
+        """Whether a text field has the keyboard."""
+        return isinstance(self._app.focused, Input)
+
+    def show_keys(self) -> None:
+        """Show the keys of the pane that has the keyboard."""
+        if len(self._app.screen_stack) == 1:
+            pane = self.current()
+            self._app.query_one(KeyBar).show(pane.scopes if pane else (), self.typing(), self._primary())
+
+    def _shown(self) -> Tree:
+        tree = self.arranging.tree if self._wanted == OVERVIEW else None
+        return tree or (self._focused if self._wanted == OVERVIEW else self._wanted)
+
+    def _tabs(self, shown: Tree) -> None:
+        together = self._wanted == OVERVIEW and self.arranging.tree is not None
+        name = self.arranging.arrangement.title
+        long, short = (name.capitalize(), "All") if name == OVERVIEW else (name, name)
+        marks = [("0", long, short, OVERVIEW, together)]
+        marks += [
+            (each.digit, each.title, each.short or each.title, each.id, not together and shown == each.id)
+            for each in self.entries()
+        ]
+        self._app.screen_stack[0].query_one(Tabs).show(marks, self._extent.width - 2, self._primary())
+
+    def _primary(self) -> str:
+        # Textual and Rich call the terminal's own colours by different names.
+        return self._app.theme_variables["primary"].removeprefix("ansi_")
+
+
+def too_small(width: int, height: int) -> str:
+    """What is said in a terminal in which nothing fits but, if need be, four short lines."""
+    need = f"{SMALLEST[0]}x{SMALLEST[1]}"
+    if width < 40 or height < 6:
+        return f"{width}x{height} is too small\n{need} is needed\n! stops the robot\nq quits"
+    return f"{width}x{height} is too small\nthe console needs {need}\n\nthe robot goes on; ! stops it, q quits"

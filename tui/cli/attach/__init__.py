@@ -1,0 +1,45 @@
+"""`bot-console attach`: the console on a system that runs already: ours, the machine's ROS 2, or a far one."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+
+from bot_console.tui.cli.attach.choice import choose
+from bot_console.tui.cli.attach.options import AttachOptions, parse
+from bot_console.tui.cli.system.domain import others_take_part
+
+
+def run(words: Sequence[str]) -> int:
+    """Show the console on what is chosen; exit code 2 where that is not clear and nobody can be asked."""
+    options = parse(words)
+    if options.way is not None:
+        return _needs_terminal() or _network(options)
+    kind = choose(ros=options.ros, embedded=options.embedded, system_there=others_take_part())
+    if kind.code:
+        print(kind.text, file=sys.stderr)
+        return kind.code
+    if kind.ros is not None:
+        return _needs_terminal() or _ros(options, str(kind.ros))
+    from bot_console.tui.cli.show import run as show
+
+    return show(options.look)
+
+
+def _needs_terminal() -> int:
+    if sys.stdout.isatty() and sys.stdin.isatty():
+        return 0
+    print("bot-console needs a terminal; without one, use `bot-console doctor` or the verbs of ros2", file=sys.stderr)
+    return 1
+
+
+def _network(options: AttachOptions) -> int:
+    from bot_console.tui.cli.attach.network import run_network
+
+    return run_network(options)
+
+
+def _ros(options: AttachOptions, place: str) -> int:
+    from bot_console.tui.cli.attach.ros import run_ros
+
+    return run_ros(options, place)

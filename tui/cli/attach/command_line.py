@@ -1,0 +1,102 @@
+"""`ros2 ...` lines by the machine's own `ros2`."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import shutil
+import signal
+import subprocess
+import threading
+from collections.abc import Sequence
+from concurrent.futures import Future
+
+from bot_console.tui.console.lines import RunningLine, goes_on
+from bot_console.tui.console.protocol import Stream
+
+LINE_LIMIT = 15.0
+"""Seconds after which a line that does not end by itself is interrupted, as by Ctrl-C."""
+GRACE = 3.0
+"""Seconds that it then has to end."""
+
+
+class _Streamed:
+    """A line in a process, and the last of what it has printed."""
+
+    def __init__(self, words: Sequence[str]) -> None:
+        self._printed = RunningLine()
+        self._process = _start(words)
+        threading.Thread(target=self._read, name="ros2", daemon=True).start()
+
+    def _read(self) -> None:
+        with self._process.stdout or open(os.devnull, "rb") as printed:
+            for line in printed:
+                self._printed.append(line.decode("utf-8", "replace"))
+        self._process.wait()
+        self._printed.end()
+
+    def lines(self) -> Sequence[str]:
+        """The last lines; the same object until there are more."""
+        return self._printed.lines()
+
+    @property
+    def ended(self) -> bool:
+        """Whether nothing more comes."""
+        return self._printed.ended
+
+    def stop(self) -> None:
+        """Interrupt it, as Ctrl-C does."""
+        if self._process.poll() is None:
+            self._process.send_signal(signal.SIGINT)
+
+
+class MachineCommandLine:
+    """Runs each line as a process; `tui.console.protocol.CommandLine`."""
+
+    def stream(self, line: str) -> Stream | None:
+        """Begin a line that goes on by itself; None for any other, and where there is no such command."""
+        try:
+            words = _words(line)
+        except ValueError:
+            return None
+        return _Streamed(words) if goes_on(words[1:]) and shutil.which(words[0]) else None
+
+    def run(self, line: str) -> Future[str]:
+        """Run a line beside the caller; what it printed, or the `ValueError` of a quotation mark without its twin."""
+        outcome: Future[str] = Future()
+
+        def work() -> None:
+            try:
+                outcome.set_result(printed_by(line))
+            except Exception as error:  # the border of the thread
+                outcome.set_exception(error)
+
+        threading.Thread(target=work, name="ros2", daemon=True).start()
+        return outcome
+
+
+def printed_by(line: str, limit: float = LINE_LIMIT) -> str:
+    """What a line printed, errors among it."""
+    words = _words(line)
+    if shutil.which(words[0]) is None:
+        return f"there is no command '{words[0]}' on this machine's PATH: is its ROS 2 sourced?"
+    process = _start(words)
+    for patience, end in ((limit, lambda: process.send_signal(signal.SIGINT)), (GRACE, process.kill)):
+        try:
+            printed, _ = process.communicate(timeout=patience)
+            return printed.decode("utf-8", "replace")
+        except subprocess.TimeoutExpired:
+            end()
+    printed, _ = process.communicate()
+    return printed.decode("utf-8", "replace")
+
+
+def _words(line: str) -> list[str]:
+    words = shlex.split(line)
+    return words if words[:1] in (["ros2"], ["colcon"]) else ["ros2", *words]
+
+
+def _start(words: Sequence[str]) -> subprocess.Popen[bytes]:
+    return subprocess.Popen(
+        words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True
+    )

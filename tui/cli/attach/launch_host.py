@@ -1,0 +1,118 @@
+"""The process that runs one launch file on a real ROS 2: its LaunchService can run in a main thread only.
+
+`python -m bot_console.tui.cli.attach.launch_host --owner DESCRIPTOR`. It serves what `tui.console.launch_host` defines.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import queue
+import socket
+import subprocess
+import sys
+import threading
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from bot_console.tui.cli.live.launch_lines import launch_variables
+from bot_console.tui.cli.live.system_vitals import SystemVitals
+from bot_console.tui.console.launch.launcher import RosLauncher
+from bot_console.tui.console.launch.output import Add
+from bot_console.tui.console.launch_host.host import LaunchHost, Printed
+
+SWITCH = "bot_console.tui.cli.attach.launch_host"
+
+
+def start_host() -> tuple[subprocess.Popen[bytes], socket.socket]:
+    """Start a host that this process owns: when it hangs up, the host ends all that it has started, then itself.
+
+    What launch writes to its screen comes by the process's standard output.
+    """
+    ours, theirs = socket.socketpair()
+    with theirs:
+        process = subprocess.Popen(
+            [sys.executable, "-m", SWITCH, "--owner", str(theirs.fileno())],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            pass_fds=[theirs.fileno()],
+            start_new_session=True,
+            env=launch_variables(os.environ),
+        )
+    return process, ours
+
+
+class Turn:
+    """A piece of work for the main thread."""
+
+    def __init__(self, work: Callable[[], None]) -> None:
+        self.work = work
+        self.done = threading.Event()
+
+    def join(self, timeout: float | None = None) -> object:
+        """Wait for its end, at most so many seconds."""
+        return self.done.wait(timeout)
+
+
+class MainThread:
+    """Does in the main thread what others ask for, one piece after the other."""
+
+    def __init__(self) -> None:
+        self._turns: queue.SimpleQueue[Turn | None] = queue.SimpleQueue()
+
+    def spawn(self, work: Callable[[], None], file: str) -> Turn:
+        """Have a launch run as soon as the one before has ended."""
+        turn = Turn(work)
+        self._turns.put(turn)
+        return turn
+
+    def serve(self) -> None:
+        """Work until `end`."""
+        while (turn := self._turns.get()) is not None:
+            try:
+                turn.work()
+            finally:
+                turn.done.set()
+
+    def end(self) -> None:
+        """Take no more."""
+        self._turns.put(None)
+
+
+def launch_files() -> Sequence[str]:
+    """The launch files of all packages that the environment has."""
+    from ament_index_python.packages import get_packages_with_prefixes
+
+    found: list[str] = []
+    for name, prefix in sorted(get_packages_with_prefixes().items()):
+        folder = Path(prefix) / "share" / name
+        found += (str(each) for each in sorted(folder.glob("**/*.launch.*")) if each.suffix in (".py", ".xml", ".yaml"))
+    return tuple(found)
+
+
+def main(words: Sequence[str] | None = None) -> int:
+    """Serve until everything was ended: by a console, or because the owner has gone."""
+    parser = argparse.ArgumentParser("launch_host")
+    parser.add_argument("--owner", type=int, required=True, metavar="DESCRIPTOR", help="the socket of the console")
+    given = parser.parse_args(words)
+    main_thread = MainThread()
+
+    def make(record: Add, printed: Printed) -> RosLauncher:
+        return RosLauncher(record, printed, launch_files, main_thread.spawn, SystemVitals)
+
+    host = LaunchHost(make)
+
+    def end_when_over() -> None:
+        host.over.wait()
+        main_thread.end()
+
+    threading.Thread(target=end_when_over, name="end", daemon=True).start()
+    host.connect(socket.socket(fileno=given.owner), owner=True)
+    main_thread.serve()
+    host.close()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,85 @@
+"""Whether a real ROS 2 is there: an `rclpy` that is none of ours. ROS_DISTRO tells nothing, since we set it, too."""
+
+from __future__ import annotations
+
+import importlib.machinery
+import os
+import re
+import sys
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+RUNTIME = Path(__file__).resolve().parents[3] / "runtime"
+_EXTENSION = re.compile(r"_rclpy_pybind11\.(?:cpython-)?(\d)(\d+)")
+_FOLDER = re.compile(r"python(\d)\.(\d+)$")
+
+
+@dataclass(frozen=True)
+class MachineRos:
+    """An `rclpy` of the machine: its folder, and the Python that it is for where that is not the one that runs."""
+
+    folder: Path
+    other_python: str = ""
+
+    @property
+    def usable(self) -> bool:
+        """Whether this program can import it."""
+        return not self.other_python
+
+    def __str__(self) -> str:
+        distro = os.environ.get("ROS_DISTRO", "")
+        return f"ROS 2 {distro}".rstrip() + f" ({self.folder})"
+
+
+def find_machine_ros(path: Iterable[str] | None = None) -> MachineRos | None:
+    """The `rclpy` that an import would find without our finder, else one that the sourced prefixes have."""
+    found = _importable(path)
+    if found is not None:
+        return found
+    for folder in _of_prefixes():
+        match = _FOLDER.search(folder.parent.parent.name)
+        other = f"{match[1]}.{match[2]}" if match else "another version"
+        return MachineRos(folder, "" if other == _running() else other)
+    return None
+
+
+def how_to_install(ros: MachineRos) -> str:
+    """One line for whoever has a ROS 2 of another Python."""
+    python = f"python{ros.other_python}" if ros.other_python[:1].isdigit() else "python3"
+    return (
+        f"{ros} is sourced, and it is for Python {ros.other_python}, while this bot-console runs on {_running()}: "
+        f"install it there, by `{python} -m pip install --user bot-console`, or by `{python} -m venv "
+        "--system-site-packages ~/bot-console && ~/bot-console/bin/pip install bot-console`"
+    )
+
+
+def _importable(path: Iterable[str] | None) -> MachineRos | None:
+    spec = importlib.machinery.PathFinder.find_spec("rclpy", None if path is None else list(path))
+    if spec is None or not spec.origin:
+        return None
+    origin = Path(spec.origin)
+    if origin.name != "__init__.py" or RUNTIME in origin.resolve().parents:
+        return None  # ours, or one of the modules that stand in for it in processes that we start
+    return MachineRos(origin.parent, _other_python(origin.parent))
+
+
+def _other_python(folder: Path) -> str:
+    """The Python that its extension module was built for, where this one cannot load it."""
+    extensions = [*folder.glob("_rclpy_pybind11*"), *folder.parent.glob("_rclpy_pybind11*")]
+    names = [each.name for each in extensions if each.suffix in (".so", ".pyd")]
+    suffixes = tuple(importlib.machinery.EXTENSION_SUFFIXES)
+    if not names or any(name == "_rclpy_pybind11" + suffix for name in names for suffix in suffixes):
+        return ""
+    match = _EXTENSION.match(names[0])
+    return f"{match[1]}.{match[2]}" if match else "another version"
+
+
+def _of_prefixes() -> Iterator[Path]:
+    for prefix in filter(None, os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)):
+        for lib in ("lib", "local/lib"):
+            yield from sorted(Path(prefix).glob(f"{lib}/python*/*-packages/rclpy"))
+
+
+def _running() -> str:
+    return f"{sys.version_info.major}.{sys.version_info.minor}"

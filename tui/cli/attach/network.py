@@ -1,0 +1,78 @@
+"""The console on a robot that is reached over a network, by its Zenoh router."""
+
+from __future__ import annotations
+
+import sys
+import time
+
+from bot_console.runtime.rmw.zenoh.link_probe import LinkState
+from bot_console.runtime.rmw.zenoh.network_bus import NetworkBuses
+from bot_console.runtime.rmw.zenoh.session import SessionError
+from bot_console.tui.cli.attach.options import AttachOptions
+from bot_console.tui.cli.attach.session import AttachedSession
+from bot_console.tui.cli.live.process_news import tell_news
+from bot_console.tui.cli.live.ros2_command_line import Ros2CommandLine
+from bot_console.tui.cli.system.connecting import connect
+from bot_console.tui.cli.system.domain import domain
+from bot_console.tui.cli.system.workspaces import choose
+from bot_console.tui.console.connection import RosConsole
+from bot_console.tui.console.model import Capabilities, LinkInfo, Severity
+
+CAPABILITIES = Capabilities(
+    launch="Processes are not known over a network: launch on the robot itself, or run the console there (over SSH).",
+)
+SAID = (
+    "Connected to {} in ROS domain {}: q ends the console, not the robot. If the link is lost, the robot has to stop "
+    "by itself: `bot-console doctor` looks whether it has a time-out for commands."
+)
+
+
+def run_network(options: AttachOptions) -> int:
+    """Connect, then show the console; 1 where there is no connection, with the reason."""
+    assert options.way is not None
+    try:
+        buses = connect(options.way)
+    except SessionError as error:
+        print(error, file=sys.stderr)
+        return 1
+    choose(options.look.workspace)
+    from bot_console.tui.cli.live.session import graph_events
+
+    console = RosConsole(capabilities=CAPABILITIES, graph_events=graph_events, link=LinkWords(buses).info, foreign=True)
+    said = [(Severity.INFO, SAID.format(options.way, domain()))]
+
+    def first_frame() -> None:
+        from bot_console.runtime.process.virtual.install import reinstall_stdio
+
+        reinstall_stdio()
+
+    forget = tell_news(console.printed, console.learn)
+    try:
+        return AttachedSession(console, Ros2CommandLine(), options.look, said=said, on_first_frame=first_frame).run()
+    finally:
+        forget()
+        buses.close()
+
+
+class LinkWords:
+    """How the link is, in steps that are worth drawing; the same object until it changes."""
+
+    def __init__(self, buses: NetworkBuses) -> None:
+        self._buses = buses
+        self._info = LinkInfo()
+
+    def info(self) -> LinkInfo:
+        """What is known now."""
+        info = words_of(self._buses.link(), time.monotonic())
+        if info != self._info:
+            self._info = info
+        return self._info
+
+
+def words_of(state: LinkState, now: float) -> LinkInfo:
+    """A state of the link at a moment; delays in steps of a tenth of themselves, so that it does not flicker."""
+    silent = 0 if state.heard is None else int(now - state.heard)
+    delay = None if state.delay is None else max(1, round(state.delay * 1000))
+    if delay is not None and delay > 20:
+        delay = round(delay, -1)
+    return LinkInfo(state.to, delay, silent, state.lost)

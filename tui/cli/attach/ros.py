@@ -1,0 +1,34 @@
+"""The console on the ROS 2 of this machine: its own rclpy, launch and `ros2`, and nothing of the embedded runtime."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from bot_console.tui.cli.attach.command_line import MachineCommandLine
+from bot_console.tui.cli.attach.launchers import HostLaunchers
+from bot_console.tui.cli.attach.options import AttachOptions
+from bot_console.tui.cli.attach.session import AttachedSession
+from bot_console.tui.console.connection import RosConsole
+from bot_console.tui.console.model import Capabilities, LaunchInfo, Severity
+
+PROFILES = Path(__file__).resolve().parents[3] / "profiles"
+CAPABILITIES = Capabilities(
+    launched_elsewhere="What others have launched is not known here; its nodes are in the Graph pane. o launches more."
+)
+SAID = "On {}, RMW {}: q ends the console and what it has launched, not the robot."
+
+
+def run_ros(options: AttachOptions, described: str) -> int:
+    """Show the console; the ROS names mean what the machine has."""
+
+    def launched() -> LaunchInfo:
+        return launchers.info()
+
+    console = RosConsole(launch_info=launched, profile_folders=[PROFILES], capabilities=CAPABILITIES, foreign=True)
+    launchers = HostLaunchers(console.record, console.printed)
+    said = [(Severity.INFO, SAID.format(described, os.environ.get("RMW_IMPLEMENTATION", "as installed")))]
+    session = AttachedSession(
+        console, MachineCommandLine(), options.look, launcher=launchers, said=said, on_close=launchers.close
+    )
+    return session.run()

@@ -1,0 +1,89 @@
+"""A run of the console on a system that it has not started, and that goes on when it ends."""
+
+from __future__ import annotations
+
+import contextlib
+import signal
+import threading
+from collections.abc import Callable, Generator, Sequence
+from dataclasses import replace
+from types import FrameType
+
+from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.cli.arguments import Options
+from bot_console.tui.cli.live.descriptors import own_terminal
+from bot_console.tui.cli.live.for_panes import for_panes
+from bot_console.tui.cli.live.hangup import hangup_as_signal
+from bot_console.tui.cli.look import look_of
+from bot_console.tui.cli.system.plugins import find_plugins
+from bot_console.tui.console.connection import RosConsole
+from bot_console.tui.console.model import Severity
+from bot_console.tui.console.protocol import CommandLine, Launcher
+
+READY = 20.0
+
+
+class AttachedSession:
+    """Console, app and terminal."""
+
+    def __init__(
+        self,
+        console: RosConsole,
+        command_line: CommandLine,
+        options: Options,
+        *,
+        launcher: Launcher | None = None,
+        said: Sequence[tuple[Severity, str]] = (),
+        on_first_frame: Callable[[], None] = lambda: None,
+        on_close: Callable[[], None] = lambda: None,
+    ) -> None:
+        """`said` are lines for the log; `on_close` ends what was started beside, before the console leaves."""
+        self._console = console
+        self._said = said
+        self._first_frame = on_first_frame
+        self._on_close = on_close
+        self._has_begun: Callable[[], None] = lambda: None
+        look = look_of(options)
+        self.app = BotConsoleApp(
+            *for_panes(console, launcher, command_line, read_only=options.read_only),
+            opening=replace(options.opening, notes=(*options.opening.notes, *look.notes)),
+            on_first_frame=self._on_first_frame,
+            look=look,
+            plugins=find_plugins,
+        )
+
+    def run(self) -> int:
+        """Show the console until it is quit. A robot that it steers is left standing; all else goes on."""
+        with own_terminal(self._console.printed) as self._has_begun, self._ended_by_signals(), hangup_as_signal():
+            try:
+                self.app.run()
+            finally:
+                self.app.stage.arranging.arrangement.remember()
+                self._on_close()
+                self._console.close()
+        return self.app.return_code or 0
+
+    def _on_first_frame(self) -> None:
+        self._has_begun()
+        self._first_frame()
+        self._console.start()
+        threading.Thread(target=self._tell, name="start", daemon=True).start()
+
+    def _tell(self) -> None:
+        if self._console.wait_ready(READY):
+            for severity, line in self._said:
+                self._console.printed(severity, "bot-console", line)
+
+    @contextlib.contextmanager
+    def _ended_by_signals(self) -> Generator[None]:
+        """SIGINT, SIGTERM and SIGHUP end the app as `q` does."""
+
+        def end(number: int, frame: FrameType | None) -> None:
+            self.app.exit(return_code=128 + number)
+
+        before = {each: signal.signal(each, end) for each in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
+        try:
+            yield
+        finally:
+            for each, handler in before.items():
+                signal.signal(each, handler)

@@ -1,0 +1,283 @@
+"""`bot-console bag record|play|info|snapshot`, as `ros2 bag` has them."""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+import threading
+import time
+from collections.abc import Callable, Sequence
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+from bot_console.runtime.importer import install
+from bot_console.tui.cli.system.domain import take_part
+from bot_console.tui.files.save_file import NotSaved
+from bot_console.tui.format import harmless
+
+RECORDER = "rosbag2_recorder"
+SNAPSHOT = f"/{RECORDER}/snapshot"
+LARGEST_RING = 512 * 1024 * 1024
+"""Bytes that a snapshot keeps at most."""
+READY = 0.5
+"""Seconds that a player waits for its readers before the first message."""
+
+
+def run(words: Sequence[str]) -> int:
+    """Run a `bag` command line; 0 done, 1 failed, 2 wrong usage."""
+    install()
+    from bot_console.tui.console.bags.needed import Missing
+    from bot_console.tui.console.bags.reader import NoBag
+
+    given = _parser().parse_args(words)
+    try:
+        return given.run(given)
+    except (Missing, NoBag, NotSaved, re.error) as error:
+        print(harmless(str(error)), file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:  # before there was a node that ends in order
+        return 130
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser("bot-console bag", description="Record topics, and play what was recorded.")
+    verbs = parser.add_subparsers(required=True, metavar="VERB")
+    record = verbs.add_parser("record", help="record topics to an MCAP bag")
+    record.set_defaults(run=_record)
+    record.add_argument("topics", nargs="*", metavar="TOPIC")
+    record.add_argument("-a", "--all", action="store_true", help="all topics, also those that come later")
+    record.add_argument("-e", "--regex", default="", help="topics whose names have it")
+    record.add_argument("-x", "--exclude-regex", default="", help="but for those whose names have this")
+    record.add_argument("-o", "--output", type=Path, metavar="FOLDER", help="else rosbag2_ and the time")
+    record.add_argument("--duration", type=float, metavar="S", help="end after so many seconds")
+    record.add_argument("--snapshot-mode", action="store_true", help="keep in memory; `bag snapshot` writes it")
+    record.add_argument("--snapshot-duration", type=float, default=300.0, metavar="S", help="how much to keep (300)")
+    play = verbs.add_parser("play", help="publish what is in a bag")
+    play.set_defaults(run=_play)
+    play.add_argument("bag", type=Path)
+    play.add_argument("-r", "--rate", type=_positive, default=1.0, help="how fast; 2 is twice as fast as it was")
+    play.add_argument("-l", "--loop", action="store_true", help="begin again at the end")
+    play.add_argument("--topics", nargs="+", metavar="TOPIC", help="only these")
+    play.add_argument("--remap", "-m", nargs="+", default=[], metavar="OLD:=NEW", help="other names for topics")
+    play.add_argument("--start-offset", type=float, default=0.0, metavar="S", help="leave out the first seconds")
+    play.add_argument("--clock", nargs="?", type=_positive, const=40.0, default=0.0, help="publish /clock (40 Hz)")
+    info = verbs.add_parser("info", help="what is in a bag")
+    info.set_defaults(run=_info)
+    info.add_argument("bag", type=Path)
+    snapshot = verbs.add_parser("snapshot", help="let a recorder in snapshot mode write what it keeps")
+    snapshot.set_defaults(run=_snapshot)
+    return parser
+
+
+def _positive(text: str) -> float:
+    value = float(text)
+    if not 0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"must be positive, not {text}")
+    return value
+
+
+def _wanted(given: argparse.Namespace) -> Callable[[str], bool]:
+    named = {f"/{each.lstrip('/')}" for each in given.topics}
+    regex, excluded = (re.compile(each) if each else None for each in (given.regex, given.exclude_regex))
+
+    def wanted(topic: str) -> bool:
+        if excluded is not None and excluded.search(topic):
+            return False
+        return given.all or topic in named or (regex is not None and regex.search(topic) is not None)
+
+    return wanted
+
+
+def _find(name: str) -> Any:
+    from rosidl_runtime_py.utilities import get_message
+
+    return get_message(name)
+
+
+def _record(given: argparse.Namespace) -> int:
+    from bot_console.tui.console.bags.recorder import Recorder, Ring
+    from bot_console.tui.console.bags.writer import BagWriter
+
+    if not (given.all or given.topics or given.regex):
+        print("Name topics, or --regex, or record --all of them", file=sys.stderr)
+        return 2
+    wanted = _wanted(given)
+    folder = given.output or _new_folder()
+    sink = Ring(given.snapshot_duration, LARGEST_RING) if given.snapshot_mode else BagWriter(folder)
+    node = _node(RECORDER)
+    if node is None:
+        return 1
+    recorder = Recorder(node, sink, wanted, _find)
+    logger = node.get_logger()
+    told: set[str] = set()
+
+    def tell() -> None:
+        for name in recorder.subscribed.keys() - told:
+            logger.info(f"Subscribed to topic '{name}'")
+        for name in recorder.unknown.keys() - told:
+            logger.warning(f"Topic '{name}' is not recorded: {recorder.unknown[name]}")
+        told.update(recorder.subscribed, recorder.unknown)
+
+    node.create_timer(0.5, tell)
+    if isinstance(sink, Ring):
+        _offer_snapshots(node, sink, given.output)
+        logger.info(f"Keeping the last {given.snapshot_duration:g} s; `bot-console bag snapshot` writes them")
+    else:
+        logger.info(f"Recording to {folder}")
+    _spin(node, given.duration)
+    recorder.close()
+    if isinstance(sink, BagWriter):
+        sink.close()
+        print(f"{sink.metadata.count} messages of {len(sink.metadata.topics)} topics in {folder}", file=sys.stderr)
+    return 0
+
+
+def _offer_snapshots(node: Any, ring: Any, output: Path | None) -> None:
+    from bot_console.tui.console.bags.writer import BagWriter
+    from std_srvs.srv import Trigger
+
+    def write(_: Any, answer: Any) -> Any:
+        folder = _new_folder(output)
+        try:
+            writer = BagWriter(folder)
+            count = ring.pour(writer)
+            writer.close()
+        except NotSaved as error:
+            answer.success, answer.message = False, str(error)
+            return answer
+        answer.success, answer.message = True, f"{count} messages in {folder.resolve()}"
+        return answer
+
+    node.create_service(Trigger, "~/snapshot", write)
+
+
+def _snapshot(given: argparse.Namespace) -> int:
+    import rclpy
+    from std_srvs.srv import Trigger
+
+    node = _node("_snapshot")
+    if node is None:
+        return 1
+    client = node.create_client(Trigger, SNAPSHOT)
+    if not client.wait_for_service(timeout_sec=1.0):
+        print("No recorder in snapshot mode runs: `bot-console bag record --all --snapshot-mode`", file=sys.stderr)
+        return 1
+    future = client.call_async(Trigger.Request())
+    rclpy.spin_until_future_complete(node, future, timeout_sec=30.0)
+    answer = future.result()
+    if answer is None:
+        print("The recorder has not answered within 30 s", file=sys.stderr)
+        return 1
+    print(harmless(answer.message), file=sys.stdout if answer.success else sys.stderr)
+    return 0 if answer.success else 1
+
+
+def _play(given: argparse.Namespace) -> int:
+    from bot_console.tui.console.bags.player import Player, Playing
+    from bot_console.tui.console.bags.reader import Bag
+
+    bag = Bag(given.bag)
+    _tell_mended(bag)
+    remaps = dict(each.split(":=", 1) for each in given.remap if ":=" in each)
+    node = _node("rosbag2_player")
+    if node is None:
+        return 1
+    how = Playing(given.rate, given.start_offset, given.loop, given.topics, remaps, given.clock)
+    player = Player(node, bag, how, _find)
+    for name, why in player.unknown.items():
+        node.get_logger().warning(f"Topic '{name}' is not played: {why}")
+    stopped = threading.Event()
+
+    def play() -> None:
+        if not stopped.wait(READY):
+            player.run(stopped)
+        stopped.set()
+
+    thread = threading.Thread(target=play, name="player", daemon=True)
+    thread.start()
+    _spin(node, None, stopped)
+    stopped.set()
+    thread.join(5.0)
+    print(f"{player.published} messages published", file=sys.stderr)
+    return 0
+
+
+def _info(given: argparse.Namespace) -> int:
+    from bot_console.tui.console.bags.reader import Bag
+
+    bag = Bag(given.bag)
+    _tell_mended(bag)
+    about = bag.metadata
+    size = sum(each.stat().st_size for each in bag.files)
+    rows = [
+        ("Files", ", ".join(each.name for each in bag.files)),
+        ("Bag size", _size(size)),
+        ("Storage id", "sqlite3" if bag.files[0].suffix == ".db3" else "mcap"),
+        ("Duration", f"{(about.end - about.begin) / 1e9:.9f}s"),
+        ("Start", _time(about.begin)),
+        ("End", _time(about.end)),
+        ("Messages", str(about.count)),
+    ]
+    lines = [f"{name + ':':<19}{value}" for name, value in rows]
+    topics = [
+        f"Topic: {each.name} | Type: {each.type} | Count: {each.count} | Serialization Format: cdr"
+        for each in sorted(about.topics.values(), key=lambda topic: topic.name)
+    ]
+    lines += [f"{'Topic information:' if not at else '':<19}{topic}" for at, topic in enumerate(topics)]
+    print("\n".join(harmless(line) for line in lines))
+    return 0
+
+
+def _tell_mended(bag: Any) -> None:
+    for each in bag.mended:
+        print(f"{each} had no end, as a killed recorder leaves it, and was given one", file=sys.stderr)
+
+
+def _size(count: int) -> str:
+    value, unit = float(count), "B"
+    for unit in ("B", "KiB", "MiB", "GiB"):
+        if value < 1024 or unit == "GiB":
+            break
+        value /= 1024
+    return f"{value:.1f} {unit}" if unit != "B" else f"{count} B"
+
+
+def _time(stamp: int) -> str:
+    when = datetime.fromtimestamp(stamp // 10**9)
+    return f"{when:%b %d %Y %H:%M:%S}.{stamp % 10**9:09} ({stamp // 10**9}.{stamp % 10**9:09})"
+
+
+def _new_folder(near: Path | None = None) -> Path:
+    base = near or Path(f"rosbag2_{time.strftime('%Y_%m_%d-%H_%M_%S')}")
+    found, number = base, 0
+    while found.exists():
+        number += 1
+        found = base.with_name(f"{base.name}_{number}")
+    return found
+
+
+def _node(name: str) -> Any:
+    """A node in the domain; None, and a line, where nobody can take part."""
+    import rclpy
+
+    alone = take_part()
+    if alone:
+        print(alone, file=sys.stderr)
+        return None
+    rclpy.init(args=[])
+    return rclpy.create_node(name, start_parameter_services=False)
+
+
+def _spin(node: Any, duration: float | None, stopped: threading.Event | None = None) -> None:
+    """Spin until the time has come, or somebody stops it or ends the program in order."""
+    import rclpy
+    from rclpy.executors import ExternalShutdownException
+
+    end = None if duration is None else time.monotonic() + duration
+    try:
+        while not (stopped is not None and stopped.is_set()) and (end is None or time.monotonic() < end):
+            rclpy.spin_once(node, timeout_sec=0.1)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass

@@ -1,0 +1,103 @@
+"""`bot-console doctor`: looks at everything that a console depends on, and says how to mend what is wrong."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from bot_console.runtime.importer import install
+from bot_console.runtime.rmw.zenoh.network import Way
+from bot_console.tui import __version__
+from bot_console.tui.cli.attach.machine_ros import find_machine_ros
+from bot_console.tui.cli.attach.options import add_network_options, network_way
+from bot_console.tui.cli.doctor.finding import Finding, Level, as_json, exit_code
+from bot_console.tui.cli.doctor.machine import machine_findings
+from bot_console.tui.cli.doctor.terminal import terminal_findings
+
+EPILOG = """\
+examples:
+  bot-console doctor                               this terminal, this machine, and what runs on it
+  bot-console doctor --ros                         the ROS 2 that is sourced
+  bot-console doctor --connect tcp/robot:7447      a robot: link, clocks, types, QoS, its time-out for commands
+  bot-console doctor --connect tcp/robot:7447 --capture robot.json
+  bot-console doctor --json                        for scripts
+
+exit codes: 0 all is well enough, 1 something fails, 2 wrong usage
+"""
+
+
+def run(words: Sequence[str]) -> int:
+    """Look, and print what was found."""
+    parser = _parser()
+    given = parser.parse_args(words)
+    way = network_way(parser, given)
+    if given.ros and way is not None:
+        parser.error("--ros and --connect exclude each other")
+    if given.capture and given.ros:
+        parser.error("--capture goes with --connect or a system of this program: it records what Zenoh carries")
+    findings: list[Finding] = []
+
+    def tell(found: Sequence[Finding]) -> None:
+        findings.extend(found)
+        if not given.json:
+            for each in found:
+                print(each.line(), flush=True)
+
+    tell(terminal_findings(os.environ))
+    tell(machine_findings(os.environ))
+    if given.ros:
+        _ros(tell)
+    else:
+        _zenoh(way, given.seconds, given.capture, tell)
+    if given.json:
+        print(json.dumps(as_json(findings), indent=2))
+    return exit_code(findings)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        "bot-console doctor",
+        description="Looks at everything that a console depends on, and says how to mend what is wrong.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add_network_options(parser)
+    add = parser.add_argument
+    add("--ros", action="store_true", help="ask the ROS 2 of this machine, by its own rclpy")
+    add("--json", action="store_true", help="a list of findings for scripts")
+    add("--seconds", type=float, default=2.0, metavar="S", help="how long to listen to messages")
+    add("--capture", type=Path, metavar="FILE", help="write tokens and attachments of what runs, as tests read them")
+    return parser
+
+
+def _ros(tell: Callable[[Sequence[Finding]], None]) -> None:
+    ros = find_machine_ros()
+    if ros is None or not ros.usable:
+        tell([Finding(Level.FAIL, "ros", "no rclpy that this Python can import", "see `bot-console attach --ros`")])
+        return
+    from bot_console.tui.cli.doctor.nodes import node_findings
+
+    tell(node_findings())
+
+
+def _zenoh(way: Way | None, seconds: float, capture: Path | None, tell: Callable[[Sequence[Finding]], None]) -> None:
+    from bot_console.runtime.rmw.zenoh.session import SessionError
+    from bot_console.tui.cli.system.domain import others_take_part
+
+    if way is None and not others_take_part():
+        tell([Finding(Level.NOTE, "graph", "no system of this program runs in this ROS domain")])
+        return
+    install()
+    from bot_console.tui.cli.doctor.system import examine
+
+    try:
+        tell(examine(way, seconds, capture, f"bot-console {__version__}"))
+    except (SessionError, RuntimeError) as error:
+        tell([Finding(Level.FAIL, "link", str(error))])
+    except OSError as error:
+        print(f"cannot write {capture}: {error.strerror}", file=sys.stderr)
+        tell([Finding(Level.FAIL, "capture", f"cannot write {capture}: {error.strerror}")])

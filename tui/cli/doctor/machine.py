@@ -1,0 +1,87 @@
+"""Of this machine: Python, ROS, the domain, and what earlier programs have left."""
+
+from __future__ import annotations
+
+import os
+import platform
+import sys
+from collections.abc import Mapping
+
+from bot_console.tui import __version__
+from bot_console.tui.cli.attach.machine_ros import MachineRos, find_machine_ros, how_to_install
+from bot_console.tui.cli.doctor.finding import Finding, Level
+
+OLDEST, NEWEST = (3, 10), (3, 13)
+MOST = 101
+"""The greatest domain that every DDS takes on Linux."""
+
+
+def machine_findings(environment: Mapping[str, str]) -> list[Finding]:
+    """All of it."""
+    return [
+        python_finding(),
+        ros_finding(find_machine_ros(), environment),
+        domain_finding(environment.get("ROS_DOMAIN_ID", "")),
+        *sockets_findings(),
+    ]
+
+
+def python_finding(version: tuple[int, int] = sys.version_info[:2]) -> Finding:
+    """Which Python this is."""
+    text = f"bot-console {__version__} on Python {platform.python_version()}, {platform.system()} {platform.machine()}"
+    if OLDEST <= version <= NEWEST:
+        return Finding(Level.OK, "python", text)
+    tried = f"{OLDEST[0]}.{OLDEST[1]} to {NEWEST[0]}.{NEWEST[1]}"
+    return Finding(Level.WARN, "python", text, f"it is tried on {tried}: take one of these")
+
+
+def ros_finding(ros: MachineRos | None, environment: Mapping[str, str]) -> Finding:
+    """Whether a real ROS 2 is there, and for which Python."""
+    rmw = environment.get("RMW_IMPLEMENTATION", "")
+    if ros is None:
+        text = "no ROS 2 is sourced; the embedded runtime needs none"
+        if rmw or environment.get("AMENT_PREFIX_PATH"):
+            mend = "source its setup file again, and look whether `python3 -c 'import rclpy'` works"
+            return Finding(Level.WARN, "ros", "variables of a ROS 2 are set, but its rclpy is not found", mend)
+        return Finding(Level.OK, "ros", text)
+    if not ros.usable:
+        return Finding(Level.WARN, "ros", f"{ros} is for Python {ros.other_python}", how_to_install(ros))
+    return Finding(Level.OK, "ros", f"{ros}{f', {rmw}' if rmw else ''}: `bot-console attach --ros`")
+
+
+def domain_finding(text: str) -> Finding:
+    """What ROS_DOMAIN_ID says."""
+    if not text:
+        return Finding(Level.OK, "domain", "ROS_DOMAIN_ID is not set: 0")
+    if not text.isdecimal():
+        return Finding(Level.FAIL, "domain", f"ROS_DOMAIN_ID={text} is no number", "unset it, or set 0 to 101")
+    if int(text) > MOST:
+        mend = "DDS takes 0 to 101 on every system; Zenoh takes any"
+        return Finding(Level.WARN, "domain", f"ROS_DOMAIN_ID={text} is beyond {MOST}", mend)
+    return Finding(Level.OK, "domain", f"ROS_DOMAIN_ID={text}")
+
+
+def sockets_findings() -> list[Finding]:
+    """The programs that meet in the domain's folder, and the sockets of those that are dead or stopped."""
+    if os.name == "nt":
+        return [Finding(Level.NOTE, "sockets", "programs do not meet on this system, which has no Unix sockets")]
+    from bot_console.runtime.rmw.zenoh.domain_folder import FolderRefusedError, domain_folder
+    from bot_console.runtime.rmw.zenoh.sockets import sockets
+    from bot_console.tui.cli.system.domain import domain
+
+    try:
+        folder = domain_folder(domain())
+    except FolderRefusedError as error:
+        return [Finding(Level.FAIL, "sockets", "programs of this user cannot meet", str(error))]
+    found = sockets(folder)
+    dead = [each for each in found if each.is_dead()]
+    stopped = [each for each in found if each not in dead and each.is_stopped()]
+    text = f"{len(found) - len(dead)} programs in {folder}"
+    findings = [Finding(Level.OK, "sockets", text)]
+    if dead:
+        text = f"{len(dead)} of programs that were killed are left over"
+        findings.append(Finding(Level.NOTE, "sockets", text, "nothing: the next program that starts removes them"))
+    for each in stopped:
+        mend = f"`kill -CONT {each.pid}`, or end it"
+        findings.append(Finding(Level.WARN, "sockets", f"process {each.pid} is stopped: its nodes are not seen", mend))
+    return findings

@@ -1,0 +1,128 @@
+"""What the graph tells by the public rclpy API, on every middleware: what does not pass, and who stops the robot."""
+
+from __future__ import annotations
+
+import importlib
+import re
+import time
+from typing import Any
+
+from bot_console.tui.cli.doctor.finding import Finding, Level
+from bot_console.tui.console.graph.pairs import hash_of, name_of, unheard
+from bot_console.tui.console.robot.stop_link import FOLDER, STATUS
+
+TWISTS = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
+TIMEOUT = re.compile(r"(cmd|command|vel|twist|input|watchdog).*time_?out|time_?out.*(cmd|command|vel)|watchdog", re.I)
+"""Names of parameters of bases and controllers that stop a robot whose commands stay away."""
+SETTLE, PATIENCE = 1.5, 3.0
+"""Seconds for the graph to be seen, and for a node to list its parameters."""
+HOW = (
+    "let the base stop by itself when commands stay away (ros2_controllers: cmd_vel_timeout; twist_mux: timeout; or "
+    "the emergency stop of docs/safety.md): a console that has lost its link cannot stop it"
+)
+
+
+def node_findings() -> list[Finding]:
+    """Ask as a node of this process's middleware."""
+    import rclpy
+
+    rclpy.init(args=[])
+    node = rclpy.create_node("_bot_console_doctor", enable_rosout=False, start_parameter_services=False)
+    try:
+        _spin(node, SETTLE)
+        return [*pair_findings(node), *type_findings(node), base_finding(node)]
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()
+
+
+def _spin(node: Any, seconds: float, until: Any = lambda: False) -> None:
+    import rclpy
+
+    end = time.monotonic() + seconds
+    while time.monotonic() < end and not until():
+        rclpy.spin_once(node, timeout_sec=0.05)
+
+
+def pair_findings(node: Any) -> list[Finding]:
+    """What keeps messages from passing."""
+    found: list[Finding] = []
+    for topic, _ in sorted(node.get_topic_names_and_types()):
+        publishers, subscriptions = (
+            node.get_publishers_info_by_topic(topic),
+            node.get_subscriptions_info_by_topic(topic),
+        )
+        for text in unheard(topic, publishers, subscriptions):
+            said, _, mend = text.rpartition("; " if "; " in text else ": ")
+            found.append(Finding(Level.WARN, "topics", said, mend))
+    return found or [Finding(Level.OK, "topics", "types, hashes and QoS of all publishers and subscriptions fit")]
+
+
+def type_findings(node: Any) -> list[Finding]:
+    """Types that are not known here, or are defined otherwise."""
+    unknown: set[str] = set()
+    other: set[str] = set()
+    for topic, types in node.get_topic_names_and_types():
+        for kind in types:
+            ours = own_hash(kind)
+            theirs = {hash_of(each) for each in node.get_publishers_info_by_topic(topic)} - {""}
+            if ours is None:
+                unknown.add(kind)
+            elif ours and theirs - {ours}:
+                other.add(kind)
+    found: list[Finding] = []
+    if other:
+        mend = "install the same version of the interfaces on both sides"
+        found.append(Finding(Level.WARN, "types", f"defined otherwise here: {', '.join(sorted(other))}", mend))
+    if unknown:
+        mend = "put their package in the workspace (--workspace DIR) or source it, to see their fields"
+        found.append(Finding(Level.NOTE, "types", f"not known here: {', '.join(sorted(unknown))}", mend))
+    return found or [Finding(Level.OK, "types", "all are known here")]
+
+
+def own_hash(type_name: str) -> str | None:
+    """The hash of a type as it is defined here; None where it is not known, empty where no hash can be told."""
+    package, _, rest = type_name.partition("/")
+    try:
+        kind = getattr(importlib.import_module(f"{package}.msg"), rest.rpartition("/")[2])
+    except (ImportError, AttributeError):
+        return None
+    try:
+        from bot_console.runtime.rosidl.type_hash import text
+
+        return text(kind)
+    except (AttributeError, TypeError, KeyError):  # a class of a real ROS 2, which checks that itself
+        return ""
+
+
+def base_finding(node: Any) -> Finding:
+    """Whether the robot stops by itself when its commands stay away."""
+    bases = {
+        name_of(each)
+        for topic, types in node.get_topic_names_and_types()
+        if any(kind in TWISTS for kind in types)
+        for each in node.get_subscriptions_info_by_topic(topic)
+        if not str(each.node_name).startswith("_")
+    }
+    if not bases:
+        return Finding(Level.NOTE, "time-out", "no node obeys velocity commands")
+    locks = [name for name, types in node.get_topic_names_and_types() if STATUS in types and FOLDER in name]
+    if locks:
+        return Finding(Level.OK, "time-out", f"the robot has an emergency stop that answers ({', '.join(locks[:2])})")
+    named = [(base, name) for base in sorted(bases) for name in _parameters(node, base) if TIMEOUT.search(name)]
+    if named:
+        listed = ", ".join(f"{base} {name}" for base, name in named[:3])
+        return Finding(Level.OK, "time-out", f"{listed}: look that it is short (0.5 s)")
+    return Finding(Level.WARN, "time-out", f"none is seen in {', '.join(sorted(bases))}", HOW)
+
+
+def _parameters(node: Any, base: str) -> list[str]:
+    from rcl_interfaces.srv import ListParameters
+
+    client = node.create_client(ListParameters, f"{base}/list_parameters")
+    _spin(node, PATIENCE, client.service_is_ready)
+    if not client.service_is_ready():
+        return []
+    answer = client.call_async(ListParameters.Request())
+    _spin(node, PATIENCE, answer.done)
+    return list(answer.result().result.names) if answer.done() else []

@@ -1,0 +1,62 @@
+"""A system that is reached by Zenoh, on this machine or by a robot's router."""
+
+from __future__ import annotations
+
+import json
+import time
+from pathlib import Path
+
+from bot_console.runtime.rmw.zenoh.attendance import await_answers
+from bot_console.runtime.rmw.zenoh.mesh import open_session
+from bot_console.runtime.rmw.zenoh.network import Way, open_network_session, with_environment
+from bot_console.runtime.rmw.zenoh.session import Session
+from bot_console.tui.cli.doctor.finding import Finding, Level
+from bot_console.tui.cli.doctor.nodes import node_findings
+from bot_console.tui.cli.doctor.wire import captured, watch_wire, wire_findings
+from bot_console.tui.cli.system.connecting import connect
+from bot_console.tui.cli.system.domain import domain, take_part
+
+FAR_MS = 300
+PROBES = 3
+
+
+def examine(way: Way | None, seconds: float, capture: Path | None, made_with: str) -> list[Finding]:
+    """Look at the link, the wire and the nodes; raises `SessionError` and, where nothing can be written, `OSError`."""
+    session = open_session(domain()) if way is None else open_network_session(domain(), with_environment(way))
+    try:
+        await_answers(session)
+        delay = answer_time(session)
+        wire = watch_wire(session, seconds)
+    finally:
+        session.close()
+    findings = [] if way is None else [link_finding(str(way), delay)]
+    findings += wire_findings(wire, delay or 0.0)
+    if capture is not None:
+        capture.write_text(json.dumps(captured(wire, [made_with]), indent=1) + "\n", encoding="utf-8")
+        text = f"{len(wire.tokens)} tokens and {sum(map(len, wire.samples.values()))} attachments are in {capture}"
+        findings.append(Finding(Level.OK, "capture", text))
+    if way is None:
+        take_part()
+    else:
+        connect(way)
+    return [*findings, *node_findings()]
+
+
+def answer_time(session: Session) -> float | None:
+    """The shortest of some answers of the other end, in s; None where none came."""
+    times: list[float] = []
+    for _ in range(PROBES):
+        began = time.monotonic()
+        if session.is_answered(1.0):
+            times.append(time.monotonic() - began)
+    return min(times, default=None)
+
+
+def link_finding(to: str, delay: float | None) -> Finding:
+    """How the router answers."""
+    if delay is None:
+        return Finding(Level.FAIL, "link", f"{to} is reached, but does not answer", "is it a router of Zenoh 1.x?")
+    text = f"{to} answers after {delay * 1000:.1f} ms"
+    if delay * 1000 > FAR_MS:
+        return Finding(Level.WARN, "link", text, "drive slowly: what you see is that old; or run the console over SSH")
+    return Finding(Level.OK, "link", text)

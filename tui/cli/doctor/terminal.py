@@ -1,0 +1,110 @@
+"""The terminal: its size, its letters and colours, and how far away it is."""
+
+from __future__ import annotations
+
+import contextlib
+import locale
+import os
+import re
+import select
+import shutil
+import sys
+import time
+from collections.abc import Generator, Mapping
+
+from bot_console.tui.cli.doctor.finding import Finding, Level
+
+ABOUT = "terminal"
+ASK, ANSWER = b"\x1b[6n", re.compile(rb"\x1b\[\d+;\d+R")
+PATIENCE = 3.0
+"""Seconds that the terminal's answer is waited for."""
+BURST = b"\x1b[0m" * 4096
+"""16 kB that show nothing."""
+SLOW_DELAY_MS, SLOW_KB_S = 300, 20
+
+
+def terminal_findings(environment: Mapping[str, str]) -> list[Finding]:
+    """What a console in this terminal would have."""
+    if not (sys.stdin.isatty() and sys.stdout.isatty()):
+        return [Finding(Level.NOTE, ABOUT, "there is none here: size, colours and delay were not looked at")]
+    found = [size_finding(*shutil.get_terminal_size()), letters_finding(), colours_finding(environment)]
+    if os.name != "nt":
+        found.append(link_finding(*_measured()))
+    return found
+
+
+def size_finding(columns: int, lines: int) -> Finding:
+    """Whether there is room."""
+    if columns < 60 or lines < 20:
+        return Finding(Level.FAIL, ABOUT, f"{columns}x{lines} is too small", "make it 60x20 or more; 80x24 is usual")
+    more = "" if columns >= 100 and lines >= 30 else "; from 100x30 on several panes show at once"
+    return Finding(Level.OK, ABOUT, f"{columns}x{lines}{more}")
+
+
+def letters_finding(encoding: str = "") -> Finding:
+    """Whether lines and braille can be drawn."""
+    encoding = encoding or locale.getpreferredencoding(False)
+    if encoding.lower().replace("-", "") == "utf8":
+        return Finding(Level.OK, ABOUT, "UTF-8")
+    return Finding(
+        Level.WARN, ABOUT, f"its locale is {encoding}, so lines and curves are ASCII", "export LANG=C.UTF-8 before it"
+    )
+
+
+def colours_finding(environment: Mapping[str, str]) -> Finding:
+    """How many colours its name promises."""
+    term = environment.get("TERM", "")
+    if environment.get("COLORTERM", "") in ("truecolor", "24bit"):
+        return Finding(Level.OK, ABOUT, f"{term}, 16 million colours")
+    if "256color" in term or "kitty" in term or "direct" in term:
+        return Finding(Level.OK, ABOUT, f"{term}, 256 colours")
+    mend = "export TERM=xterm-256color, if it is one (tmux: TERM=tmux-256color)"
+    return Finding(Level.WARN, ABOUT, f"TERM={term or '(empty)'} promises few colours", mend)
+
+
+def link_finding(delay: float | None, bytes_per_s: float | None) -> Finding:
+    """How far away it is: seconds for an answer, and what it takes in between."""
+    if delay is None or bytes_per_s is None:
+        return Finding(Level.NOTE, ABOUT, f"it did not say within {PATIENCE:g} s where its cursor is: delay unknown")
+    text = f"answers after {delay * 1000:.0f} ms, takes {bytes_per_s / 1000:,.0f} kB/s"
+    if delay * 1000 > SLOW_DELAY_MS or bytes_per_s < SLOW_KB_S * 1000:
+        return Finding(Level.WARN, ABOUT, text, "over a slow link, show one pane: `bot-console --pane parameters`")
+    return Finding(Level.OK, ABOUT, text)
+
+
+def _measured() -> tuple[float | None, float | None]:
+    with _raw():
+        delay = _answer_to(ASK)
+        if delay is None:
+            return None, None
+        whole = _answer_to(BURST + ASK)
+    if whole is None:
+        return delay, None
+    return delay, len(BURST) / max(whole - delay, 1e-4)
+
+
+def _answer_to(question: bytes) -> float | None:
+    """Seconds from a question to the terminal's answer; None where none came."""
+    began = time.monotonic()
+    os.write(sys.stdout.fileno(), question)
+    answer = b""
+    while not ANSWER.search(answer):
+        left = PATIENCE - (time.monotonic() - began)
+        if left <= 0 or not select.select([sys.stdin], [], [], left)[0]:
+            return None
+        answer += os.read(sys.stdin.fileno(), 64)
+    return time.monotonic() - began
+
+
+@contextlib.contextmanager
+def _raw() -> Generator[None]:
+    import termios
+    import tty
+
+    sys.stdout.flush()
+    before = termios.tcgetattr(sys.stdin)
+    try:
+        tty.setcbreak(sys.stdin)
+        yield
+    finally:
+        termios.tcsetattr(sys.stdin, termios.TCSANOW, before)

@@ -1,0 +1,156 @@
+"""What goes over the wire of rmw_zenoh: tokens, and the attachments of messages; watched for a while, never changed."""
+
+from __future__ import annotations
+
+import itertools
+import threading
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from bot_console.runtime.rmw.zenoh.attachment import unpack
+from bot_console.runtime.rmw.zenoh.keys import FormatError, data_key
+from bot_console.runtime.rmw.zenoh.session import Declared, Session
+from bot_console.runtime.rmw.zenoh.tokens import (
+    ENTITY_PARTS,
+    Token,
+    TokenNode,
+    all_tokens,
+    entity_token,
+    parse_token,
+)
+from bot_console.tui.cli.doctor.finding import Finding, Level
+
+PER_KEY = 3
+"""Attachments that are kept of each key."""
+SKEW_S = 1.0
+"""Seconds by which clocks may differ before that is worth a word."""
+PATIENCE = 5.0
+NAME = "_bot_console_doctor"
+_numbers = itertools.count(1)
+
+
+@dataclass
+class Wire:
+    """What was seen: tokens as they are written, and (attachment, size, time of arrival in ns) by key."""
+
+    domain: int
+    tokens: list[str] = field(default_factory=list[str])
+    samples: dict[str, list[tuple[bytes | None, int, int]]] = field(
+        default_factory=dict[str, "list[tuple[bytes | None, int, int]]"]
+    )
+
+    def parsed(self) -> tuple[list[Token], list[str]]:
+        """The tokens that are of the format, and those that are not."""
+        good: list[Token] = []
+        bad: list[str] = []
+        for each in self.tokens:
+            try:
+                good.append(parse_token(each))
+            except FormatError:
+                bad.append(each)
+        return good, bad
+
+
+def watch_wire(session: Session, seconds: float) -> Wire:
+    """Take all tokens there are, then listen to every topic of the domain for so many seconds."""
+    wire, answered = Wire(session.domain), threading.Event()
+    session.ask_tokens(all_tokens(session.domain), wire.tokens.append, answered.set, PATIENCE)
+    answered.wait(2 * PATIENCE)
+    wire.tokens = sorted({each for each in wire.tokens if session.zid not in each})
+    good, _ = wire.parsed()
+    listening = [_listen(session, wire, each) for each in _publishers(good)]
+    threading.Event().wait(seconds)
+    for each in listening:
+        each.undeclare()
+    return wire
+
+
+def _publishers(tokens: Sequence[Token]) -> list[Token]:
+    """One for each topic."""
+    return list({each.topic: each for each in tokens if each.kind == "MP"}.values())
+
+
+def _listen(session: Session, wire: Wire, publisher: Token) -> Declared:
+    """Subscribe as a node would, with a token of our own: some publishers send only to those they see."""
+    kept = wire.samples.setdefault(publisher.topic, [])
+
+    def keep(payload: bytes, attachment: bytes | None) -> None:
+        if len(kept) < PER_KEY:
+            kept.append((attachment, len(payload), time.time_ns()))
+
+    domain, topic = session.domain, publisher.topic
+    names = publisher.type_name, publisher.type_hash
+    listening = session.declare_subscriber(data_key(domain, topic, *names), keep, reliable=False)
+    me, qos = TokenNode(session.zid, 0, "", "/", NAME), publisher.key.split("/")[ENTITY_PARTS - 1]
+    session.declare_token(entity_token(domain, me, next(_numbers), "MS", topic, *names, qos))
+    return listening
+
+
+def wire_findings(wire: Wire, delay: float) -> list[Finding]:
+    """What is wrong with it; `delay` (s) is that of the link, there and back."""
+    good, bad = wire.parsed()
+    nodes = sum(each.kind == "NN" for each in good)
+    findings = [Finding(Level.OK if nodes else Level.WARN, "graph", f"{nodes} nodes, {len(good) - nodes} endpoints")]
+    if not nodes:
+        mend = "is ROS_DOMAIN_ID the same there, and RMW_IMPLEMENTATION=rmw_zenoh_cpp?"
+        findings = [Finding(Level.WARN, "graph", f"no node is seen in ROS domain {wire.domain}", mend)]
+    if bad:
+        mend = "another version of rmw_zenoh, or another program: `--capture FILE` keeps them for a report"
+        findings.append(Finding(Level.WARN, "graph", f"{len(bad)} tokens are not of the format: {bad[0][:120]}", mend))
+    return [*findings, *_attachment_findings(wire), *_clock_findings(wire, delay)]
+
+
+def _attachment_findings(wire: Wire) -> list[Finding]:
+    texts: dict[str, list[str]] = {}
+    for topic, samples in sorted(wire.samples.items()):
+        for attachment, _, _ in samples:
+            try:
+                unpack(attachment)
+            except FormatError as error:
+                texts.setdefault(str(error), []).append(topic)
+                break
+    return [
+        Finding(Level.FAIL, "messages", f"{', '.join(topics[:4])}: {text}", "update the middleware on that side")
+        for text, topics in texts.items()
+    ]
+
+
+def _clock_findings(wire: Wire, delay: float) -> list[Finding]:
+    """How far the sender's clock is from ours: the message that took shortest, less half of the way there and back."""
+    offsets = [
+        (arrived - number.time_ns) / 1e9 - delay / 2
+        for samples in wire.samples.values()
+        for attachment, _, arrived in samples
+        if (number := _unpacked(attachment)) is not None
+    ]
+    if not offsets:
+        return [Finding(Level.NOTE, "clock", "no message came, so the clocks were not compared")]
+    offset = min(offsets, key=abs)
+    if abs(offset) < SKEW_S:
+        return [Finding(Level.OK, "clock", f"differs by {abs(offset):.2f} s at most")]
+    side = "behind" if offset > 0 else "ahead of"
+    mend = "set both by NTP or chrony: stamps, tf and logs are off by that much"
+    return [Finding(Level.WARN, "clock", f"the robot's is {abs(offset):.1f} s {side} this one", mend)]
+
+
+def _unpacked(attachment: bytes | None):
+    try:
+        return unpack(attachment)
+    except FormatError:
+        return None
+
+
+def captured(wire: Wire, made_with: Sequence[str]) -> dict[str, object]:
+    """All that was seen, as a test reads it."""
+    return {
+        "format": 1,
+        "made_with": list(made_with),
+        "domain": wire.domain,
+        "tokens": wire.tokens,
+        "samples": [
+            {"topic": topic, "attachment": None if each is None else each.hex(), "bytes": size, "arrived_ns": arrived}
+            for topic, samples in sorted(wire.samples.items())
+            for each, size, arrived in samples
+        ],
+    }

@@ -1,0 +1,131 @@
+"""`bot-console graph`: the ROS graph as a file, what is odd about it, and whether it is as a file says."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from collections.abc import Mapping
+from pathlib import Path
+
+from bot_console.runtime.importer import install
+from bot_console.tui.cli.system.domain import take_part
+from bot_console.tui.console.connection import RosConsole
+from bot_console.tui.console.graph.expected import Expected, differences, read, written
+from bot_console.tui.console.graph.findings import findings
+from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.format import harmless
+
+STILL = 1.0
+"""Seconds for which the graph must not change before it counts as known."""
+PERIOD = 0.1
+LINK = 10.0
+"""Seconds to connect."""
+
+EPILOG = """exit codes: 0 as expected, or nothing wrong; 1 not; 2 wrong usage or a file that cannot be read
+
+the file is YAML, as `bot-console graph` writes it; all parts may be left out:
+  nodes: [/robot_navigator, /safety_monitor]
+  topics:
+    /odom: {type: nav_msgs/msg/Odometry, publishers: [/simulator], rate: 50, tolerance: 0.1}
+  services: {/reset: std_srvs/srv/Trigger}
+  exact: false   # true: nothing else may be there
+"""
+
+
+def run(words: list[str]) -> int:
+    """Write, judge or compare the graph of the domain; the exit code."""
+    given = _parser().parse_args(words)
+    expected = None
+    if given.check:
+        try:
+            expected = read(Path(given.check).read_text("utf-8"))
+        except (OSError, UnicodeDecodeError, ValueError) as error:
+            print(f"{given.check} cannot be used: {harmless(str(error))}", file=sys.stderr)
+            return 2
+    alone = take_part()
+    if alone:
+        print(alone, file=sys.stderr)
+        return 1
+    install()
+    console = RosConsole()
+    console.start()
+    try:
+        if not console.wait_ready(LINK):
+            print(f"no ROS system: {console.snapshot().problem or 'no answer'}", file=sys.stderr)
+            return 1
+        return _judge(console, expected, given)
+    finally:
+        console.close()
+
+
+def _judge(console: RosConsole, expected: Expected | None, given: argparse.Namespace) -> int:
+    if expected is not None:
+        return _compare(console, expected, given)
+    info = _known(console, given.wait)
+    if given.findings:
+        found = findings(info)
+        for each in found:
+            print(f"{'fault' if each.fault else 'hint '}  {harmless(each.text)}")
+        return 1 if any(each.fault for each in found) else 0
+    topics = [each.name for each in info.topics] if given.rates else []
+    print(written(info, _measured(console, topics, given.measure)), end="")
+    return 0
+
+
+def _compare(console: RosConsole, expected: Expected, given: argparse.Namespace) -> int:
+    """Wait until the graph is as expected, then measure; tell each difference."""
+    deadline = time.monotonic() + given.wait
+    found = differences(expected, console.snapshot().graph)
+    while found and time.monotonic() < deadline:
+        time.sleep(PERIOD)
+        found = differences(expected, console.snapshot().graph)
+    if not found and expected.rated:
+        rates = _measured(console, expected.rated, given.measure)
+        found = differences(expected, console.snapshot().graph, rates)
+    for each in found:
+        print(harmless(each))
+    parts = f"{len(expected.nodes)} nodes, {len(expected.topics)} topics"
+    print(f"{len(found)} differences" if found else f"as expected: {parts}", file=sys.stderr)
+    return 1 if found else 0
+
+
+def _known(console: RosConsole, wait: float) -> GraphInfo:
+    """The graph, once it has nodes and stands still; else after so many seconds."""
+    deadline = time.monotonic() + wait
+    info, since = console.snapshot().graph, time.monotonic()
+    while time.monotonic() < deadline:
+        now = console.snapshot().graph
+        if now is not info:
+            info, since = now, time.monotonic()
+        if any(not each.hidden for each in info.nodes) and time.monotonic() - since >= STILL:
+            break
+        time.sleep(PERIOD)
+    return info
+
+
+def _measured(console: RosConsole, topics: list[str], seconds: float) -> Mapping[str, float | None]:
+    if not topics:
+        return {}
+    console.traffic.measure(topics)
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        time.sleep(min(1.0, max(0.0, end - time.monotonic())))
+        console.traffic.measured()
+    return {topic: each.rate for topic, each in console.traffic.measured().items()}
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        "bot-console graph",
+        description="Write the ROS graph as a file, tell what is odd about it, or compare it with a file.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    what = parser.add_mutually_exclusive_group()
+    what.add_argument("--check", metavar="FILE", help="compare with a file; each difference is a line")
+    what.add_argument("--findings", action="store_true", help="what is odd, such as a topic that nobody publishes")
+    parser.add_argument("--rates", action="store_true", help="write the rates of topics, too")
+    parser.add_argument("--wait", type=float, default=5.0, metavar="S", help="seconds to wait for the graph (5)")
+    parser.add_argument("--measure", type=float, default=5.0, metavar="S", help="seconds to measure rates (5)")
+    return parser

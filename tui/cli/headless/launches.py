@@ -1,0 +1,114 @@
+"""The launches of a headless run: what was asked for, and the simulated robot beside it."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from bot_console.runtime.process import NodeProcess
+from bot_console.tui.cli.arguments import Options
+from bot_console.tui.cli.live import robot_beside
+from bot_console.tui.cli.system.workspaces import SYSTEM_LAUNCH, launch_environment
+from bot_console.tui.console.launch.delayed import delayed_starts
+
+
+class Launches:
+    """Each is a node process; logs go to stderr."""
+
+    def __init__(self, options: Options, clock: Any, before_end: Callable[[], None]) -> None:
+        """`before_end` is called when a launch is about to end its nodes, which are still there then."""
+        self._before_end = before_end
+        self._options = options
+        self._clock = clock
+        self._file = options.launch or SYSTEM_LAUNCH
+        self._launch = NodeProcess("launch", clock)
+        self._robot: NodeProcess | None = None
+        self._looking: NodeProcess | None = None
+        self._running = 0
+        self._services: list[Any] = []
+        self._ending = False
+
+    @property
+    def exit_code(self) -> int | None:
+        """That of the launch which was asked for, once it has ended."""
+        return self._launch.exit_code
+
+    @property
+    def has_robot(self) -> bool:
+        """Whether the simulated robot was started, here or by our own system."""
+        return self._robot is not None or not self._options.launch
+
+    def begin(self) -> None:
+        """Start what was asked for."""
+        options = self._options
+        arguments = dict(options.launch_arguments)
+        if not options.launch:
+            arguments = {"profile": options.profile, **robot_beside.arguments(options), **arguments}
+        self._start(self._launch, self._file, arguments)
+        system = robot_beside.System(self._processes, _tell, self._start_robot)
+        self._looking = robot_beside.begin(options, system, self._clock)
+
+    def on_end(self, call: Callable[[], None]) -> None:
+        """Call when the launch ends before a robot was started, for then there is nothing to report."""
+        self._launch.on_exit(lambda _: None if self._robot else call())
+
+    def stop(self, patience: float) -> None:
+        """End all of them, each in at most so many s."""
+        self._ending = True
+        for each in (self._looking, self._launch, self._robot):
+            if each is not None:
+                each.stop(patience)
+
+    def _processes(self) -> tuple[int, int]:
+        return self._running, sum(map(delayed_starts, self._services))
+
+    def _start_robot(self) -> None:
+        self._robot = NodeProcess("launch", self._clock)
+        self._start(self._robot, robot_beside.LAUNCH_FILE, robot_beside.arguments(self._options))
+
+    def _start(self, process: NodeProcess, file: str, arguments: Mapping[str, str]) -> None:
+        process.start(
+            lambda: sys.exit(self._run(file, arguments)),
+            argv=["launch"],
+            env=launch_environment(file),
+            stdout=_to_stderr,
+            stderr=_to_stderr,
+        )
+
+    def _run(self, file: str, arguments: Mapping[str, str]) -> int:
+        """Run a launch file; in its own node process."""
+        from launch.actions import IncludeLaunchDescription, RegisterEventHandler
+        from launch.event_handlers import OnProcessExit, OnProcessStart, OnShutdown
+        from launch.launch_description_sources import AnyLaunchDescriptionSource
+
+        from launch import LaunchDescription, LaunchService
+
+        def counted(by: int) -> Callable[..., None]:
+            def count(event: Any, context: Any) -> None:
+                self._running += by
+
+            return count
+
+        def ending(_event: Any, _context: Any) -> None:
+            if self._running and not self._ending:
+                self._before_end()
+
+        handlers = (
+            OnProcessStart(on_start=counted(1)),
+            OnProcessExit(on_exit=counted(-1)),
+            OnShutdown(on_shutdown=ending),
+        )
+        include = IncludeLaunchDescription(AnyLaunchDescriptionSource(file), launch_arguments=arguments.items())
+        service = LaunchService(noninteractive=True)
+        self._services.append(service)
+        service.include_launch_description(LaunchDescription([*map(RegisterEventHandler, handlers), include]))
+        return service.run()
+
+
+def _tell(text: str) -> None:
+    _to_stderr(f"[INFO] [bot-console]: {text}\n")
+
+
+def _to_stderr(text: str) -> None:
+    sys.__stderr__.write(text) if sys.__stderr__ else None

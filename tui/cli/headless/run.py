@@ -1,0 +1,139 @@
+"""`bot-console --headless`: the same system without a screen, in real time or as fast as it goes.
+
+Logs are on stderr as ROS prints them; stdout gets one JSON object at the end.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import signal
+import sys
+import time
+from collections.abc import Generator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from bot_console.runtime.importer import install
+from bot_console.runtime.process import MAIN, NodeProcess, on_notice, stepped
+from bot_console.tui.cli.arguments import Options
+from bot_console.tui.cli.system.domain import domain, robot_there, run_apart, take_part
+from bot_console.tui.cli.system.workspaces import choose
+
+if TYPE_CHECKING:
+    from bot_console.tui.cli.headless.launches import Launches
+    from bot_console.tui.cli.headless.observer import Observer
+
+DURATION = 60.0
+"""Seconds of a run for which no duration is given."""
+GRACE = 5.0
+"""Seconds that the last question, and the end of the launched processes, may take."""
+SLOW_START = 60.0
+"""Seconds that a simulator may take in all before it answers, on a machine that is busy otherwise."""
+
+
+def run(options: Options) -> int:
+    """Run the system for a while and print the report; 1 when there is nothing to report."""
+    if options.launch and not Path(options.launch).is_file():
+        print(f"there is no launch file {options.launch}", file=sys.stderr)
+        return 1
+    install()
+    choose(options.workspace)
+    if not options.fast:
+        _meet_others(options)
+    duration = DURATION if options.duration is None else options.duration
+    began = time.perf_counter()
+    with _orderly_end(), _time(options) as clock, _notices():
+        from bot_console.tui.cli.headless.launches import Launches
+        from bot_console.tui.cli.headless.observer import Observer
+
+        observer = Observer(duration)
+        watching = NodeProcess("observer", clock)
+        watching.start(observer.run, argv=["observer"])
+        launches = Launches(options, clock, observer.ask)
+        launches.begin()
+        with contextlib.suppress(KeyboardInterrupt):
+            _wait_for(observer, launches, duration)
+        report = observer.report()
+        launches.stop(GRACE)
+        watching.stop(GRACE)
+        report["deterministic"] = bool(getattr(clock, "deterministic", False))
+        stalls = getattr(clock, "stalls", [])
+    report["wall_time"] = round(time.perf_counter() - began, 3)
+    if stalls:
+        report["stalls"] = stalls
+    print(json.dumps(report, indent=2))
+    return 0 if observer.complete else _no_report(launches)
+
+
+def _meet_others(options: Options) -> None:
+    """Take part in the domain, unless another robot is there: the two would obey each other's commands."""
+    problem = take_part()
+    if not problem and not options.launch and (there := robot_there()):
+        run_apart()
+        problem = f"a robot is in ROS domain {domain()} already ({', '.join(there)}), so this one runs apart"
+    if problem:
+        print(problem, file=sys.stderr)
+        return
+    from bot_console.tui.cli.system.own_processes import isolate
+
+    isolate()
+
+
+def _no_report(launches: Launches) -> int:
+    code = launches.exit_code
+    ended = f"; the launch had ended with exit code {code}" if code is not None else ""
+    unwanted = "" if launches.has_robot else "; no simulator was started beside it, --simulator starts one"
+    print(
+        f"no simulator has answered the question for its report{ended}{unwanted}; the log above says more",
+        file=sys.stderr,
+    )
+    return 1
+
+
+@contextlib.contextmanager
+def _time(options: Options) -> Generator[Any]:
+    """The clock of the run."""
+    if not options.fast:
+        yield MAIN.clock
+        return
+    with stepped(seed=options.seed or 0, virtual_main=True) as clock:
+        yield clock
+
+
+@contextlib.contextmanager
+def _notices() -> Generator[None]:
+    forget = on_notice(lambda process, text: print(f"[WARN] [{process.name}]: {text}", file=sys.stderr))
+    try:
+        yield
+    finally:
+        forget()
+
+
+def _wait_for(observer: Observer, launches: Launches, duration: float) -> None:
+    """Until the report is there, all launches have ended, or it is too late; an interrupt asks for it at once."""
+    launches.on_end(observer.done.set)
+    try:
+        if not observer.done.wait(duration + GRACE) and launches.has_robot:
+            observer.done.wait(SLOW_START)
+    except KeyboardInterrupt:
+        observer.ask()
+
+
+@contextlib.contextmanager
+def _orderly_end() -> Generator[None]:
+    """SIGTERM and the end of the terminal are orderly ends, too, unless they are ignored (`nohup`)."""
+
+    def interrupt(_signum: int, _frame: object) -> None:
+        raise KeyboardInterrupt
+
+    names = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+    before = {each: signal.getsignal(each) for each in names}
+    for each, handler in before.items():
+        if handler is not signal.SIG_IGN:
+            signal.signal(each, interrupt)
+    try:
+        yield
+    finally:
+        for each, handler in before.items():
+            signal.signal(each, handler)

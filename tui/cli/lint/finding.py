@@ -1,0 +1,29 @@
+"""One thing that lint has found."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from bot_console.tui.console.parameters.lint import MENDS
+
+
+@dataclass(frozen=True, order=True)
+class Finding:
+    """A fault, where it is and what it is about."""
+
+    place: str
+    """A file, or a running node."""
+    line: int
+    """0 where there is no line."""
+    fault: str
+    subject: str
+
+    @property
+    def mend(self) -> str:
+        """What to do about it."""
+        return MENDS[self.fault]
+
+    def text(self) -> str:
+        """On one line."""
+        where = f"{self.place}:{self.line}" if self.line else self.place
+        return f"{where}: {self.subject}: {self.fault}; {self.mend}"

@@ -1,0 +1,161 @@
+"""Declarations of parameters in a Python file, judged without running it."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from bot_console.tui.cli.lint.finding import Finding
+
+_CONTINUOUS = re.compile(r"speed|velocity|distance|radius|gain|rate|angle|tolerance|timeout|period|^k[pid](_|$)|scale")
+_UNIT = re.compile(r"\([^()]*[A-Za-z°%][^()]*\)\s*$")
+
+
+@dataclass
+class Declared:
+    """What the nodes of a file are called and declare."""
+
+    nodes: set[str] = field(default_factory=set[str])
+    parameters: set[str] = field(default_factory=set[str])
+    whole: bool = True
+    """Whether all names could be read; a name that is worked out while the program runs cannot."""
+
+
+def lint(path: Path) -> tuple[list[Finding], Declared]:
+    """The faults of a file, and what it declares; raises `SyntaxError` for a text that is no Python."""
+    tree = ast.parse(path.read_text(encoding="utf-8"), str(path))
+    found: list[Finding] = []
+    declared = Declared()
+    for each in ast.walk(tree):
+        if isinstance(each, ast.ClassDef):
+            found += _of_class(each, str(path))
+        if isinstance(each, ast.Call):
+            _learn(each, declared)
+            if _called(each) == "declare_parameter":
+                found += _of_declaration(each, str(path), tree)
+    return found, declared
+
+
+def _called(call: ast.Call) -> str:
+    function = call.func
+    return (
+        function.attr if isinstance(function, ast.Attribute) else function.id if isinstance(function, ast.Name) else ""
+    )
+
+
+def _learn(call: ast.Call, declared: Declared) -> None:
+    """Names of nodes (`super().__init__("name")`, `create_node("name")`, `Node(..., name="name")`) and parameters."""
+    name = _called(call)
+    first = call.args[0] if call.args else None
+    if name == "declare_parameter":
+        if isinstance(first, ast.Constant) and isinstance(first.value, str):
+            declared.parameters.add(first.value)
+        else:
+            declared.whole = False
+    elif name == "declare_parameters":
+        declared.whole = False
+    elif name in ("__init__", "create_node") and isinstance(first, ast.Constant) and isinstance(first.value, str):
+        declared.nodes.add(first.value)
+    for each in call.keywords:
+        if each.arg == "name" and isinstance(each.value, ast.Constant) and isinstance(each.value.value, str):
+            declared.nodes.add(each.value.value)
+
+
+def _of_declaration(call: ast.Call, path: str, tree: ast.AST) -> Iterator[Finding]:
+    if not call.args or not isinstance(call.args[0], ast.Constant) or not isinstance(call.args[0].value, str):
+        return
+    name = call.args[0].value
+    given = {each.arg: each.value for each in call.keywords}
+    default = call.args[1] if len(call.args) > 1 else given.get("value")
+    descriptor = call.args[2] if len(call.args) > 2 else given.get("descriptor")
+    number = _number(default)
+    texts, ranged, known = _described(descriptor, tree)
+    if known and not texts:
+        yield Finding(path, call.lineno, "no description", name)
+    if known and number is not None and not ranged:
+        yield Finding(path, call.lineno, "no range", name)
+    if isinstance(number, float) and texts and not any(_UNIT.search(each) for each in texts):
+        yield Finding(path, call.lineno, "no unit", name)
+    if type(number) is int and _CONTINUOUS.search(name.rpartition(".")[2]):
+        yield Finding(path, call.lineno, "float as int", name)
+
+
+def _number(default: ast.expr | None) -> float | int | None:
+    operand = default.operand if isinstance(default, ast.UnaryOp) else default
+    if isinstance(operand, ast.Constant) and type(operand.value) in (int, float):
+        return operand.value  # type: ignore[return-value] -- one of the two types
+    return None
+
+
+def _described(descriptor: ast.expr | None, tree: ast.AST) -> tuple[list[str], bool, bool]:
+    """Texts of a descriptor, whether it has a range, and whether that could be seen at all."""
+    if descriptor is None:
+        return [], False, True
+    if isinstance(descriptor, ast.Name):
+        assigned = [
+            each.value
+            for each in ast.walk(tree)
+            if isinstance(each, ast.Assign)
+            and any(isinstance(one, ast.Name) and one.id == descriptor.id for one in each.targets)
+        ]
+        if len(assigned) != 1:
+            return [], False, False
+        descriptor = assigned[0]
+    if not isinstance(descriptor, ast.Call) or _called(descriptor) != "ParameterDescriptor":
+        return [], False, False  # a helper makes it, of which nothing can be told from here
+    given = {each.arg: each.value for each in descriptor.keywords}
+    text = given.get("description")
+    texts = [text.value] if isinstance(text, ast.Constant) and isinstance(text.value, str) and text.value else []
+    if text is not None and not isinstance(text, ast.Constant):
+        return [], True, False
+    return texts, bool({"floating_point_range", "integer_range"} & set(given)), True
+
+
+def _of_class(node: ast.ClassDef, path: str) -> Iterator[Finding]:
+    """Rules of a class of nodes: whether there is one, and whether it can refuse."""
+    calls = [each for each in ast.walk(node) if isinstance(each, ast.Call)]
+    names = {_called(each) for each in calls}
+    if "declare_parameter" in names and "add_on_set_parameters_callback" not in names:
+        ranged = any("range" in (keyword.arg or "") for each in calls for keyword in each.keywords)
+        helped = any(
+            _called(each) == "declare_parameter" and len(each.args) > 2 and _called_name(each.args[2]) not in
+            ("", "ParameterDescriptor") for each in calls
+        )  # fmt: skip
+        if not ranged and not helped:
+            yield Finding(path, node.lineno, "no validation", node.name)
+    for call in calls:
+        if _called(call) == "add_on_set_parameters_callback" and call.args:
+            callback = _called_name(call.args[0])
+            for each in ast.walk(node):
+                if isinstance(each, ast.FunctionDef) and each.name == callback and not _can_refuse(each):
+                    yield Finding(path, each.lineno, "accepts anything", f"{node.name}.{each.name}")
+
+
+def _called_name(of: ast.expr) -> str:
+    if isinstance(of, ast.Call):
+        return _called(of)
+    return of.attr if isinstance(of, ast.Attribute) else of.id if isinstance(of, ast.Name) else ""
+
+
+def _can_refuse(callback: ast.FunctionDef) -> bool:
+    """Whether `successful` may become anything else than True; a result made elsewhere may."""
+    return any(_may_refuse(each) for each in ast.walk(callback))
+
+
+def _may_refuse(each: ast.AST) -> bool:
+    if isinstance(each, ast.keyword):
+        return each.arg == "successful" and not _is_true(each.value)
+    if isinstance(each, ast.Assign):
+        named = any(isinstance(one, ast.Attribute) and one.attr == "successful" for one in each.targets)
+        return named and not _is_true(each.value)
+    if isinstance(each, ast.Return):
+        calls = [one for one in ast.walk(each) if isinstance(one, ast.Call)]
+        return any(_called(one) != "SetParametersResult" for one in calls)
+    return isinstance(each, ast.Raise)
+
+
+def _is_true(value: ast.expr) -> bool:
+    return isinstance(value, ast.Constant) and value.value is True

@@ -1,0 +1,114 @@
+"""The console's own way to its terminal: descriptors that nobody else has, and a guardian.
+
+What C libraries write to descriptors 1 and 2, past Python, is lines for the log instead of holes in the screen. Who
+closes or redirects 0, 1 and 2 harms neither keys nor screen, and a child that inherits them cannot read the keys.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import fcntl
+import os
+import sys
+import threading
+from collections.abc import Callable, Generator, Iterator
+from typing import IO
+
+from bot_console.tui.console.model import Severity
+from bot_console.tui.terminal.guarding import guarded
+
+Printed = Callable[[int, str, str], None]
+LABEL = "stderr"
+LONGEST = 1 << 16
+"""Bytes after which a line without an end is told as it is."""
+FIRST = 100
+"""Our descriptors begin here, beyond those that programs close or count."""
+
+
+@contextlib.contextmanager
+def own_terminal(printed: Printed) -> Generator[Callable[[], None]]:
+    """Captured descriptors for the time of an app, and the terminal put right after it, however this process ends.
+
+    To be called once the terminal is set for the screen.
+    """
+    with captured_descriptors(printed) as keys, guarded(keys) as has_begun:
+        yield has_begun
+
+
+@contextlib.contextmanager
+def captured_descriptors(printed: Printed) -> Generator[int]:
+    """Give the screen duplicates of descriptors 0, 1 and 2; lines that are written to 1 and 2 are `printed`.
+
+    For the time of an app: it reads and writes through `sys.__stdin__`, `sys.__stdout__` and `sys.__stderr__`, which
+    are the duplicates then. Gives the one for reading.
+    """
+    with contextlib.ExitStack() as stack:
+        keys = stack.enter_context(_withheld())
+        for number, name in ((1, "__stdout__"), (2, "__stderr__")):
+            stack.enter_context(_captured(number, name, printed))
+        yield keys
+
+
+def _duplicate(number: int) -> int:
+    return fcntl.fcntl(number, fcntl.F_DUPFD_CLOEXEC, FIRST)
+
+
+@contextlib.contextmanager
+def _withheld() -> Generator[int]:
+    before: IO[str] | None = sys.__stdin__
+    keys = os.fdopen(_duplicate(0), encoding="utf-8", errors="replace")
+    nowhere = os.open(os.devnull, os.O_RDONLY)
+    os.dup2(nowhere, 0)
+    os.close(nowhere)
+    setattr(sys, "__stdin__", keys)  # noqa: B010 # it is final for type checkers
+    try:
+        yield keys.fileno()
+    finally:
+        setattr(sys, "__stdin__", before)  # noqa: B010
+        os.dup2(keys.fileno(), 0)
+        keys.close()
+
+
+@contextlib.contextmanager
+def _captured(number: int, name: str, printed: Printed) -> Generator[None]:
+    before: IO[str] | None = getattr(sys, name)
+    if before is not None:
+        before.flush()
+    saved = _duplicate(number)
+    screen = os.fdopen(_duplicate(number), "w", encoding="utf-8", errors="replace", newline="")
+    reading, writing = os.pipe()
+    os.dup2(writing, number)
+    os.close(writing)
+    reader = threading.Thread(target=_tell, args=(reading, printed), name="descriptors", daemon=True)
+    reader.start()
+    setattr(sys, name, screen)
+    try:
+        yield
+    finally:
+        setattr(sys, name, before)
+        with contextlib.suppress(OSError):  # the terminal may have gone
+            screen.flush()
+        os.dup2(saved, number)  # the last writing end is closed with it, unless a child of this process has one
+        os.close(saved)
+        reader.join(0.5)
+        with contextlib.suppress(OSError):
+            screen.close()
+
+
+def _tell(descriptor: int, printed: Printed) -> None:
+    for line in _lines(descriptor):
+        printed(Severity.INFO, LABEL, line)
+
+
+def _lines(descriptor: int) -> Iterator[str]:
+    rest = b""
+    try:
+        while data := os.read(descriptor, 65536):
+            *whole, rest = (rest + data).split(b"\n")
+            if len(rest) > LONGEST:
+                whole, rest = [*whole, rest], b""
+            yield from (text for line in whole if (text := line.decode("utf-8", "replace").rstrip("\r")).strip())
+        if rest.strip():
+            yield rest.decode("utf-8", "replace")
+    finally:
+        os.close(descriptor)

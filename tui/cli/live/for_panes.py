@@ -1,0 +1,21 @@
+"""What a console's panes are given: all that a person may do, or with `--read-only` what only looks on."""
+
+from __future__ import annotations
+
+from bot_console.tui.console.connection import RosConsole
+from bot_console.tui.console.model import Severity
+from bot_console.tui.console.protocol import CommandLine, Console, Launcher
+from bot_console.tui.console.read_only import ReadOnlyCommandLine, ReadOnlyConsole, ReadOnlyLauncher
+
+
+def for_panes(
+    console: RosConsole, launcher: Launcher | None, lines: CommandLine, *, read_only: bool
+) -> tuple[Console, Launcher | None, CommandLine]:
+    """These three, or what stands before them and refuses."""
+    if not read_only:
+        return console, launcher, lines
+
+    def tell(text: str) -> None:
+        console.printed(Severity.WARN, "bot-console", text)
+
+    return ReadOnlyConsole(console, tell), ReadOnlyLauncher(), ReadOnlyCommandLine(lines)

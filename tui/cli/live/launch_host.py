@@ -1,0 +1,130 @@
+"""The process that runs launch files for consoles: it holds the launches and the nodes that are threads.
+
+`python -m bot_console.tui.cli.live.launch_host`; its options say whom it serves, see `start_host`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import os
+import signal
+import socket
+import subprocess
+import sys
+import threading
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from types import FrameType
+from typing import TYPE_CHECKING
+
+from bot_console.runtime.importer import install
+
+if TYPE_CHECKING:
+    from bot_console.tui.console.launch_host.host import LaunchHost
+
+SWITCH = "bot_console.tui.cli.live.launch_host"
+END_S = 15.0
+"""Seconds that a host may take to end, after its owner has hung up."""
+
+
+@dataclass(frozen=True)
+class Host:
+    """A launch host that this process owns, and the connection to it."""
+
+    process: subprocess.Popen[bytes]
+    connection: socket.socket
+
+    def end(self, patience: float = END_S) -> None:
+        """Hang up, which ends it and all that it has started; waits for that, and kills it when it takes too long."""
+        with contextlib.suppress(OSError):
+            self.connection.shutdown(socket.SHUT_RDWR)
+        self.connection.close()
+        try:
+            self.process.wait(patience)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
+
+
+def start_host(options: Sequence[str] = (), *, log: Path | None = None) -> Host:
+    """Start a host that this process owns: when it hangs up, the host ends all that it has started, then itself.
+
+    What the host itself prints, which should be nothing, goes to a file.
+    """
+    ours, theirs = socket.socketpair()
+    with theirs, open(log or os.devnull, "ab") as output:
+        process = subprocess.Popen(
+            [sys.executable, "-m", SWITCH, "--owner", str(theirs.fileno()), *options],
+            stdin=subprocess.DEVNULL,
+            stdout=output,
+            stderr=output,
+            pass_fds=[theirs.fileno()],
+            start_new_session=True,
+        )
+    return Host(process, ours)
+
+
+def main(words: Sequence[str] | None = None) -> int:
+    """Serve until everything was ended: by a console, by a signal, or because the owner has gone."""
+    given = _parser().parse_args(words)
+    install()
+    from bot_console.tui.cli.live.launchers import launcher_here
+    from bot_console.tui.cli.system.domain import take_part
+    from bot_console.tui.cli.system.own_processes import isolate
+    from bot_console.tui.cli.system.workspaces import choose
+    from bot_console.tui.console.launch_host.host import LaunchHost
+
+    choose([Path(each) for each in given.workspace])
+    problem = take_part()
+    if problem:
+        print(problem, file=sys.stderr)
+        return 1
+    isolate()
+    host = LaunchHost(launcher_here)
+    host.connect(socket.socket(fileno=given.owner), owner=True)
+    serve(host)
+    return 0
+
+
+def serve(host: LaunchHost, seconds: float | None = None) -> None:
+    """Serve further consoles of the user, too, until everything was ended, or for so many seconds at most."""
+    from bot_console.runtime.rmw.zenoh.domain_folder import domain_folder
+    from bot_console.tui.cli.live.process_news import tell_news
+    from bot_console.tui.cli.system.domain import domain
+    from bot_console.tui.console.launch_host.door import Door
+    from launch.child import close_fork_server
+
+    forget = tell_news(host.noticed, host.learn)
+    close_on_signals(host.close)
+    door = Door(domain_folder(domain()), host.connect)
+    host.over.wait(seconds)
+    door.close()
+    forget()
+    host.close()
+    close_fork_server()
+
+
+def close_on_signals(close: Callable[[], None]) -> None:
+    """SIGINT and SIGTERM end everything, as a console's wish does."""
+
+    def end(number: int, frame: FrameType | None) -> None:
+        threading.Thread(target=close, name="close").start()
+
+    for each in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(each, end)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser("launch_host")
+    add = parser.add_argument
+    add("--owner", type=int, required=True, metavar="DESCRIPTOR", help="the socket of the console that owns it")
+    add("--workspace", action="append", default=[], metavar="DIR", help="where packages are")
+    return parser
+
+
+if __name__ == "__main__":
+    from bot_console.tui.cli.system.domain import end_program
+
+    end_program(main())

@@ -1,0 +1,33 @@
+"""What launch itself writes to its screen, as lines of the log."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+
+from bot_console.tui.console.launch.output import marking
+from bot_console.tui.console.model import Severity
+
+OVERRIDE = {"OVERRIDE_LAUNCH_PROCESS_OUTPUT": "own_log"}
+"""Launch does not repeat on its screen what processes print, since the console reads that from launch's events."""
+
+LAUNCH_LINE = re.compile(r"\[([A-Z]+)\] \[([^\]]+)\]: (.*)")
+LEVELS = {"DEBUG": Severity.DEBUG, "WARNING": Severity.WARN, "ERROR": Severity.ERROR, "CRITICAL": Severity.FATAL}
+
+
+def launch_variables(environment: Mapping[str, str]) -> dict[str, str]:
+    """An environment in which a launch writes so."""
+    return {**environment, **OVERRIDE, **marking(environment)}
+
+
+def teller(printed: Callable[[int, str, str], None]) -> Callable[[str], None]:
+    """Takes such lines."""
+
+    def tell(text: str) -> None:
+        line = LAUNCH_LINE.match(text)
+        if line:
+            printed(LEVELS.get(line[1], Severity.INFO), line[2], line[3])
+        elif text.strip():
+            printed(Severity.INFO, "launch", text.rstrip("\n"))
+
+    return tell

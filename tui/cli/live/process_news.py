@@ -1,0 +1,43 @@
+"""What launched processes tell of themselves, as lines of the log."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from bot_console.runtime.process import NodeProcess, on_notice
+from bot_console.runtime.process.facts import on_fact
+from bot_console.tui.console.model import Severity
+from bot_console.tui.console.parameters.provenance import Learn
+
+if TYPE_CHECKING:
+    from launch.child import News
+
+Printed = Callable[[int, str, str], None]
+
+
+def tell_news(printed: Printed, learn: Learn) -> Callable[[], None]:
+    """Have notices and crashes of all processes printed, and facts learned, threads of this one or not.
+
+    Returns what ends that.
+    """
+    from launch.child import on_news  # ROS names answer only in a program that is composed
+
+    def noticed(process: NodeProcess, text: str) -> None:
+        printed(Severity.WARN, process.name, text)
+
+    def heard(news: News) -> None:
+        if news.kind == "notice":
+            printed(Severity.WARN, news.process, str(news.facts["text"]))
+        elif news.kind == "crash":
+            printed(Severity.ERROR, news.process, str(news.facts["text"]))
+        elif news.kind in ("declared", "given"):
+            learn(news.kind, news.facts)
+
+    forget = (on_notice(noticed), on_news(heard), on_fact(learn))
+
+    def forget_all() -> None:
+        for each in forget:
+            each()
+
+    return forget_all

@@ -1,0 +1,120 @@
+"""The simulated robot beside a launch file or a program whose nodes want one that nobody gives."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from bot_console.runtime.process import NodeProcess
+from bot_console.runtime.workspace.own import ROOT
+from bot_console.tui.cli.arguments import Options
+from bot_console.tui.console.model import LaunchInfo, ProcessState
+from bot_console.tui.console.robot.robot_wanted import endpoints, robot_wanted, visible_nodes
+
+LAUNCH_FILE = str(ROOT / "launch" / "simulator.launch.py")
+PERIOD = 0.25
+"""Seconds between two looks at the graph."""
+SETTLED = 1.0
+"""Seconds without a change after which the nodes of a launch are up."""
+PATIENCE = 10.0
+"""Seconds after which a process that has made no node is not waited for: it may be none of ROS."""
+DELAY = 30.0
+"""Seconds that starts which the launch file has put off are waited for: one of them may be a robot."""
+
+
+@dataclass(frozen=True)
+class System:
+    """What is launched, as far as the look for a robot bears on it."""
+
+    processes: Callable[[], tuple[int, int]]
+    """How many run now, and how many starts are put off to later."""
+    tell: Callable[[str], None]
+    """Put a line into the log."""
+    start: Callable[[], None]
+    """Launch `LAUNCH_FILE`."""
+
+
+class RobotBeside:
+    """Looks at the graph until a robot is wanted, then starts one and tells why.
+
+    The nodes are up when each running process has made one, no start is put off to later, and the graph rests. All
+    times are of the steady clock, so that a stepped run decides the same each time.
+    """
+
+    def __init__(self, system: System) -> None:
+        self._system = system
+        self._seen: object = None
+        self._rested = 0.0
+        self._delayed: float | None = None
+        self.started = False
+
+    def watch(self) -> None:
+        """The main of a node process; returns when the robot was started, or by an interrupt."""
+        import rclpy
+        from rclpy.clock import Clock, ClockType
+        from rclpy.executors import ExternalShutdownException
+
+        rclpy.init()
+        node = rclpy.create_node(
+            "_robot_beside", enable_rosout=False, start_parameter_services=False, use_global_arguments=False
+        )
+        node.create_timer(PERIOD, lambda: self._look(node), clock=Clock(clock_type=ClockType.STEADY_TIME))
+        try:
+            while not self.started:
+                rclpy.spin_once(node)
+        except (KeyboardInterrupt, ExternalShutdownException):
+            pass
+        finally:
+            node.destroy_node()
+            rclpy.try_shutdown()
+
+    def _look(self, node: Any) -> None:
+        running, delayed = processes = self._system.processes()
+        seen = processes, endpoints(node)
+        self._rested = self._rested + PERIOD if seen == self._seen else 0.0
+        self._seen = seen
+        if self._delayed is not None:
+            self._delayed += PERIOD
+        up = visible_nodes(node) >= running
+        if self._rested < (SETTLED if up else PATIENCE) or self.started:
+            return
+        why = robot_wanted(node)
+        if why and not (delayed and self._waits(why)):
+            self.started = True
+            self._system.tell(f"the simulated robot runs beside it, since {why}; --no-simulator leaves it out")
+            self._system.start()
+
+    def _waits(self, why: str) -> bool:
+        """Whether what the launch file starts later may still bring the robot; told once."""
+        if self._delayed is None:
+            self._delayed = 0.0
+            self._system.tell(
+                f"{why}: the launch file starts more later, which is waited for, at most {DELAY:g} s, before "
+                "a simulated robot comes; --simulator starts it at once"
+            )
+        return self._delayed < DELAY
+
+
+def processes(info: LaunchInfo) -> tuple[int, int]:
+    """What `System.processes` asks, from what a launcher knows."""
+    return sum(each.state is ProcessState.RUNNING for each in info.processes), info.delayed
+
+
+def begin(options: Options, system: System, clock: Any = None) -> NodeProcess | None:
+    """Start a robot now, when one is wanted or never, as the options ask; the node process that looks, if any."""
+    if options.simulator is False or not options.launch:  # our own system has its robot
+        return None
+    if options.simulator:
+        system.tell("the simulated robot runs beside it, as --simulator asks")
+        system.start()
+        return None
+    process = NodeProcess("robot_beside", clock)
+    process.start(RobotBeside(system).watch, argv=["robot_beside"])
+    return process
+
+
+def arguments(options: Options) -> dict[str, str]:
+    """What `LAUNCH_FILE` is launched with."""
+    given = {"world": options.world, "seed": "" if options.seed is None else str(options.seed)}
+    return {name: value for name, value in given.items() if value}

@@ -1,0 +1,47 @@
+"""Processor time and memory of a process of the system."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from bot_console.runtime.process.watch.processor_time import wanted_seconds
+
+
+class SystemVitals:
+    """Those of a process of the system; without `/proc` nothing is known."""
+
+    def __init__(self, pid: int) -> None:
+        self._pid = pid
+        self._stat = Path(f"/proc/{pid}/stat")
+        self._statm = Path(f"/proc/{pid}/statm")
+
+    def cpu_seconds(self) -> float | None:
+        """Processor time (s) of the process."""
+        try:
+            fields = self._stat.read_bytes().rpartition(b")")[2].split()
+        except OSError:  # it has ended, or the system has no such file
+            return None
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    def wanted_seconds(self) -> float | None:
+        """How long (s) its main thread has run or waited for a processor, and for nothing else."""
+        return wanted_seconds(str(self._pid))
+
+    def memory_bytes(self) -> int | None:
+        """What `top` calls RES: with what it shares with the fork server, if that has started it."""
+        try:
+            return int(self._statm.read_bytes().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+        except OSError:
+            return None
+
+    def is_stopped(self) -> bool:
+        """Whether it is frozen."""
+        try:
+            return self._stat.read_bytes().rpartition(b")")[2].split()[0] in (b"T", b"t")
+        except (OSError, IndexError):
+            return False
+
+    def hangs_in(self) -> str:
+        """Nothing survives a SIGKILL here."""
+        return ""

@@ -1,0 +1,42 @@
+"""A program that a person names, as arguments of the launch file that runs it."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Callable
+from pathlib import Path
+
+from bot_console.runtime.workspace.choices import executable_names, package_names
+from bot_console.runtime.workspace.not_found import no_executable, no_package
+from bot_console.runtime.workspace.own import PAGE_NAME
+
+
+def program(words: list[str], hint: Callable[[str], None]) -> tuple[dict[str, str], str]:
+    """What `program.launch.py` is launched with, and why that cannot be; the words are as `run` takes them.
+
+    `hint` is told what is odd about a file that can be run nevertheless.
+    """
+    from bot_console.runtime.importer import install
+
+    install()
+    if words[0].endswith(".py") or Path(words[0]).is_file():
+        return {"program": str(Path(words[0]).resolve()), "words": shlex.join(words[1:])}, _fault(Path(words[0]), hint)
+    package, executable, *rest = [*words, ""]
+    names = executable_names(package)
+    if package not in (*package_names(), PAGE_NAME):
+        return {}, no_package(package)
+    if not executable or executable.startswith("-"):
+        return {}, f"name an executable of package '{package}' as well; it has: {', '.join(names) or 'none'}"
+    arguments = {"package": package, "program": executable, "words": shlex.join(rest[:-1])}
+    return arguments, "" if executable in names else no_executable(package, executable)
+
+
+def _fault(file: Path, hint: Callable[[str], None]) -> str:
+    from bot_console.runtime.plain_file import examine
+
+    if not file.is_file():
+        return f"{file} does not exist"
+    found = examine(file)
+    if found.hint:
+        hint(found.hint)
+    return found.problem

@@ -1,0 +1,111 @@
+"""`bot-console router`: Zenoh's router, for a robot without one, or as the way into the programs of this machine."""
+
+from __future__ import annotations
+
+import argparse
+import signal
+import sys
+import threading
+from collections.abc import Sequence
+from types import FrameType
+
+from bot_console.runtime.rmw.zenoh.reach import PORT, Tls, place_of
+from bot_console.runtime.rmw.zenoh.session import Session, SessionError
+from bot_console.runtime.rmw.zenoh.settings import Serving
+
+HERE = f"tcp/127.0.0.1:{PORT}"
+LOOPBACK = ("127.", "localhost", "::1")
+OPEN = (
+    "WARNING: whoever reaches {} can drive this robot, set its parameters and hear all it says; {}. Only for a network "
+    "in which everybody may; else tls/ with --tls-ca, and an access list (docs/your-robot.md)."
+)
+
+
+def run(words: Sequence[str]) -> int:
+    """Carry messages until Ctrl-C, SIGTERM or SIGHUP; 1 where it cannot listen."""
+    parser = _parser()
+    given = parser.parse_args(words)
+    serving = serving_of(parser, given.listen or [HERE], given)
+    warning = warning_of(serving)
+    if warning:
+        print(warning, file=sys.stderr, flush=True)
+    try:
+        session = _open(serving, given.config, mesh=given.mesh)
+    except (SessionError, RuntimeError) as error:
+        print(error, file=sys.stderr)
+        return 1
+    over = threading.Event()
+
+    def end(number: int, frame: FrameType | None) -> None:
+        over.set()
+
+    for each in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(each, end)
+    what = "the programs of this ROS domain are reached" if given.mesh else "a router for nodes of rmw_zenoh"
+    print(f"{what} at {', '.join(serving.endpoints)}; Ctrl-C ends it", flush=True)
+    over.wait()
+    session.close()
+    return 0
+
+
+def add_serving_options(parser: argparse.ArgumentParser) -> None:
+    """The options of whoever lets others in by TLS; see `serving_of`."""
+    add = parser.add_argument
+    add("--tls-certificate", default="", metavar="FILE", help="the certificate to show")
+    add("--tls-key", default="", metavar="FILE", help="its private key")
+    add("--tls-ca", default="", metavar="FILE", help="let in only who shows a certificate of this authority")
+
+
+def serving_of(parser: argparse.ArgumentParser, endpoints: Sequence[str], given: argparse.Namespace) -> Serving:
+    """What to listen on; ends the program with exit code 2 for what cannot be."""
+    tls = Tls(given.tls_ca, given.tls_certificate, given.tls_key)
+    if problem := tls.problem():
+        parser.error(problem)
+    for each in endpoints:
+        try:
+            protocol, _, _ = place_of(each)
+        except ValueError as error:
+            parser.error(str(error))
+        if protocol in ("tls", "quic") and not tls.certificate:
+            parser.error(f"{each} needs --tls-certificate and --tls-key")
+    return Serving(tuple(endpoints), tls.as_listener())
+
+
+def warning_of(serving: Serving) -> str:
+    """What it means to listen there; empty where only this machine can come."""
+    outside = [each for each in serving.endpoints if not place_of(each)[1].startswith(LOOPBACK)]
+    if not outside:
+        return ""
+    mutual = serving.tls.get("enable_mtls") and all(place_of(each)[0] == "tls" for each in outside)
+    asked = "a certificate of your authority is asked for" if mutual else "nothing is asked of them"
+    return OPEN.format(", ".join(outside), asked)
+
+
+def _open(serving: Serving, config: str, *, mesh: bool) -> Session:
+    if mesh:
+        from bot_console.runtime.rmw.zenoh.mesh import MeshSession
+        from bot_console.tui.cli.system.domain import domain
+
+        session = MeshSession(domain(), serving)
+        session.watch()
+        return session
+    from bot_console.runtime.rmw.zenoh.router import Router
+
+    return Router(serving, config)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        "bot-console router",
+        description="Zenoh's router, as nodes of rmw_zenoh and `attach --connect` want one.",
+    )
+    add = parser.add_argument
+    add("--listen", action="append", metavar="ENDPOINT", help=f"where; without it {HERE}, for this machine alone")
+    add(
+        "--mesh",
+        action="store_true",
+        help="the way into the programs of this machine's ROS domain, which have no ports",
+    )
+    add("--config", default="", metavar="FILE", help="a configuration of Zenoh, for instance with an access list")
+    add_serving_options(parser)
+    return parser

@@ -1,0 +1,87 @@
+"""`bot-console` with a screen: what it shows, and whether it starts a robot of its own."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from contextlib import ExitStack
+from dataclasses import replace
+from pathlib import Path
+
+from bot_console.runtime.importer import install
+from bot_console.tui.cli.arguments import Options
+from bot_console.tui.cli.live.launch_host import Host, start_host
+from bot_console.tui.cli.system.domain import domain, is_in_range, robot_there, take_part
+from bot_console.tui.cli.system.workspaces import choose
+from bot_console.tui.console.model import Severity
+from bot_console.tui.files.folders import state_folder
+
+ATTACHED = "Attached to ROS domain {}: q ends the console alone, and what was started from it."
+HOST_LOG = "launch-host.log"
+
+
+def run(options: Options) -> int:
+    """Show the console."""
+    problem = _refusal(options)
+    if problem:
+        print(problem, file=sys.stderr)
+        return 1
+    install()
+    choose(options.workspace)
+    alone = take_part()
+    if alone and options.attach:
+        print(alone, file=sys.stderr)
+        return 1
+    if not (alone or options.attach or options.launch) and (there := robot_there()):
+        if not _attach_instead(there):
+            return 1
+        options = replace(options, attach=True)
+    with ExitStack() as hosts:
+
+        def start() -> Host:
+            host = _host(options)
+            hosts.callback(host.end)
+            return host
+
+        together = not alone and is_in_range()
+        own = start() if together and not options.attach else None  # while this process imports the screen
+        return _show(options, alone, own, start)
+
+
+def _show(options: Options, alone: str, own: Host | None, start: Callable[[], Host]) -> int:
+    from bot_console.tui.cli.live.launchers import attached, embedded, hosted
+    from bot_console.tui.cli.live.session import Session
+
+    said = [(Severity.WARN, f"No second terminal reaches this system: {alone}")] if alone else []
+    if options.attach:
+        said.append((Severity.INFO, ATTACHED.format(domain())))
+        return Session(options, said, attached(start)).run()
+    return Session(options, said, embedded if own is None else hosted(own)).run()
+
+
+def _refusal(options: Options) -> str:
+    if not sys.stdout.isatty() or not sys.stdin.isatty():
+        return "bot-console needs a terminal; without one, use --headless"
+    if options.launch and not Path(options.launch).is_file():
+        return f"there is no launch file {options.launch}"
+    return ""
+
+
+def _host(options: Options) -> Host:
+    """A launch host for this console alone."""
+    folder = state_folder()
+    folder.mkdir(parents=True, exist_ok=True)
+    words = [word for each in options.workspace for word in ("--workspace", str(each))]
+    return start_host(words, log=folder / HOST_LOG)
+
+
+def _attach_instead(there: list[str]) -> bool:
+    """Two robots in one domain would obey each other's commands, so the person is asked."""
+    number = domain()
+    print(f"A robot runs already in ROS domain {number}: {', '.join(there)}.")
+    print(f"`ROS_DOMAIN_ID={number + 1} bot-console` starts another one apart from it.")
+    try:
+        return input("Attach the console to the one that runs? [Y/n] ").strip().lower() in ("", "y", "yes")
+    except (EOFError, KeyboardInterrupt):
+        print()
+        return False

@@ -1,0 +1,50 @@
+"""`ros2 run` and `ros2 launch` lines of the console: what they start stays, and stands in the Launch pane."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from bot_console.tui.cli.programs import program
+from bot_console.tui.cli.system.workspaces import PROGRAM_LAUNCH
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """A launch file and its arguments, or why there is none."""
+
+    name: str = ""
+    file: str = ""
+    arguments: Mapping[str, str] = field(default_factory=dict[str, str])
+    problem: str = ""
+
+
+def launched_by(words: Sequence[str]) -> Wanted | None:
+    """What a line launches; None for one that starts nothing, such as `launch --show-args`."""
+    if len(words) < 2 or words[0] not in ("run", "launch") or words[1].startswith("-"):
+        return None
+    return _run(words[1:]) if words[0] == "run" else _launch(words[1:])
+
+
+def _run(words: Sequence[str]) -> Wanted:
+    arguments, problem = program(list(words), lambda text: None)
+    return Wanted(arguments.get("program", "").rpartition("/")[2], str(PROGRAM_LAUNCH), arguments, problem)
+
+
+def _launch(words: Sequence[str]) -> Wanted | None:
+    from ament_index_python.packages import PackageNotFoundError
+    from bot_console.runtime.workspace.not_found import no_package
+    from ros2cli.launch_file import LaunchFileError, find_launch_file, parse_launch_arguments
+
+    if any(each.startswith("-") for each in words):
+        return None
+    file, *rest = words
+    try:
+        if not os.path.isfile(file):
+            file, rest = find_launch_file(file, rest[0] if rest else None), rest[1:]
+        return Wanted(os.path.basename(file), os.path.abspath(file), parse_launch_arguments(rest))
+    except (PackageNotFoundError, ValueError):
+        return Wanted(problem=no_package(words[0]))
+    except LaunchFileError as error:
+        return Wanted(problem=str(error))

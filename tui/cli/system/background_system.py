@@ -1,0 +1,85 @@
+"""The process of a system in the background: a launch host that has no console of its own.
+
+`python -m bot_console.tui.cli.system.background_system LOG WORDS...`; the words are those of `bot-console up`.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from bot_console.runtime.importer import install
+from bot_console.tui.cli.arguments import Options, parse
+
+SWITCH = "bot_console.tui.cli.system.background_system"
+GRACE = 5.0
+"""Seconds that the look for a robot may take to end."""
+
+
+def main(words: Sequence[str] | None = None) -> int:
+    """Run the system until it is told to end; 1 where it could not be launched, which the log explains."""
+    log, *rest = sys.argv[1:] if words is None else words
+    options = parse(["--headless", *rest])
+    install()
+    from bot_console.tui.cli.system.domain import take_part
+    from bot_console.tui.cli.system.own_processes import isolate
+    from bot_console.tui.cli.system.workspaces import choose
+
+    choose(options.workspace)
+    problem = take_part()
+    if problem:
+        print(problem, file=sys.stderr)
+        return 1
+    isolate()
+    return _run(options, Path(log))
+
+
+def _run(options: Options, file: Path) -> int:
+    from bot_console.tui.cli.live import robot_beside
+    from bot_console.tui.cli.live.launch_host import serve
+    from bot_console.tui.cli.live.launchers import launcher_here
+    from bot_console.tui.cli.system.system_log import SystemLog
+    from bot_console.tui.cli.system.workspaces import SYSTEM_LAUNCH
+    from bot_console.tui.console.launch.launcher import RosLauncher
+    from bot_console.tui.console.launch.output import Add
+    from bot_console.tui.console.launch_host.host import LaunchHost
+    from bot_console.tui.console.model import Severity
+
+    log = SystemLog(file)
+    made: list[RosLauncher] = []
+
+    def make(record: Add, printed: Callable[[int, str, str], None]) -> RosLauncher:
+        made.append(launcher_here(record, printed, every=log.logged))
+        return made[0]
+
+    host = LaunchHost(make, log.printed)
+    [launcher] = made
+    arguments = dict(options.launch_arguments)
+    if not options.launch:
+        arguments = {"profile": options.profile, **robot_beside.arguments(options), **arguments}
+
+    def tell(text: str) -> None:
+        host.printed(Severity.INFO, "bot-console", text)
+
+    def start_robot() -> None:
+        launcher.launch(robot_beside.LAUNCH_FILE, robot_beside.arguments(options))
+
+    answer = launcher.launch(options.launch or SYSTEM_LAUNCH, arguments).result()
+    if not answer.ok:
+        print(answer.text, file=sys.stderr)
+        host.close()
+        return 1
+    system = robot_beside.System(lambda: robot_beside.processes(launcher.info()), tell, start_robot)
+    looking = robot_beside.begin(options, system)
+    serve(host, options.duration)
+    if looking is not None:
+        looking.stop(GRACE)
+    log.close()
+    return 0
+
+
+if __name__ == "__main__":
+    from bot_console.tui.cli.system.domain import end_program
+
+    end_program(main())

@@ -1,0 +1,116 @@
+"""What part a program has in its ROS domain: the graph is that of all programs of the user on this machine.
+
+Composition alone: what a verb, `run` and `launch` make is then seen by the others, and the other way round.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+from typing import NoReturn
+
+_taking_part = False
+
+CONNECT_VARIABLE = "BOT_CONSOLE_CONNECT"
+"""The router that `--connect` would name, for verbs, and for shells in which all is about one robot."""
+
+NO_SOCKETS = "programs cannot meet on this system yet, which has no Unix sockets: this one is alone"
+
+
+def take_part() -> str:
+    """Let the contexts that are initialised from now on share the graph of their domain; never in a stepped run.
+
+    Gives why that cannot be, in one line; empty where it can.
+    """
+    global _taking_part
+    if os.name == "nt":
+        return NO_SOCKETS
+    from bot_console.runtime.child_environment import let_children_meet
+    from bot_console.runtime.rmw.zenoh.domain_bus import share_domains
+    from bot_console.runtime.rmw.zenoh.domain_folder import FolderRefusedError, domain_folder
+
+    try:
+        domain_folder(domain())
+    except FolderRefusedError as refused:
+        return str(refused)
+    share_domains()
+    let_children_meet(True)
+    _taking_part = True
+    return ""
+
+
+def run_apart() -> None:
+    """Let the contexts that are initialised from now on, and the programs of launches, meet nobody."""
+    from bot_console.runtime.child_environment import let_children_meet
+    from bot_console.runtime.rmw.local import local_bus
+    from bot_console.runtime.rmw.middleware import choose_middleware
+
+    choose_middleware(local_bus)
+    let_children_meet(False)
+
+
+def is_in_range() -> bool:
+    """Whether the environment lets programs of this machine find each other, as it does unless asked not to."""
+    from bot_console.runtime.rmw.zenoh import domain_bus
+
+    return domain_bus.is_in_range()
+
+
+def others_take_part() -> bool:
+    """Whether another process of this user is in the domain, as far as the folder of their sockets tells."""
+    from bot_console.runtime.rmw.zenoh.domain_folder import FolderRefusedError, domain_folder
+    from bot_console.runtime.rmw.zenoh.sockets import sockets
+
+    try:
+        found = sockets(domain_folder(domain())) if os.name != "nt" else []
+    except FolderRefusedError:
+        return False
+    return any(each.pid != os.getpid() and _lives(each.pid) for each in found)
+
+
+def robot_there() -> list[str]:
+    """The nodes of other processes that are a robot's: they obey velocities, or give scans or odometry.
+
+    To be asked after `take_part` and before anything runs in this process.
+    """
+    from bot_console.runtime.rmw.middleware import bus_of
+    from bot_console.tui.console.robot.robot_wanted import SOURCES, VELOCITY
+
+    if not others_take_part():
+        return []
+    bus = bus_of(domain())
+    found = [each for each in bus.publishers() if each.topic in SOURCES]
+    found += [each for each in bus.subscriptions() if each.topic == VELOCITY]
+    return sorted({f"{each.node.namespace.rstrip('/')}/{each.node.name}" for each in found})
+
+
+def _lives(pid: int) -> bool:
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    except PermissionError:
+        return True
+    return True
+
+
+def domain() -> int:
+    """The domain of the environment; a text that is no number is told when a context is made."""
+    text = os.environ.get("ROS_DOMAIN_ID", "")
+    return int(text) if text.isdecimal() else 0
+
+
+def end_program(code: int) -> NoReturn:
+    """End the process: at once where it has taken part, since closing waits up to 0.5 s beside a frozen process."""
+    if _taking_part:
+        import atexit
+
+        # Its sockets and temporary folders go, as they do at any other end.
+        atexit._run_exitfuncs()  # pyright: ignore[reportPrivateUsage]  # the only way before os._exit
+        for stream in (sys.stdout, sys.stderr):
+            try:
+                stream.flush()
+            except (OSError, ValueError):  # as where the reader of a pipe has gone
+                code = code or 1
+        os._exit(code)
+    sys.exit(code)

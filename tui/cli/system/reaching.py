@@ -1,0 +1,17 @@
+"""How a verb reaches the system that it is asked about: in its domain, or through the routers that are named."""
+
+from __future__ import annotations
+
+import os
+
+from bot_console.tui.cli.system.domain import CONNECT_VARIABLE, take_part
+
+
+def reach_system() -> str:
+    """Take part in the domain of this machine, or be a client of the robot's router that the environment names."""
+    endpoints = os.environ.get(CONNECT_VARIABLE, "").split()
+    if not endpoints:
+        return take_part()
+    from bot_console.tui.cli.system.connecting import connect_to
+
+    return connect_to(endpoints)

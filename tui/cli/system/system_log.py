@@ -1,0 +1,57 @@
+"""The log of a system in the background: every line of its processes, in files that take turns."""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Iterator
+from logging.handlers import RotatingFileHandler
+from pathlib import Path
+
+from bot_console.tui.files.folders import state_folder
+
+MOST_BYTES = 5_000_000
+"""The size of a file after which the next one begins."""
+KEPT_PARTS = 4
+"""Older files of one system that are kept, named `.1` (the newest) and up."""
+KEPT_SYSTEMS = 5
+"""Systems whose logs are kept."""
+NAMES = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}
+
+
+class SystemLog:
+    """Writes lines as `[INFO] [1700000000.123456] [talker]: text`; may be called from any thread."""
+
+    def __init__(self, path: Path, most_bytes: int = MOST_BYTES) -> None:
+        self._handler = RotatingFileHandler(
+            path, maxBytes=most_bytes, backupCount=KEPT_PARTS, encoding="utf-8", errors="backslashreplace"
+        )
+
+    def logged(self, stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:
+        """A line of a logger; `stamp` in ns since the epoch."""
+        line = f"[{NAMES.get(severity, 'INFO')}] [{stamp * 1e-9:.6f}] [{name}]: {text}"
+        self._handler.handle(logging.LogRecord(name, severity, site[0], site[2], line, None, None))
+
+    def printed(self, severity: int, name: str, text: str) -> None:
+        """A line that a process printed just now."""
+        self.logged(time.time_ns(), severity, name, text, ("", "", 0))
+
+    def close(self) -> None:
+        """Close the file."""
+        self._handler.close()
+
+
+def new_log(pid: int) -> Path:
+    """The file for the log of a system that starts now; those of all but the newest systems go."""
+    folder = state_folder() / "systems"
+    folder.mkdir(parents=True, exist_ok=True)
+    old = sorted(folder.glob("*.log"), key=lambda each: each.stat().st_mtime)
+    for first in old[: max(0, len(old) - KEPT_SYSTEMS + 1)]:
+        for each in (first, *parts(first)):
+            each.unlink(missing_ok=True)
+    return folder / f"{time.strftime('%Y%m%d-%H%M%S')}-{pid}.log"
+
+
+def parts(log: Path) -> Iterator[Path]:
+    """The older files of a log."""
+    return log.parent.glob(f"{log.name}.*")

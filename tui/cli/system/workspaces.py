@@ -1,0 +1,51 @@
+"""The workspace of a run, and the launch files in it."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from bot_console.runtime.workspace.choices import launch_file_paths
+from bot_console.runtime.workspace.discover import Workspace, default_folders, use, workspace
+from bot_console.runtime.workspace.own import FIRST_VARIABLE, NAME, PAGE_NAME, ROOT, is_own
+
+PROGRAM_LAUNCH = ROOT / "launch" / "program.launch.py"
+"""Runs what a person has named, which is not ours."""
+SYSTEM_LAUNCH = str(ROOT / "launch" / "robot_system.launch.py")
+"""What `bot-console` starts."""
+
+
+def choose(folders: Sequence[Path]) -> None:
+    """Look for packages in these folders, and in the `src/` of each, instead of the working directory."""
+    if folders:
+        use(Workspace([each for folder in folders for each in default_folders(folder)]))
+
+
+def launch_environment(file: str) -> dict[str, str]:
+    """The environment of a launch. A launch file of ours starts our nodes whatever the workspace holds.
+
+    That may be a package of our name, such as one that was exported and changed.
+    """
+    path = Path(file).resolve()
+    ours = path.parent == ROOT / "launch" and path != PROGRAM_LAUNCH
+    return {**os.environ, FIRST_VARIABLE: "1"} if ours else dict(os.environ)
+
+
+def tell_whose(package: str) -> None:
+    """Say on stderr that a package which is named is the workspace's, where it has one of the names of ours."""
+    found = workspace().packages.get(package)
+    if package in (NAME, PAGE_NAME) and found is not None and not is_own(found):
+        built_in = f"; the robot that comes along is '{NAME}'" if package != NAME else ", not the one that comes along"
+        print(f"[INFO] [bot-console]: package '{package}' is the one in {found.folder}{built_in}", file=sys.stderr)
+
+
+def config_folders() -> tuple[Path, ...]:
+    """The folders of the workspace's packages in which parameter files stand by custom."""
+    return tuple(each for found in workspace().packages.values() if (each := found.folder / "config").is_dir())
+
+
+def launch_files() -> tuple[str, ...]:
+    """The launch files of all packages of the workspace."""
+    return tuple(str(path) for name in workspace().packages for path in launch_file_paths(name))

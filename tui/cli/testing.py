@@ -1,0 +1,31 @@
+"""Tests of ROS packages: `launch_test FILE`, and `test`, pytest with what launch_testing and launch_pytest add."""
+
+from __future__ import annotations
+
+import sys
+
+PLUGINS = ("-p", "launch_testing.pytest.plugin", "-p", "launch_pytest.plugin")
+NO_PYTEST = "bot-console test runs pytest, which is not installed: pip install 'bot-console[test]'"
+
+
+def launch_test(words: list[str]) -> int:
+    """Run the tests of a launch description without pytest."""
+    from bot_console.runtime.importer import install
+
+    install()
+    from launch_testing.launch_test import main
+
+    return main(words)
+
+
+def test(words: list[str]) -> int:
+    """Run pytest on what stands in the words; `rclpy`, `launch` and all messages are there."""
+    from bot_console.runtime.importer import install
+
+    install()
+    try:
+        import pytest
+    except ModuleNotFoundError:
+        print(NO_PYTEST, file=sys.stderr)
+        return 1
+    return int(pytest.main([*PLUGINS, *words]))

@@ -1,0 +1,69 @@
+"""Message definitions as MCAP wants them (`ros2msg`): the type, then all that it is made of, apart by a line of `=`.
+
+Made from the classes themselves, which say their fields on every ROS 2, so that definition files need not be there.
+Constants and comments are not part of what a reader needs and are left out.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+BORDER = "=" * 80
+NAMES = {"boolean": "bool", "octet": "byte", "float": "float32", "double": "float64"}
+"""Primitive types whose names in classes (IDL's) differ from those in definitions."""
+
+
+def definition(kind: Any) -> str:
+    """The definition of a message class with all that it needs."""
+    parts = [f"{_fields(kind)}"]
+    parts += [f"{BORDER}\nMSG: {name}\n{_fields(each)}" for name, each in _needed(kind, {})]
+    return "\n".join(parts)
+
+
+def type_name(kind: Any) -> str:
+    """`package/msg/Name` of a message class."""
+    package, _, rest = kind.__module__.partition(".")
+    return f"{package}/{rest.split('.')[0]}/{kind.__name__}"
+
+
+def _needed(kind: Any, found: dict[str, Any]) -> Iterator[tuple[str, Any]]:
+    for text in kind.get_fields_and_field_types().values():
+        name = _element(text)
+        if "/" in name and name not in found:
+            found[name] = _class(name)
+            yield name, found[name]
+            yield from _needed(found[name], found)
+
+
+def _class(name: str) -> Any:
+    import importlib
+
+    package, _, message = name.partition("/")
+    return getattr(importlib.import_module(f"{package}.msg"), message)
+
+
+def _fields(kind: Any) -> str:
+    lines = (f"{_written(text)} {name}" for name, text in kind.get_fields_and_field_types().items())
+    return "\n".join(lines) + "\n"
+
+
+def _element(text: str) -> str:
+    """The type of a field, or of its elements."""
+    inside = re.fullmatch(r"sequence<(.*?)(?:, \d+)?>", text)
+    return re.sub(r"\[\d+\]$", "", inside[1] if inside else text)
+
+
+def _written(text: str) -> str:
+    """A type of a class as definitions write it: `sequence<double, 3>` is `float64[<=3]`."""
+    if sequence := re.fullmatch(r"sequence<(.*?)(?:, (\d+))?>", text):
+        return f"{_simple(sequence[1])}[{f'<={sequence[2]}' if sequence[2] else ''}]"
+    if array := re.fullmatch(r"(.*)\[(\d+)\]", text):
+        return f"{_simple(array[1])}[{array[2]}]"
+    return _simple(text)
+
+
+def _simple(text: str) -> str:
+    bounded = re.fullmatch(r"(w?string)<(\d+)>", text)
+    return f"{bounded[1]}<={bounded[2]}" if bounded else NAMES.get(text, text)

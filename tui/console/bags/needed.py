@@ -1,0 +1,17 @@
+"""What bags need and a plain installation does not bring."""
+
+from __future__ import annotations
+
+INSTALL = "pip install 'bot-console[bags]'"
+
+
+class Missing(RuntimeError):
+    """The library that writes and reads bags is not installed; the text says how to install it."""
+
+
+def check() -> None:
+    """Raise `Missing` where there is no `mcap`."""
+    try:
+        import mcap.writer  # noqa: F401 # pyright: ignore[reportUnusedImport] # to see that it is there
+    except ImportError as error:
+        raise Missing(f"bags need the package mcap ({error}): {INSTALL}") from None

@@ -1,0 +1,98 @@
+"""Plays a bag: publishes what is in it, in its order, as far apart as it came."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from bot_console.tui.console.bags.qos import offered
+from bot_console.tui.console.bags.reader import Bag
+from rclpy.node import Node
+
+
+@dataclass(frozen=True)
+class Playing:
+    """How a bag is to be played."""
+
+    rate: float = 1.0
+    """How many seconds of the bag pass in one."""
+    offset: float = 0.0
+    """Seconds of the bag that are left out at its begin."""
+    loop: bool = False
+    topics: Collection[str] | None = None
+    """Those that are played; None: all."""
+    remaps: Mapping[str, str] = field(default_factory=dict[str, str])
+    """Other names for topics."""
+    clock: float = 0.0
+    """Hz at which the bag's time is published on /clock; 0: not at all."""
+
+
+class Player:
+    """Publishes the messages of a bag by a node."""
+
+    def __init__(self, node: Node, bag: Bag, how: Playing, find: Callable[[str], Any]) -> None:
+        """`find` gives the class of a type's name; topics whose type is not here are in `unknown` and left out."""
+        self._bag = bag
+        self._how = how
+        self._publishers: dict[str, Any] = {}
+        self.unknown: dict[str, str] = {}
+        self.published = 0
+        for name, topic in bag.metadata.topics.items():
+            if how.topics is not None and name not in how.topics:
+                continue
+            try:
+                kind = find(topic.type)
+            except (ImportError, AttributeError, ValueError) as error:
+                self.unknown[name] = f"its type {topic.type} is not here ({error})"
+                continue
+            self._publishers[name] = node.create_publisher(kind, how.remaps.get(name, name), offered(topic.qos))
+        self._clock = Clock(node, how.clock) if how.clock > 0 else None
+
+    def run(self, stopped: threading.Event) -> None:
+        """Play until the end, or until it is stopped; blocks."""
+        while not stopped.is_set():
+            self._once(stopped)
+            if not self._how.loop:
+                return
+
+    def _once(self, stopped: threading.Event) -> None:
+        first = self._bag.metadata.begin + int(self._how.offset * 1e9)
+        begun = time.monotonic()
+        for entry in self._bag.messages(self._publishers, first):
+            due = begun + (entry.received - first) / 1e9 / self._how.rate
+            while (wait := due - time.monotonic()) > 0:
+                step = wait if self._clock is None else min(wait, self._clock.period)
+                if stopped.wait(step):
+                    return
+                if self._clock is not None:
+                    self._clock.tell(first + int((time.monotonic() - begun) * 1e9 * self._how.rate))
+            if stopped.is_set():
+                return
+            if self._clock is not None:
+                self._clock.tell(entry.received)
+            self._publishers[entry.topic].publish(entry.data)
+            self.published += 1
+
+
+class Clock:
+    """The time of a bag on /clock."""
+
+    def __init__(self, node: Node, rate: float) -> None:
+        from rosgraph_msgs.msg import Clock as Message
+
+        self._message = Message
+        self._publisher = node.create_publisher(Message, "/clock", 10)
+        self.period = 1.0 / rate
+        self._told = 0
+
+    def tell(self, stamp: int) -> None:
+        """Publish a time (ns), unless one was published less than a period before it."""
+        if 0 <= stamp - self._told < self.period * 1e9:
+            return
+        self._told = stamp
+        message = self._message()
+        message.clock.sec, message.clock.nanosec = divmod(stamp, 10**9)
+        self._publisher.publish(message)

@@ -1,0 +1,193 @@
+"""Reads bags: folders of rosbag2 (MCAP or SQLite), and single files. One that a killed program left is mended first."""
+
+from __future__ import annotations
+
+import heapq
+import sqlite3
+import struct
+from collections.abc import Collection, Iterable, Iterator
+from contextlib import closing, suppress
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, NamedTuple, cast
+
+import yaml
+from bot_console.tui.console.bags.metadata import FILE, Metadata, Topic
+from bot_console.tui.console.bags.needed import check
+
+MAGIC = b"\x89MCAP0\r\n"
+
+
+class NoBag(ValueError):
+    """A path leads to nothing that can be read as a bag; the text says which path and why."""
+
+
+class Entry(NamedTuple):
+    """A message of a bag: when it came (ns since the epoch), its topic, and its CDR bytes."""
+
+    received: int
+    topic: str
+    data: bytes
+
+
+class Bag:
+    """A bag that is open for reading."""
+
+    def __init__(self, path: Path) -> None:
+        """Raises `NoBag`, and `Missing` without `mcap`."""
+        check()
+        self.path = path
+        self.files = _files(path)
+        self.mended = [each.name for each in self.files if each.suffix == ".mcap" and _mend(each)]
+        """Files whose end was missing, and has been added."""
+        self.metadata = Metadata(self.files[0].name)
+        for each in self.files:
+            for topic in _topics(each, self.metadata):
+                known = self.metadata.topics.setdefault(topic.name, replace(topic, count=0))
+                known.count += topic.count
+        if self.mended and path.is_dir():
+            self.metadata.save(path)
+
+    def messages(self, topics: Collection[str] | None = None, begin: int = 0) -> Iterator[Entry]:
+        """All messages from a time (ns since the epoch) on, in the order in which they came."""
+        return heapq.merge(*(_messages(each, topics, begin) for each in self.files), key=lambda entry: entry.received)
+
+
+def _files(path: Path) -> list[Path]:
+    if path.is_file():
+        return [path]
+    if not path.is_dir():
+        raise NoBag(f"{path}: there is no such bag")
+    named: list[Path] = []
+    with suppress(OSError, yaml.YAMLError, KeyError, TypeError):
+        loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+        about: Any = yaml.load((path / FILE).read_text(encoding="utf-8"), loader)["rosbag2_bagfile_information"]
+        named = [path / str(each) for each in about["relative_file_paths"]]
+    found = [each for each in named if each.is_file() and each.resolve().parent == path.resolve()]
+    found = found or sorted((*path.glob("*.mcap"), *path.glob("*.db3")))
+    if not found:
+        raise NoBag(f"{path}: no .mcap and no .db3 file in it")
+    return found
+
+
+def _topics(path: Path, metadata: Metadata) -> Iterable[Topic]:
+    if path.suffix == ".db3":
+        return _sqlite_topics(path, metadata)
+    return _mcap_topics(path, metadata)
+
+
+def _messages(path: Path, topics: Collection[str] | None, begin: int) -> Iterator[Entry]:
+    return (_sqlite_messages if path.suffix == ".db3" else _mcap_messages)(path, topics, begin)
+
+
+def _mcap_topics(path: Path, metadata: Metadata) -> Iterable[Topic]:
+    from mcap.exceptions import McapError
+    from mcap.reader import make_reader
+
+    try:
+        with path.open("rb") as file:
+            summary = make_reader(file).get_summary()
+    except (McapError, OSError, ValueError) as error:
+        raise NoBag(f"{path}: {error}") from None
+    if summary is None or summary.statistics is None:
+        raise NoBag(f"{path}: says nothing of its messages")
+    counts = summary.statistics.channel_message_counts
+    if summary.statistics.message_count:
+        metadata.seen(summary.statistics.message_start_time)
+        metadata.seen(summary.statistics.message_end_time)
+    for id, channel in summary.channels.items():
+        schema = summary.schemas.get(channel.schema_id)
+        name = schema.name if schema is not None else ""
+        facts = channel.metadata
+        qos = _profiles(facts.get("offered_qos_profiles", ""))
+        yield Topic(channel.topic, name, qos, facts.get("topic_type_hash", ""), counts.get(id, 0))
+
+
+def _mcap_messages(path: Path, topics: Collection[str] | None, begin: int) -> Iterator[Entry]:
+    from mcap.reader import make_reader
+
+    with path.open("rb") as file:
+        wanted = list(topics) if topics is not None else None
+        for _, channel, message in make_reader(file).iter_messages(topics=wanted, start_time=begin or None):
+            yield Entry(message.log_time, channel.topic, message.data)
+
+
+def _sqlite_topics(path: Path, metadata: Metadata) -> Iterable[Topic]:
+    asked = (
+        "select name, type, offered_qos_profiles, count(messages.id), min(timestamp), max(timestamp) "
+        "from topics left join messages on messages.topic_id = topics.id group by topics.id"
+    )
+    try:
+        with closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as base:
+            rows = base.execute(asked).fetchall()
+    except sqlite3.Error as error:
+        raise NoBag(f"{path}: {error}") from None
+    for name, type, qos, count, first, last in rows:
+        if count:
+            metadata.seen(first)
+            metadata.seen(last)
+        yield Topic(name, type, _profiles(qos), "", count)
+
+
+def _sqlite_messages(path: Path, topics: Collection[str] | None, begin: int) -> Iterator[Entry]:
+    asked = (
+        "select timestamp, name, data from messages join topics on messages.topic_id = topics.id "
+        "where timestamp >= ? order by timestamp, messages.id"
+    )
+    with closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as base:
+        for stamp, name, data in base.execute(asked, (begin,)):
+            if topics is None or name in topics:
+                yield Entry(stamp, name, bytes(data))
+
+
+def _profiles(text: str) -> list[dict[str, Any]]:
+    """How publishers offered a topic; what cannot be read says nothing."""
+    try:
+        data = yaml.load(text or "[]", getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    except yaml.YAMLError:
+        return []
+    found = cast("list[Any]", data) if isinstance(data, list) else []
+    return [each for each in found if isinstance(each, dict)]
+
+
+def _mend(path: Path) -> bool:
+    """Give a file that was cut off an end, and keep all that came whole; whether it had none."""
+    from mcap.stream_reader import StreamReader
+
+    with path.open("rb") as file:
+        if file.read(len(MAGIC)) != MAGIC:
+            raise NoBag(f"{path}: is no MCAP file")
+        file.seek(0, 2)
+        file.seek(max(len(MAGIC), file.tell() - len(MAGIC)))
+        if file.read() == MAGIC:
+            return False
+        file.seek(0)
+        _write_again(path, StreamReader(file).records)
+    return True
+
+
+def _write_again(path: Path, records: Iterable[Any]) -> None:
+    from mcap.exceptions import McapError
+    from mcap.records import Channel, Message, Schema
+    from mcap.writer import CompressionType, Writer
+
+    beside = path.with_suffix(".mending")
+    with beside.open("wb") as file:
+        writer = Writer(file, compression=CompressionType.NONE)
+        writer.start(profile="ros2", library="bot-console")
+        schemas: dict[int, int] = {0: 0}
+        channels: dict[int, int] = {}
+        with suppress(McapError, EOFError, ValueError, struct.error):  # the cut
+            for each in records:
+                if isinstance(each, Schema) and each.id not in schemas:
+                    schemas[each.id] = writer.register_schema(each.name, each.encoding, each.data)
+                elif isinstance(each, Channel) and each.id not in channels:
+                    channels[each.id] = writer.register_channel(
+                        each.topic, each.message_encoding, schemas.get(each.schema_id, 0), each.metadata
+                    )
+                elif isinstance(each, Message) and each.channel_id in channels:
+                    writer.add_message(
+                        channels[each.channel_id], each.log_time, each.data, each.publish_time, each.sequence
+                    )
+        writer.finish()
+    beside.replace(path)

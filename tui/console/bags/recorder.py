@@ -1,0 +1,131 @@
+"""Records topics: subscribes as they are offered, finds new ones as they come, and keeps the bytes as they are."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Callable, Iterable
+from typing import Any, Protocol
+
+from bot_console.tui.console.bags.qos import noted
+from bot_console.tui.console.offered import OfferedSubscription
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+
+LOOK = 0.5
+"""Seconds between two looks for new topics."""
+BEST = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+class Sink(Protocol):
+    """Where what was recorded goes."""
+
+    def topic(self, name: str, kind: Any, qos: list[dict[str, Any]], type_hash: str = "") -> None:
+        """Begin a topic."""
+        ...
+
+    def write(self, topic: str, data: bytes, received: int, sent: int) -> None:
+        """Add a message."""
+        ...
+
+    def flush(self) -> None:
+        """Let what was written be safe."""
+        ...
+
+
+class Recorder:
+    """Hands all messages of the topics that are wanted to a sink."""
+
+    def __init__(self, node: Node, sink: Sink, wanted: Callable[[str], bool], find: Callable[[str], Any]) -> None:
+        """`find` gives the class of a type's name, and raises `ImportError` and the like where there is none."""
+        self._node = node
+        self._sink = sink
+        self._wanted = wanted
+        self._find = find
+        self.subscribed: dict[str, OfferedSubscription] = {}
+        self.unknown: dict[str, str] = {}
+        """Topics that cannot be recorded, and why."""
+        self._timer = node.create_timer(LOOK, self.look)
+        self.look()
+
+    def close(self) -> None:
+        """Record no more; the sink can be closed then."""
+        self._node.destroy_timer(self._timer)
+        for each in self.subscribed.values():
+            each.destroy()
+
+    def look(self) -> None:
+        """Subscribe what has come, follow what is offered now, and flush."""
+        self._sink.flush()
+        for name, types in self._node.get_topic_names_and_types():
+            if self._wanted(name) and name not in self.unknown:
+                self._follow(name, types)
+
+    def _follow(self, name: str, types: list[str]) -> None:
+        if name in self.subscribed:
+            self.subscribed[name].follow()
+            return
+        if len(types) != 1:
+            self.unknown[name] = f"it has several types: {', '.join(types)}"
+            return
+        try:
+            kind = self._find(types[0])
+        except (ImportError, AttributeError, ValueError) as error:
+            self.unknown[name] = f"its type {types[0]} is not here ({error})"
+            return
+        offers = self._node.get_publishers_info_by_topic(name)
+        self._sink.topic(name, kind, noted(each.qos_profile for each in offers), _hash(offers))
+
+        def take(data: bytes) -> None:
+            self._sink.write(name, data, time.time_ns(), 0)
+
+        self.subscribed[name] = OfferedSubscription(
+            self._node, kind, name, take, BEST, eager=False, once_weak=True, raw=True
+        )
+
+
+class Ring:
+    """Keeps the last minutes in memory, so that what has just happened can be written after it has."""
+
+    def __init__(self, seconds: float, most: int) -> None:
+        """At most so many bytes."""
+        self._seconds = seconds
+        self._most = most
+        self._held = 0
+        self._kept: deque[tuple[int, str, bytes]] = deque()
+        self.topics: dict[str, tuple[Any, list[dict[str, Any]], str]] = {}
+
+    def topic(self, name: str, kind: Any, qos: list[dict[str, Any]], type_hash: str = "") -> None:
+        """Begin a topic."""
+        self.topics[name] = kind, qos, type_hash
+
+    def write(self, topic: str, data: bytes, received: int, sent: int) -> None:
+        """Add a message, and forget those that are too old or too many."""
+        self._kept.append((received, topic, data))
+        self._held += len(data)
+        oldest = received - int(self._seconds * 1e9)
+        while self._kept and (self._kept[0][0] < oldest or self._held > self._most):
+            self._held -= len(self._kept.popleft()[2])
+
+    def flush(self) -> None:
+        """Nothing is written before it is asked for."""
+
+    def pour(self, sink: Sink) -> int:
+        """Write all that is kept, and give how many messages that were."""
+        kept: Iterable[tuple[int, str, bytes]] = list(self._kept)
+        for name, (kind, qos, type_hash) in self.topics.items():
+            sink.topic(name, kind, qos, type_hash)
+        count = 0
+        for received, topic, data in kept:
+            sink.write(topic, data, received, 0)
+            count += 1
+        return count
+
+
+def _hash(offers: Iterable[Any]) -> str:
+    """RIHS01 of the type, where the graph tells it."""
+    for each in offers:
+        found = getattr(each, "topic_type_hash", None)
+        if found is not None:
+            return str(found)
+    return ""

@@ -1,0 +1,79 @@
+"""Writes a bag: what came in the last second is on its way to the disk, whatever ends the program."""
+
+from __future__ import annotations
+
+import os
+import time
+from pathlib import Path
+from typing import Any
+
+from bot_console.tui.console.bags.definitions import definition, type_name
+from bot_console.tui.console.bags.metadata import Metadata, Topic, yaml_text
+from bot_console.tui.console.bags.needed import check
+from bot_console.tui.files.save_file import NotSaved
+
+FLUSH = 0.5
+"""Seconds after which what is held in memory is written at the latest."""
+
+
+class BagWriter:
+    """A new bag folder. Raises `Missing` without `mcap`, and `NotSaved` where the folder cannot be made or is there."""
+
+    def __init__(self, folder: Path) -> None:
+        check()
+        from mcap.writer import CompressionType, Writer
+
+        self.folder = folder
+        self.metadata = Metadata(f"{folder.name}_0.mcap")
+        try:
+            folder.mkdir(parents=True)
+            self._file = (folder / self.metadata.file).open("xb")
+        except FileExistsError:
+            raise NotSaved(f"{folder} is there already; give another name") from None
+        except OSError as error:
+            raise NotSaved(f"{folder}: {error.strerror or error}") from error
+        self._writer = Writer(self._file, compression=CompressionType.NONE)
+        self._writer.start(profile="ros2", library="bot-console")
+        self._channels: dict[str, int] = {}
+        self._schemas: dict[str, int] = {}
+        self._numbers: dict[int, int] = {}
+        self._flushed = time.monotonic()
+        self.metadata.save(folder)
+
+    def topic(self, name: str, kind: Any, qos: list[dict[str, Any]], type_hash: str = "") -> None:
+        """Begin a topic, before its first message."""
+        if name in self._channels:
+            return
+        type = type_name(kind)
+        if type not in self._schemas:
+            text = definition(kind).encode()
+            self._schemas[type] = self._writer.register_schema(name=type, encoding="ros2msg", data=text)
+        offered = yaml_text(qos)
+        facts = {"offered_qos_profiles": offered, "topic_type_hash": type_hash}
+        self._channels[name] = self._writer.register_channel(
+            topic=name, message_encoding="cdr", schema_id=self._schemas[type], metadata=facts
+        )
+        self.metadata.topics[name] = Topic(name, type, qos, type_hash)
+
+    def write(self, topic: str, data: bytes, received: int, sent: int) -> None:
+        """Add a message (CDR) with the times (ns since the epoch) at which it came and was sent."""
+        channel = self._channels[topic]
+        number = self._numbers[channel] = self._numbers.get(channel, -1) + 1
+        self._writer.add_message(channel, log_time=received, data=data, publish_time=sent or received, sequence=number)
+        self.metadata.topics[topic].count += 1
+        self.metadata.seen(received)
+        if time.monotonic() - self._flushed > FLUSH:
+            self.flush()
+
+    def flush(self) -> None:
+        """Hand to the system what is held in memory."""
+        self._flushed = time.monotonic()
+        self._writer.flush()
+
+    def close(self) -> None:
+        """Finish the file and what the folder says of itself."""
+        self._writer.finish()
+        self._file.flush()
+        os.fsync(self._file.fileno())
+        self._file.close()
+        self.metadata.save(self.folder)

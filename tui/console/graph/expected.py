@@ -1,0 +1,188 @@
+"""A ROS graph as a file: written down from a running system, and compared with one.
+
+The file is YAML: `nodes` (names), `topics` (by name: `type`, `publishers`, `subscribers`, `rate` in Hz with a
+`tolerance`), `services` and `actions` (types by name). What a file does not mention may be there all the same,
+unless `exact` is set.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, cast
+
+import yaml
+from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+
+TOLERANCE = 0.2
+"""Share of an expected rate by which a measured one may differ, where the file names none."""
+PARTS = ("nodes", "topics", "services", "actions", "exact")
+ABOUT_TOPIC = ("type", "publishers", "subscribers", "rate", "tolerance")
+TOOLS = ("/rosout", "/parameter_events")
+
+
+@dataclass(frozen=True)
+class Topic:
+    """What is expected of a topic; None where the file says nothing about it."""
+
+    type: str | None = None
+    publishers: frozenset[str] | None = None
+    subscribers: frozenset[str] | None = None
+    rate: float | None = None
+    tolerance: float = TOLERANCE
+
+
+@dataclass(frozen=True)
+class Expected:
+    """What a file says about a graph."""
+
+    nodes: frozenset[str] = frozenset()
+    topics: Mapping[str, Topic] = field(default_factory=lambda: {})
+    services: Mapping[str, str] = field(default_factory=lambda: {})
+    actions: Mapping[str, str] = field(default_factory=lambda: {})
+    exact: bool = False
+
+    @property
+    def rated(self) -> list[str]:
+        """Topics whose rates are to be measured."""
+        return [_full(name) for name, each in self.topics.items() if each.rate is not None]
+
+
+def read(text: str) -> Expected:
+    """What a file says; raises `ValueError` with what is wrong with it."""
+    try:
+        whole: Any = yaml.safe_load(text)
+    except yaml.YAMLError as error:
+        raise ValueError(f"this is no YAML: {error}") from None
+    found = _mapping(whole, "the file", PARTS)
+    return Expected(
+        _names(found.get("nodes"), "nodes"),
+        {name: _topic(name, each) for name, each in _mapping(found.get("topics"), "topics").items()},
+        _types(found.get("services"), "services"),
+        _types(found.get("actions"), "actions"),
+        bool(found.get("exact", False)),
+    )
+
+
+def _mapping(value: Any, what: str, known: tuple[str, ...] = ()) -> Mapping[str, Any]:
+    if value is None:
+        return {}
+    if not isinstance(value, dict):
+        raise ValueError(f"{what} should be a mapping, as in 'name: value'")
+    found = {str(key): each for key, each in cast("dict[Any, Any]", value).items()}
+    unknown = [key for key in found if known and key not in known]
+    if unknown:
+        raise ValueError(f"'{unknown[0]}' in {what} is not known; known are {', '.join(known)}")
+    return found
+
+
+def _names(value: Any, what: str) -> frozenset[str]:
+    words = cast("list[Any]", value) if isinstance(value, list) else None
+    if value is not None and (words is None or not all(isinstance(each, str) for each in words)):
+        raise ValueError(f"{what} should be a list of names, as in [/a, /b]")
+    return frozenset(_full(each) for each in words or ())
+
+
+def _full(name: str) -> str:
+    return name if name.startswith("/") else f"/{name}"
+
+
+def _types(value: Any, what: str) -> dict[str, str]:
+    return {_full(name): str(each) for name, each in _mapping(value, what).items()}
+
+
+def _topic(name: str, value: Any) -> Topic:
+    if value is None or isinstance(value, str):
+        return Topic(type=value)
+    found = _mapping(value, name, ABOUT_TOPIC)
+    rate, tolerance = found.get("rate"), found.get("tolerance", TOLERANCE)
+    for each in (rate, tolerance):
+        if each is not None and (not isinstance(each, (int, float)) or each < 0):
+            raise ValueError(f"'{each}' at {name} should be a number that is not negative")
+    ends = [
+        _names(found[each], f"{each} of {name}") if each in found else None for each in ("publishers", "subscribers")
+    ]
+    kind = found.get("type")
+    return Topic(None if kind is None else str(kind), ends[0], ends[1], rate, float(tolerance))
+
+
+def differences(expected: Expected, info: GraphInfo, rates: Mapping[str, float | None] | None = None) -> list[str]:
+    """In what a graph is not as expected, a line each; rates in Hz, as far as they were measured."""
+    nodes = {each.name: each for each in info.nodes if not each.hidden}
+    found = [f"node {name} is missing" for name in sorted(expected.nodes - nodes.keys())]
+    for name, topic in sorted(expected.topics.items()):
+        measured = replace(topic, rate=None) if rates is None else topic
+        found += _about_topic(_full(name), measured, list(nodes.values()), (rates or {}).get(_full(name)))
+    kinds = (("service", expected.services, "services"), ("action", expected.actions, "action_servers"))
+    for what, wanted, kind in kinds:
+        there = _types_of(list(nodes.values()), kind)
+        for name, type_name in sorted(wanted.items()):
+            if name not in there:
+                found.append(f"{what} {name} is missing")
+            elif type_name not in there[name]:
+                found.append(f"{what} {name} is of type {', '.join(sorted(there[name]))}, not {type_name}")
+    if expected.exact:
+        found += [f"node {name} was not expected" for name in sorted(nodes.keys() - expected.nodes)]
+        known = {_full(each) for each in expected.topics}
+        there = _types_of(list(nodes.values()), "publishers").keys() | _types_of(list(nodes.values()), "subscriptions")
+        found += [f"topic {each} was not expected" for each in sorted(there - known) if not _is_tool(each)]
+    return found
+
+
+def _is_tool(topic: str) -> bool:
+    return topic in TOOLS or "/_" in topic
+
+
+def _types_of(nodes: list[NodeInfo], kind: str) -> dict[str, set[str]]:
+    found: dict[str, set[str]] = {}
+    for node in nodes:
+        ends: tuple[Endpoint, ...] = getattr(node, kind)
+        for each in ends:
+            found.setdefault(each.name, set()).update(each.types)
+    return found
+
+
+def _about_topic(name: str, topic: Topic, nodes: list[NodeInfo], rate: float | None) -> list[str]:
+    publishers = {node.name for node in nodes for each in node.publishers if each.name == name}
+    subscribers = {node.name for node in nodes for each in node.subscriptions if each.name == name}
+    if not publishers and not subscribers:
+        return [f"topic {name} is missing"]
+    types = _types_of(nodes, "publishers").get(name, set()) | _types_of(nodes, "subscriptions").get(name, set())
+    found: list[str] = []
+    if topic.type is not None and topic.type not in types:
+        found.append(f"topic {name} is of type {', '.join(sorted(types))}, not {topic.type}")
+    for verb, wanted, there in (
+        ("publishes", topic.publishers, publishers),
+        ("subscribes to", topic.subscribers, subscribers),
+    ):
+        if wanted is not None:
+            found += [f"{each} {verb} {name} no more, or not yet" for each in sorted(wanted - there)]
+            found += [f"{each} {verb} {name}, which was not expected" for each in sorted(there - wanted)]
+    if topic.rate is not None and (rate is None or abs(rate - topic.rate) > topic.tolerance * topic.rate):
+        measured = "nothing" if not rate else f"{rate:.3g} Hz"
+        found.append(f"topic {name} has {measured} instead of {topic.rate:g} Hz (tolerance {topic.tolerance:.0%})")
+    return found
+
+
+def written(info: GraphInfo, rates: Mapping[str, float | None]) -> str:
+    """A file that a graph is like; with the rates that were measured."""
+    nodes = [each for each in info.nodes if not each.hidden]
+    topics: dict[str, Any] = {}
+    types = {**_types_of(nodes, "subscriptions"), **_types_of(nodes, "publishers")}
+    for name in sorted(each for each in types if not _is_tool(each)):
+        about: dict[str, Any] = {"type": min(types[name])}
+        about["publishers"] = sorted(n.name for n in nodes for each in n.publishers if each.name == name)
+        about["subscribers"] = sorted(n.name for n in nodes for each in n.subscriptions if each.name == name)
+        rate = rates.get(name)
+        if rate:
+            about["rate"] = float(f"{rate:.2g}")
+        topics[name] = about
+    own = tuple(each.name for each in nodes)
+    services = {
+        name: min(kinds)
+        for name, kinds in sorted(_types_of(nodes, "services").items())
+        if "/_" not in name and not name.startswith(tuple(f"{each}/" for each in own))
+    }
+    actions = {name: min(kinds) for name, kinds in sorted(_types_of(nodes, "action_servers").items())}
+    whole = {"nodes": sorted(own), "topics": topics, "services": services, "actions": actions}
+    return yaml.safe_dump(whole, sort_keys=False, default_flow_style=None, width=120)

@@ -1,0 +1,90 @@
+"""What is odd about a ROS graph, in words: what a person would look for in the picture. Standard library only."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+from bot_console.tui.console.graph.qos import mismatches
+from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+
+SHARED = ("/rosout", "/parameter_events", "/tf", "/tf_static", "/diagnostics", "/clock", "/statistics")
+"""Topics that many nodes publish, or that nobody has to, without anything being wrong."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Something odd: the topic, service, action or node it is about, what it is, and whether it is surely wrong."""
+
+    subject: str
+    text: str
+    fault: bool = False
+
+
+def findings(info: GraphInfo) -> tuple[Finding, ...]:
+    """All that is odd, faults first, by subject; hidden nodes and topics are left out."""
+    nodes = [each for each in info.nodes if not each.hidden]
+    visible = GraphInfo(tuple(nodes), info.topics, info.services)
+    otherwise = (Finding(each.partition(": ")[0], each, True) for each in info.unheard)
+    found = [*_topics(visible), *_services(nodes), *_alone(nodes), *otherwise]
+    return tuple(sorted(found, key=lambda each: (not each.fault, each.subject)))
+
+
+def _topics(info: GraphInfo) -> Iterator[Finding]:
+    publishers = _ends(info.nodes, "publishers")
+    subscribers = _ends(info.nodes, "subscriptions")
+    for topic in sorted(publishers.keys() | subscribers.keys()):
+        if "/_" in topic:
+            continue
+        gives, takes = publishers.get(topic, {}), subscribers.get(topic, {})
+        types = {each for end in (*gives.values(), *takes.values()) for each in end.types}
+        if len(types) > 1:
+            yield Finding(topic, f"{topic} has different types, which do not hear each other: {_list(types)}", True)
+        for publisher, subscriber, why in mismatches(info, topic):
+            yield Finding(topic, f"{topic} {why}: nothing arrives from {publisher} at {subscriber}", True)
+        if topic in SHARED:
+            continue
+        if takes and not gives:
+            yield Finding(topic, f"nobody publishes {topic}, which {_list(takes)} {_listens(takes)} to")
+        if len(gives) > 1:
+            yield Finding(topic, f"{_number(len(gives))} publishers on {topic}: {_list(gives)}")
+
+
+def _services(nodes: list[NodeInfo]) -> Iterator[Finding]:
+    for given, taken, what in (("services", "clients", "serves"), ("action_servers", "action_clients", "executes")):
+        gives, takes = _ends(nodes, given), _ends(nodes, taken)
+        for name in sorted(takes.keys() - gives.keys()):
+            yield Finding(name, f"nobody {what} {name}, which {_list(takes[name])} asks for", True)
+        for name in sorted(each for each, servers in gives.items() if len(servers) > 1):
+            yield Finding(name, f"{_number(len(gives[name]))} servers of {name}: {_list(gives[name])}", True)
+
+
+def _alone(nodes: list[NodeInfo]) -> Iterator[Finding]:
+    for node in nodes:
+        ends = (*node.publishers, *node.subscriptions, *node.clients, *node.action_servers, *node.action_clients)
+        services = [each for each in node.services if not each.name.startswith(f"{node.name}/")]
+        if not services and all(each.name in SHARED for each in ends):
+            yield Finding(node.name, f"{node.name} publishes, hears and serves nothing")
+
+
+def _ends(nodes: list[NodeInfo] | tuple[NodeInfo, ...], kind: str) -> dict[str, dict[str, Endpoint]]:
+    """For each name the nodes at it."""
+    found: dict[str, dict[str, Endpoint]] = {}
+    for node in nodes:
+        ends: tuple[Endpoint, ...] = getattr(node, kind)
+        for each in ends:
+            found.setdefault(each.name, {})[node.name] = each
+    return found
+
+
+def _list(names: Iterable[str]) -> str:
+    words = sorted(names)
+    return ", ".join(words[:4]) + (f" and {len(words) - 4} more" if len(words) > 4 else "")
+
+
+def _listens(nodes: dict[str, Endpoint]) -> str:
+    return "listens" if len(nodes) == 1 else "listen"
+
+
+def _number(count: int) -> str:
+    return {2: "two", 3: "three", 4: "four"}.get(count, str(count))

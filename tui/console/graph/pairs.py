@@ -1,0 +1,109 @@
+"""What keeps messages from passing though both ends are there: ROS itself is silent about it, or logs it once.
+
+Of the public rclpy API alone, so that it holds on every middleware.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
+
+from bot_console.tui.console.model import GraphInfo
+from rclpy.node import Node
+from rclpy.qos import QoSCompatibility, qos_check_compatible
+
+Ask = Callable[[str], Sequence[Any]]
+
+
+class UnheardPairs:
+    """Keeps what was found for each topic; a topic is asked about again only when its ends have changed."""
+
+    def __init__(self, node: Node) -> None:
+        self._publishers: Ask = node.get_publishers_info_by_topic
+        self._subscriptions: Ask = node.get_subscriptions_info_by_topic
+        self._known: dict[str, tuple[object, tuple[str, ...]]] = {}
+        self.found: tuple[str, ...] = ()
+
+    def follow(self, graph: GraphInfo) -> tuple[str, ...]:
+        """All findings of a graph; the same object where nothing is different."""
+        ends: dict[str, list[object]] = {}
+        both: dict[str, set[bool]] = {}
+        for node in graph.nodes:
+            for publishes, endpoints in ((True, node.publishers), (False, node.subscriptions)):
+                for each in endpoints:
+                    ends.setdefault(each.name, []).append((publishes, node.name, each))
+                    both.setdefault(each.name, set()).add(publishes)
+        known: dict[str, tuple[object, tuple[str, ...]]] = {}
+        for topic, state in ends.items():
+            if len(both[topic]) == 2:
+                before = self._known.get(topic)
+                same = before is not None and before[0] == state
+                known[topic] = before if before is not None and same else (state, self._look(topic))
+        self._known = known
+        found = tuple(text for _, (_, texts) in sorted(known.items()) for text in texts)
+        if found != self.found:
+            self.found = found
+        return self.found
+
+    def _look(self, topic: str) -> tuple[str, ...]:
+        """Only what the QoS and types in the graph's own texts do not tell."""
+        publishers, subscriptions = self._publishers(topic), self._subscriptions(topic)
+        pairs = ((one, other) for one in publishers for other in subscriptions)
+        return tuple(dict.fromkeys(text for one, other in pairs if (text := otherwise_defined(topic, one, other))))
+
+
+def unheard(topic: str, publishers: Sequence[Any], subscriptions: Sequence[Any]) -> Iterable[str]:
+    """What keeps messages of one topic from passing, each with what to do."""
+    seen: set[str] = set()
+    for publisher in publishers:
+        for subscription in subscriptions:
+            text = _pair(topic, publisher, subscription)
+            if text and text not in seen:
+                seen.add(text)
+                yield text
+
+
+def _pair(topic: str, publisher: Any, subscription: Any) -> str:
+    if _hidden(publisher) or _hidden(subscription):
+        return ""  # tools, which choose for themselves
+    one, other = name_of(publisher), name_of(subscription)
+    if publisher.topic_type != subscription.topic_type:
+        return f"{topic}: {one} publishes {publisher.topic_type}, {other} wants {subscription.topic_type}: rename one"
+    if text := otherwise_defined(topic, publisher, subscription):
+        return text
+    fits, why = qos_check_compatible(publisher.qos_profile, subscription.qos_profile)
+    if fits != QoSCompatibility.ERROR:
+        return ""
+    return f"{topic}: {other} hears nothing of {one}: {_words(why)}; change the QoS of one of them"
+
+
+def otherwise_defined(topic: str, publisher: Any, subscription: Any) -> str:
+    """That two ends have another definition of the type; ROS passes that over in silence."""
+    hashes = {hash_of(publisher), hash_of(subscription)} - {""}
+    if _hidden(publisher) or _hidden(subscription) or len(hashes) < 2:
+        return ""
+    return (
+        f"{topic}: {publisher.topic_type} is defined otherwise in {name_of(publisher)} than in "
+        f"{name_of(subscription)}, so no message passes: build both from the same definition"
+    )
+
+
+def _words(why: str) -> str:
+    """The reasons of rclpy without their shouting, such as `Best effort publisher and reliable subscription`."""
+    return ", ".join(each.removeprefix("ERROR: ").strip() for each in why.split(";") if each.strip())
+
+
+def name_of(endpoint: Any) -> str:
+    """The node of an endpoint."""
+    return f"{endpoint.node_namespace.rstrip('/')}/{endpoint.node_name}"
+
+
+def hash_of(endpoint: Any) -> str:
+    """The hash of its type; empty where this ROS, or that node's, has none."""
+    text = str(getattr(endpoint, "topic_type_hash", None) or "")
+    digest = text.removeprefix("RIHS01_")
+    return text if digest != text and set(digest) != {"0"} else ""
+
+
+def _hidden(endpoint: Any) -> bool:
+    return str(endpoint.node_name).startswith("_")

@@ -1,0 +1,26 @@
+"""Starts that a launch file has put off to a later time."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from bot_console.tui.console.launch.tree import below
+
+
+def delayed_starts(service: Any) -> int:
+    """How many timers of a LaunchService run that start something when they have run down.
+
+    Zero where the service does not tell what it waits for, as upstream's. What waits for an event, such as the end of
+    another process, may never happen and does not count.
+    """
+    from launch.actions import TimerAction
+
+    return sum(isinstance(each, TimerAction) and _starts(each) for each in getattr(service, "pending", ()))
+
+
+def _starts(entity: Any) -> bool:
+    """Whether visiting it may start a process; what only a running launch can tell does."""
+    from launch.actions import ExecuteLocal, IncludeLaunchDescription, OpaqueCoroutine, OpaqueFunction
+
+    starting = (ExecuteLocal, IncludeLaunchDescription, OpaqueCoroutine, OpaqueFunction)
+    return isinstance(entity, starting) or any(map(_starts, below(entity)))

@@ -1,0 +1,89 @@
+"""Starting a process again that launch has started once: an action of its own, of the public launch API.
+
+An action can be executed only once, so the second start needs another, made from what the first one's event tells.
+Event handlers of the launch file that wait for that very action do not know the new one; `on_exit` is kept where it
+holds no process of its own.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """All that is needed to start a process again; `package` is None where the program's path says it all."""
+
+    command: list[str]
+    label: str
+    options: dict[str, Any]
+    prefix: str
+    is_node: bool
+    package: str | None
+
+    def action(self) -> Any:
+        """A new action that runs the same."""
+        from launch.actions import ExecuteProcess
+        from launch_ros.actions import Node
+
+        if not self.is_node:
+            return ExecuteProcess(cmd=self.command, name=self.label, **self.options)
+        program, *arguments = self.command[len(shlex.split(self.prefix)) :]
+        arguments = arguments[:-1] if arguments[-1:] == ["--ros-args"] else arguments  # which a node adds itself
+        where = {"executable": program}
+        if self.package is not None:
+            where = {"package": self.package, "executable": os.path.basename(program)}
+        return Node(**where, arguments=arguments, prefix=self.prefix, exec_name=self.label, **self.options)
+
+
+def recipe(event: Any, context: Any) -> Recipe:
+    """What a process was started with, from its `ProcessStarted`."""
+    from launch_ros.actions import Node
+
+    action = event.action
+    is_node = isinstance(action, Node)
+    options: dict[str, Any] = {
+        "cwd": event.cwd,
+        "env": event.env,
+        "shell": action.shell,
+        "output": getattr(action, "output", "log"),
+        "emulate_tty": action.emulate_tty,
+        "sigterm_timeout": _text(context, getattr(action, "sigterm_timeout", "5"), "5"),
+        "sigkill_timeout": _text(context, getattr(action, "sigkill_timeout", "5"), "5"),
+        "on_exit": _on_exit(action),
+        **_respawn(action),
+    }
+    prefix = _text(context, action.process_description.prefix, "") or ""
+    package = _text(context, action.node_package, None) if is_node else None
+    label = re.sub(r"-\d+$", "", event.process_name)
+    return Recipe(list(event.cmd), label, options, prefix, is_node, package)
+
+
+def _text(context: Any, substitutions: Any, otherwise: str | None) -> str | None:
+    from launch.substitutions import SubstitutionFailure
+    from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+    if substitutions is None:
+        return None
+    try:
+        return perform_substitutions(context, normalize_to_list_of_substitutions(substitutions))
+    except SubstitutionFailure:  # it needs a configuration that only its own scope has
+        return otherwise
+
+
+def _on_exit(action: Any) -> Any:
+    from launch.actions import ExecuteLocal
+
+    wanted: Any = getattr(action, "on_exit", None)
+    several: Any = wanted if type(wanted) in (list, tuple) else (wanted,)
+    return None if any(isinstance(each, ExecuteLocal) for each in several) else wanted
+
+
+def _respawn(action: Any) -> dict[str, Any]:
+    """Whether launch starts it again by itself, where the action tells that."""
+    wanted = getattr(action, "respawn", None)
+    return {"respawn": wanted, "respawn_delay": getattr(action, "respawn_delay", None)} if wanted else {}

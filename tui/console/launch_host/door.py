@@ -1,0 +1,66 @@
+"""The socket by which further consoles reach a launch host: `<pid>.host` in a folder of the user alone."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import re
+import socket
+import threading
+from collections.abc import Callable
+from pathlib import Path
+
+DOOR = ".host"
+_NAME = re.compile(r"\d+\.host")
+BACKLOG = 8
+
+
+class Door:
+    """Lets consoles in until it is closed."""
+
+    def __init__(self, folder: str, enter: Callable[[socket.socket], None]) -> None:
+        """`enter` is given each connection; raises `OSError` where the folder takes no socket."""
+        self.path = os.path.join(folder, f"{os.getpid()}{DOOR}")
+        self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+        self._enter = enter
+        early = f"{self.path}.new"
+        with contextlib.suppress(FileNotFoundError):  # of a process that had the same id
+            os.unlink(early)
+        self._socket.bind(early)
+        self._socket.listen(BACKLOG)
+        os.rename(early, self.path)  # whoever sees the name can connect
+        threading.Thread(target=self._serve, name="door", daemon=True).start()
+
+    def _serve(self) -> None:
+        while True:
+            try:
+                connection, _ = self._socket.accept()
+            except OSError:  # closed
+                return
+            self._enter(connection)
+
+    def close(self) -> None:
+        """Let nobody in any more."""
+        with contextlib.suppress(FileNotFoundError):
+            os.unlink(self.path)
+        with contextlib.suppress(OSError):
+            self._socket.shutdown(socket.SHUT_RDWR)  # wakes the thread
+        self._socket.close()
+
+
+def doors(folder: str) -> list[str]:
+    """The paths of all doors in a folder, of dead hosts, too."""
+    return sorted(str(each) for each in Path(folder).iterdir() if _NAME.fullmatch(each.name))
+
+
+def knock(path: str) -> socket.socket | None:
+    """A connection to the host behind a door; the door of one that is dead is removed."""
+    connection = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+    try:
+        connection.connect(path)
+    except (ConnectionRefusedError, FileNotFoundError):
+        connection.close()
+        with contextlib.suppress(FileNotFoundError):
+            os.unlink(path)
+        return None
+    return connection

@@ -1,0 +1,50 @@
+"""Command lines that go on by themselves, and what they have printed last. Standard library only."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from collections.abc import Sequence
+
+KEPT = 200
+"""Lines that are kept."""
+GOING_ON = ("bw", "delay", "echo", "hz")
+ONCE = ("--once", "-h", "--help")
+
+
+def goes_on(words: Sequence[str]) -> bool:
+    """Whether a line of `ros2`, without that word, prints until it is interrupted."""
+    return len(words) > 2 and words[0] == "topic" and words[1] in GOING_ON and not any(each in ONCE for each in words)
+
+
+class RunningLine:
+    """Collects what a line prints; any thread may append."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._lines: deque[str] = deque(maxlen=KEPT)
+        self._rest = ""
+        self._told: tuple[str, ...] = ()
+        self._new = False
+        self.ended = False
+
+    def append(self, text: str) -> None:
+        """Take printed text, in whatever pieces it comes."""
+        with self._lock:
+            *lines, self._rest = (self._rest + text).split("\n")
+            self._lines.extend(lines)
+            self._new = True
+
+    def end(self) -> None:
+        """Nothing more comes."""
+        with self._lock:
+            if self._rest:
+                self._lines.append(self._rest)
+            self._rest, self._new, self.ended = "", True, True
+
+    def lines(self) -> Sequence[str]:
+        """The last lines; the same object until there are more."""
+        with self._lock:
+            if self._new:
+                self._new, self._told = False, tuple(self._lines)
+            return self._told

@@ -1,0 +1,205 @@
+"""The console while it is linked to a ROS system by its node."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Future
+from threading import Event
+
+from bot_console.tui.console.logs.search import matching
+from bot_console.tui.console.logs.store import LogStore
+from bot_console.tui.console.logs.view import LogViews
+from bot_console.tui.console.model import (
+    Capabilities,
+    Change,
+    ChangeSource,
+    ConsoleSnapshot,
+    LogFilter,
+    LogRecord,
+    Profile,
+    ProfileDifference,
+    SetOutcome,
+    Severity,
+    Value,
+)
+from bot_console.tui.console.no_console import CLOSED, refused_profile
+from bot_console.tui.console.node import ConsoleNode
+from bot_console.tui.console.parameters.shelf import Shelf
+from bot_console.tui.console.protocol import Answer, LogView, Samples
+from bot_console.tui.console.traffic import Traffic
+
+LAST_WORD = 0.15
+"""Seconds that the final zero Twist has to reach the robot before anything is shut down."""
+
+
+class LinkedConsole:
+    """Answers from what the node has seen, and asks through it."""
+
+    def __init__(
+        self,
+        node: ConsoleNode,
+        logs: LogStore,
+        views: LogViews,
+        shelf: Shelf,
+        capabilities: Capabilities,
+    ) -> None:
+        self._node = node
+        self._logs = logs
+        self._views = views
+        self._shelf = shelf
+        self._capabilities = capabilities
+
+    @property
+    def traffic(self) -> Traffic:
+        """Topics, services and actions."""
+        return self._node.traffic
+
+    def snapshot(self) -> ConsoleSnapshot:
+        """What the node knows now; each unchanged part is the same object."""
+        node = self._node
+        world = node.world.info
+        return ConsoleSnapshot(
+            graph=node.graph.info,
+            parameters=node.parameters.trees,
+            logs=self._logs.state,
+            journal=node.journal.state,
+            world=world,
+            drive=node.drive.info((world.speed, world.turn) if world.pose else None),
+            profiles=self._shelf.profiles,
+            active_profile=node.setter.profile,
+            profile_changes=node.profile_changes(self._profile(node.setter.profile)),
+            capabilities=self._capabilities,
+        )
+
+    def log(self, seq: int) -> LogRecord | None:
+        """The log record of that number."""
+        return self._logs.record(seq)
+
+    def matching_logs(self, which: LogFilter, after: int, limit: int | None = None) -> Sequence[int]:
+        """Numbers of the records that pass a filter."""
+        return matching(self._logs, which, after, limit)
+
+    def view_logs(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
+        """Search for what passes a filter."""
+        return self._views.open(which, instead_of)
+
+    def clear_logs(self) -> None:
+        """Forget all log records."""
+        self._logs.clear()
+
+    def changes(self, after: int = 0) -> Sequence[Change]:
+        """Journal entries from a number on."""
+        return self._node.journal.after(after)
+
+    def set_parameters(
+        self,
+        node: str,
+        values: Mapping[str, Value],
+        source: ChangeSource = ChangeSource.EDIT,
+        *,
+        atomically: bool = False,
+    ) -> Future[tuple[SetOutcome, ...]]:
+        """Ask a node to take values."""
+        return self._node.set(node, values, source, atomically=atomically)
+
+    def set_all(
+        self, values: Mapping[str, Mapping[str, Value]], source: ChangeSource = ChangeSource.EDIT, by: str = ""
+    ) -> Future[tuple[SetOutcome, ...]]:
+        """Ask nodes to take values, all of them or none."""
+        return self._node.set_all(values, source, by)
+
+    def undo(self) -> Future[Answer]:
+        """Take the last change of this console back."""
+        return self._node.undo()
+
+    def redo(self) -> Future[Answer]:
+        """Make the last undone change again."""
+        return self._node.redo()
+
+    def watch(self, path: str) -> Answer:
+        """Collect a series."""
+        return self._node.plots.watch(path, self._node.graph.info, self._node.parameters.trees)
+
+    def unwatch(self, path: str) -> None:
+        """Stop collecting a series."""
+        self._node.plots.unwatch(path)
+
+    def samples(self, path: str, after: int = 0) -> Samples:
+        """New samples of a series."""
+        return self._node.plots.samples(path, after)
+
+    def plot_time(self, stamp: int | None = None) -> float:
+        """Where a moment lies on the time axis of all series."""
+        return self._node.plots.axis_time(stamp)
+
+    def plottable(self) -> Sequence[str]:
+        """Paths that can be plotted."""
+        return self._node.plots.plottable(self._node.graph.info, self._node.parameters.trees)
+
+    def drive(self, linear: float, angular: float) -> None:
+        """Send a velocity command."""
+        self._node.drive.drive(linear, angular)
+
+    def all_stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
+        """Lock the robot's emergency stop, or take this console's stop back, and zero velocity now."""
+        self._node.drive.stop(hold, reason)
+        if hold:
+            self._node.traffic.stop()  # else it would drive on as soon as the robot is released
+
+    def release(self, others: Sequence[str]) -> None:
+        """Take back this console's stop and the stops of others."""
+        self._node.drive.stop(False, "", others)
+
+    def choose_robot(self, robot: str) -> None:
+        """Steer another robot."""
+        self._node.drive.choose(robot)
+
+    def steer(self, hold: bool) -> None:
+        """Hold the steering, or hand it back."""
+        self._node.drive.steer(hold)
+
+    def call(self, service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:
+        """Call any service."""
+        return self._node.call(service, type_name, fields)
+
+    def set_logger_level(self, node: str, severity: Severity) -> Future[Answer]:
+        """Set a node's logger level."""
+        return self._node.set_logger_level(node, severity)
+
+    def profile_differences(self, name: str) -> Sequence[ProfileDifference]:
+        """What a profile would change."""
+        profile = self._profile(name)
+        return self._node.differences(profile) if profile else ()
+
+    def apply_profile(self, name: str, *, reset_world: bool = False) -> Future[tuple[SetOutcome, ...]]:
+        """Set a profile's values live."""
+        profile = self._profile(name)
+        why_not = profile.problem if profile else f"there is no profile {name}"
+        if profile is None or why_not:
+            return refused_profile(why_not)
+        return self._node.apply(profile, reset_world)
+
+    def _profile(self, name: str) -> Profile | None:
+        return next((each for each in self._shelf.profiles if each.name == name), None)
+
+    def open_profile(self, path: str) -> Answer:
+        """Take a file in as a profile."""
+        return self._shelf.open(path)
+
+    def save_profile(self, name: str, description: str = "") -> Answer:
+        """Save what runs as a profile."""
+        answer = self._shelf.save(name, description, self._node.parameters.trees)
+        if answer.ok:
+            self._node.journal.saved(())
+        return answer
+
+    def save_parameters(self, path: str, nodes: Sequence[str] = (), *, only_changed: bool = False) -> Answer:
+        """Write parameters to a file."""
+        return self._node.save(path, nodes, only_changed)
+
+    def close(self) -> None:
+        """Zero velocity, then leave the ROS system; whoever still waits for an answer is refused."""
+        self._views.close()
+        self._node.drive.close()
+        Event().wait(LAST_WORD)
+        self._node.close(CLOSED)

@@ -1,0 +1,67 @@
+"""Patterns compiled by google-re2. Standard library only but for that; `hits` looks through many texts with them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import Any
+
+Match = Callable[[Any, bytes, int, int], "list[tuple[int, int]]"]
+"""Looks for the first match in bytes between two places; its begin and end, negative where there is none."""
+FLAGS = "(?im)"
+PART = re.compile(r"\\.|\[\^?\]?(?:\\.|[^\]\\])*\]|\(\?[a-zA-Z-]*|.", re.DOTALL)
+"""The parts of a pattern: something escaped, a class, the flags of a group, a letter."""
+WITHIN = {r"\s": r"[\t\f\r ]", r"\D": r"[^\d\n]", r"\W": r"[^\w\n]"}
+"""Classes, as they are without the end of a line."""
+
+
+class Re2Engine:
+    """One pattern; raises `ValueError` with a readable text. `word` is a plain word in lower case, where it is one."""
+
+    def __init__(self, re2: Any, written: str, body: str, word: bytes | None) -> None:
+        self.anywhere = re2._Anchor.UNANCHORED
+        self.word = re.escape(word) if word is not None else None
+        self.match = _compiled(re2, written, FLAGS + body)
+        within = within_lines(body)
+        self.over = within != body
+        """Whether a match may reach over the end of a line, within a text of several lines."""
+        self.run: Match | None = None
+        """Finds a run of whole lines that all have a match: cheaper where many have one."""
+        if within is not None:
+            self.run = _compiled(re2, written, f"{FLAGS}(?:^[^\\n]*(?:{within})[^\\n]*\\n)+")
+
+    def search(self, text: bytes) -> bool:
+        """Whether it is found in a text."""
+        return self.match(self.anywhere, text, 0, len(text))[0][0] >= 0
+
+
+def within_lines(body: str) -> str | None:
+    """A pattern that finds the same as long as a match does not reach over the end of a line; None where we cannot say.
+
+    That of a pattern in which none does is the pattern itself.
+    """
+    parts: list[str] = []
+    for part in PART.findall(body):
+        if part.startswith("(?") and "s" in part:
+            return None
+        if part in (r"\n", r"\C", r"\p", r"\P", r"\Q") or (
+            part[0] == "[" and re.search(r"\\[nsDWpPx0-7]|\[:|\n", part)
+        ):
+            return None
+        if re.fullmatch(r"\\[x0-7]|\n", part):
+            return None
+        parts.append(part[:-1] + r"\n]" if part.startswith("[^") else WITHIN.get(part) or part)
+    return "".join(parts)
+
+
+def _compiled(re2: Any, written: str, pattern: str) -> Match:
+    options = re2.Options()
+    options.log_errors = False  # it would write to the terminal
+    options.never_capture = True
+    try:
+        compiled = re2.compile(pattern.encode("utf-8", "replace"), options=options)
+    except re2.error as error:
+        why = error.args[0] if error.args else error
+        why = why.decode("utf-8", "replace") if isinstance(why, bytes) else str(why)
+        raise ValueError(f"regular expression '{written}': {why.partition(': (?im)')[0]}") from None
+    return compiled._regexp.Match

@@ -1,0 +1,64 @@
+"""The program that searches with Python's own `re`, for `regex_process`. Standard library only; ends with its input.
+
+A request is three blocks, an answer one; a block is its length (4 bytes) and as many bytes.
+"""
+
+from __future__ import annotations
+
+import array
+import re
+import struct
+import sys
+from collections.abc import Sequence
+from typing import BinaryIO
+
+GOOD, BAD = b"+", b"-"
+
+
+def block(data: bytes) -> bytes:
+    """Bytes with their length before them."""
+    return struct.pack("<I", len(data)) + data
+
+
+def request(pattern: bytes, blob: bytes, ends: Sequence[int]) -> bytes:
+    """A pattern and the texts in a blob in which it is looked for; `ends` are behind their newlines."""
+    return block(pattern) + block(blob) + block(array.array("q", ends).tobytes())
+
+
+def answer(pattern: bytes, blob: bytes, ends: Sequence[int]) -> bytes:
+    """One byte for each text, 1 where the pattern is found; or what `re` says of the pattern."""
+    try:
+        search = re.compile(pattern.decode()).search
+    except (re.error, OverflowError, RecursionError) as error:
+        return BAD + str(error).encode("utf-8", "replace")
+    found = bytearray()
+    begin = 0
+    for end in ends:
+        found.append(search(blob[begin : end - 1].decode("utf-8", "replace")) is not None)
+        begin = end
+    return GOOD + bytes(found)
+
+
+def _read(file: BinaryIO) -> bytes:
+    head = file.read(4)
+    size = struct.unpack("<I", head)[0] if len(head) == 4 else 0
+    data = file.read(size)
+    if len(head) < 4 or len(data) < size:
+        sys.exit(0)
+    return data
+
+
+def main() -> None:
+    """Serve requests until the input ends."""
+    source, sink = sys.stdin.buffer, sys.stdout.buffer
+    sink.write(block(b"ready"))
+    sink.flush()
+    while True:
+        pattern, blob, ends = _read(source), _read(source), array.array("q")
+        ends.frombytes(_read(source))
+        sink.write(block(answer(pattern, blob, ends)))
+        sink.flush()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,219 @@
+"""What stands where there is no console yet or any more: nothing can be asked of it, and it says why."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Future
+from typing import TypeVar
+
+from bot_console.tui.console.model import (
+    Change,
+    ChangeSource,
+    ConsoleSnapshot,
+    LogFilter,
+    LogRecord,
+    ProfileDifference,
+    SetOutcome,
+    Severity,
+    Value,
+)
+from bot_console.tui.console.protocol import Answer, ConsoleReading, LogFindings, LogView, Samples, Stream
+from bot_console.tui.console.topics.idle import IdleTraffic
+from bot_console.tui.console.traffic import Traffic
+
+T = TypeVar("T")
+STARTING = "the console is still connecting to the ROS system"
+CLOSED = "the console has closed"
+OpenView = Callable[[LogFilter], "LogView | None"]
+
+
+class _NoNumbers(tuple[int, ...]):
+    def place(self, number: int) -> int:
+        return 0
+
+
+class EarlyView:
+    """A view that was asked for before there was a log: it has found nothing until it can be opened."""
+
+    def __init__(self, which: LogFilter, open_view: OpenView) -> None:
+        self._which = which
+        self._open_view = open_view
+        self._view: LogView | None = None
+
+    def look(self) -> LogFindings:
+        """What was found so far."""
+        if self._view is None:
+            self._view = self._open_view(self._which)
+        return self._view.look() if self._view else LogFindings(_NoNumbers())
+
+
+class NothingKnown:
+    """What there is to read before a console has connected; `open_view` gives a view once there is a log."""
+
+    def __init__(self, snapshot: ConsoleSnapshot, open_view: OpenView) -> None:
+        self._snapshot = snapshot
+        self._open_view = open_view
+
+    def snapshot(self) -> ConsoleSnapshot:
+        """An empty one."""
+        return self._snapshot
+
+    def log(self, seq: int) -> LogRecord | None:
+        """There is no record."""
+        return None
+
+    def matching_logs(self, which: LogFilter, after: int, limit: int | None = None) -> Sequence[int]:
+        """No record passes."""
+        return ()
+
+    def view_logs(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
+        """A view that waits for the log."""
+        return EarlyView(which, self._open_view)
+
+    def changes(self, after: int = 0) -> Sequence[Change]:
+        """Nothing has changed."""
+        return ()
+
+    def samples(self, path: str, after: int = 0) -> Samples:
+        """No sample has come."""
+        return Samples((), (), after)
+
+    def plot_time(self, stamp: int | None = None) -> float:
+        """The begin of the axis."""
+        return 0.0
+
+    def plottable(self) -> Sequence[str]:
+        """Nothing can be plotted."""
+        return ()
+
+    def profile_differences(self, name: str) -> Sequence[ProfileDifference]:
+        """Nothing would change."""
+        return ()
+
+
+class NoConsole:
+    """Refuses every request with the reason; what is to be read is `known`."""
+
+    def __init__(self, why: str, known: ConsoleReading) -> None:
+        self._why = why
+        self._refusal = Answer(False, why)
+        self._idle: Traffic = IdleTraffic(why)
+        self.snapshot = known.snapshot
+        self.log = known.log
+        self.matching_logs = known.matching_logs
+        self.view_logs = known.view_logs
+        self.changes = known.changes
+        self.samples = known.samples
+        self.plot_time = known.plot_time
+        self.plottable = known.plottable
+        self.profile_differences = known.profile_differences
+
+    @property
+    def traffic(self) -> Traffic:
+        """Refuses, too."""
+        return self._idle
+
+    def clear_logs(self) -> None:
+        """There is nothing to forget."""
+
+    def set_parameters(
+        self,
+        node: str,
+        values: Mapping[str, Value],
+        source: ChangeSource = ChangeSource.EDIT,
+        *,
+        atomically: bool = False,
+    ) -> Future[tuple[SetOutcome, ...]]:
+        """Refused by the console, value by value."""
+        outcomes = (SetOutcome(node, name, value, False, self._why, "console") for name, value in values.items())
+        return done(tuple(outcomes))
+
+    def set_all(
+        self, values: Mapping[str, Mapping[str, Value]], source: ChangeSource = ChangeSource.EDIT, by: str = ""
+    ) -> Future[tuple[SetOutcome, ...]]:
+        """Refused by the console, value by value."""
+        wanted = ((node, name, value) for node, found in values.items() for name, value in found.items())
+        return done(tuple(SetOutcome(*each, False, self._why, "console") for each in wanted))
+
+    def undo(self) -> Future[Answer]:
+        """Refused."""
+        return done(self._refusal)
+
+    def redo(self) -> Future[Answer]:
+        """Refused."""
+        return done(self._refusal)
+
+    def watch(self, path: str) -> Answer:
+        """Refused."""
+        return self._refusal
+
+    def unwatch(self, path: str) -> None:
+        """Nothing is collected."""
+
+    def drive(self, linear: float, angular: float) -> None:
+        """Nobody drives."""
+
+    def all_stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
+        """Nothing: there is nobody to tell it to."""
+
+    def release(self, others: Sequence[str]) -> None:
+        """Nobody is there to be asked."""
+
+    def choose_robot(self, robot: str) -> None:
+        """Nothing."""
+
+    def steer(self, hold: bool) -> None:
+        """Nobody steers."""
+
+    def call(self, service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:
+        """Refused."""
+        return done(self._refusal)
+
+    def set_logger_level(self, node: str, severity: Severity) -> Future[Answer]:
+        """Refused."""
+        return done(self._refusal)
+
+    def apply_profile(self, name: str, *, reset_world: bool = False) -> Future[tuple[SetOutcome, ...]]:
+        """Refused: the future raises `ValueError`."""
+        return refused_profile(self._why)
+
+    def open_profile(self, path: str) -> Answer:
+        """Refused."""
+        return self._refusal
+
+    def save_profile(self, name: str, description: str = "") -> Answer:
+        """Refused."""
+        return self._refusal
+
+    def save_parameters(self, path: str, nodes: Sequence[str] = (), *, only_changed: bool = False) -> Answer:
+        """Refused."""
+        return self._refusal
+
+    def close(self) -> None:
+        """There is nothing to close."""
+
+
+class NoCommandLine:
+    """Where no `ros2` line can be run."""
+
+    def run(self, line: str) -> Future[str]:
+        """Say so."""
+        return done("no ros2 command line is available here")
+
+    def stream(self, line: str) -> Stream | None:
+        """There is none."""
+        return None
+
+
+def refused_profile(why: str) -> Future[tuple[SetOutcome, ...]]:
+    """A future that raises `ValueError` with the reason, as `Console.apply_profile` promises."""
+    failed: Future[tuple[SetOutcome, ...]] = Future()
+    failed.set_exception(ValueError(why))
+    return failed
+
+
+def done(value: T) -> Future[T]:
+    """A future that has its result."""
+    future: Future[T] = Future()
+    future.set_result(value)
+    return future

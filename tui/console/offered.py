@@ -1,0 +1,98 @@
+"""A subscription with the QoS that its publishers offer: one that asks for more hears nothing, and makes them warn.
+
+A subscription that asks for less than is offered loses what it could have, so neither is fixed; the offer changes as
+nodes come and go.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+
+
+class OfferedSubscription:
+    """Subscribes one topic; `follow` is to be called whenever the graph has changed."""
+
+    def __init__(
+        self,
+        node: Node,
+        kind: Any,
+        topic: str,
+        callback: Callable[[Any], None],
+        best: QoSProfile,
+        *,
+        eager: bool = True,
+        once_weak: bool = False,
+        raw: bool = False,
+    ) -> None:
+        """`best` is what is asked for where it is offered.
+
+        An eager one asks before anybody offers. One that has been `once_weak` stays so: asking for more again would
+        bring what latching publishers keep a second time. A `raw` one calls back with the serialized bytes.
+        """
+        self._raw = raw
+        self._node = node
+        self._kind = kind
+        self.topic_name = topic
+        self._callback = callback
+        self._best = best
+        self._once_weak = once_weak
+        self._asked: tuple[ReliabilityPolicy, DurabilityPolicy] | None = None
+        self._subscription: Any = None
+        if eager:
+            self._subscribe((best.reliability, best.durability))
+        else:
+            self.follow()
+
+    def follow(self) -> None:
+        """Ask for what is offered now; where nothing is, all stays as it is."""
+        infos = self._node.get_publishers_info_by_topic(self.topic_name)
+        if not infos:
+            return
+        asked = weakest(self._best, (each.qos_profile for each in infos))
+        if self._once_weak and self._asked is not None:
+            asked = weaker(self._asked, asked)
+        if asked != self._asked:
+            self._subscribe(asked)
+
+    def _subscribe(self, asked: tuple[ReliabilityPolicy, DurabilityPolicy]) -> None:
+        before, best = self._subscription, self._best
+        profile = QoSProfile(history=best.history, depth=best.depth, reliability=asked[0], durability=asked[1])
+        self._subscription = self._node.create_subscription(
+            self._kind, self.topic_name, self._callback, profile, raw=self._raw
+        )
+        self._asked = asked
+        if before is not None:
+            self._node.destroy_subscription(before)
+
+    def destroy(self) -> None:
+        """Hear no more."""
+        if self._subscription is not None:
+            self._node.destroy_subscription(self._subscription)
+            self._subscription = None
+
+
+def weakest(best: QoSProfile, offers: Iterable[Any]) -> tuple[ReliabilityPolicy, DurabilityPolicy]:
+    """The most, up to `best`, that all of these offer; what the graph does not know is taken for the least."""
+    offers = list(offers)
+    reliable = all(each.reliability == ReliabilityPolicy.RELIABLE for each in offers)
+    latched = all(each.durability == DurabilityPolicy.TRANSIENT_LOCAL for each in offers)
+    offered = (
+        ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
+        DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE,
+    )
+    return weaker(offered, (best.reliability, best.durability))
+
+
+def weaker(
+    one: tuple[ReliabilityPolicy, DurabilityPolicy], other: tuple[ReliabilityPolicy, DurabilityPolicy]
+) -> tuple[ReliabilityPolicy, DurabilityPolicy]:
+    """What both hold."""
+    both = (one, other)
+    return (
+        ReliabilityPolicy.BEST_EFFORT if any(each[0] != ReliabilityPolicy.RELIABLE for each in both) else one[0],
+        DurabilityPolicy.VOLATILE if any(each[1] != DurabilityPolicy.TRANSIENT_LOCAL for each in both) else one[1],
+    )

@@ -1,0 +1,34 @@
+"""What a parameter's descriptor leaves unsaid; nothing but the model."""
+
+from __future__ import annotations
+
+from bot_console.tui.console.model import Kind, ParameterInfo
+
+NUMBERS = (Kind.INTEGER, Kind.DOUBLE)
+
+
+def faults(parameter: ParameterInfo) -> tuple[str, ...]:
+    """The faults of a descriptor, in a few words each; none of a parameter that every node has."""
+    if parameter.name == "use_sim_time" or parameter.name.startswith(("qos_overrides.", "start_type_description")):
+        return ()
+    found: list[str] = []
+    if not parameter.description.strip():
+        found.append("no description")
+    if parameter.kind in NUMBERS and parameter.range is None and not parameter.read_only:
+        found.append("no range")
+    if parameter.kind is Kind.DOUBLE and parameter.description.strip() and not parameter.unit:
+        found.append("no unit")
+    return tuple(found)
+
+
+MENDS = {
+    "no description": "give declare_parameter a ParameterDescriptor(description=...)",
+    "no range": "give the descriptor a floating_point_range or an integer_range, so that nonsense is refused",
+    "no unit": "end the description with the unit in brackets, such as (m/s)",
+    "no validation": "add_on_set_parameters_callback, or ranges in the descriptors: now any value is taken",
+    "accepts anything": "let the callback return successful=False with a reason for what it cannot work with",
+    "float as int": "write the default with a point: 1 makes an integer parameter, and 0.5 is refused then",
+    "dead key": "use the node's name, or /** for all; a key that means no node sets nothing",
+    "dead parameter": "declare it in the node or take the line out: it sets nothing",
+}
+"""How each fault is mended."""

@@ -1,0 +1,84 @@
+"""Where the values of parameters come from, as the programs themselves and the launch tell it.
+
+Two kinds of fact. `declared`: a node names what it has declared, in which line, and which override it took. `given`: a
+launch names what its file gives a node, by a launch argument or in a line of its own.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, cast
+
+from bot_console.tui.console.model import ParameterInfo, Value
+from bot_console.tui.console.parameters.origin import START
+
+COMMAND_LINE = "-p"
+"""What a node calls a value of its command line; everything else is the path of a file, or words."""
+WRITTEN_BY_LAUNCH = "launch_params_"
+"""How the files begin that launch writes for the values of a launch file."""
+Learn = Callable[[str, Mapping[str, Any]], object]
+"""Takes a fact: its kind, and what it says."""
+Key = tuple[str, str]
+"""A node and the name of one of its parameters."""
+
+
+@dataclass(frozen=True, slots=True)
+class Declaration:
+    """A parameter as it was declared: the default, `file:line`, and what overrode the default; empty for nothing."""
+
+    default: Value
+    place: str
+    override: str
+
+
+class Provenance:
+    """All facts so far. `learn` may be called from any thread."""
+
+    def __init__(self, profile_of: Callable[[str], str] = lambda path: "") -> None:
+        """`profile_of` is the name of the profile that is a file; empty where it is none."""
+        self._profile_of = profile_of
+        self._declared: dict[Key, Declaration] = {}
+        self._given: dict[Key, str] = {}
+
+    def learn(self, kind: str, facts: Mapping[str, Any]) -> str:
+        """Take a fact in; the node that it is about, empty where it is none that counts here."""
+        node = str(facts.get("node", ""))
+        if kind == "declared":
+            for name, default, place, override in facts["parameters"]:
+                value: Any = tuple(cast("list[Any]", default)) if isinstance(default, list) else default
+                self._declared[node, name] = Declaration(value, place, override)
+            return node
+        if kind == "given":
+            self._given.update({(node, name): str(source) for name, source in facts["parameters"].items()})
+            return node
+        return ""
+
+    def applied(self, parameter: ParameterInfo) -> ParameterInfo:
+        """A parameter with what is known: the declared value is its default, and its first value has an origin."""
+        key = parameter.node, parameter.name
+        declared = self._declared.get(key)
+        if declared is None or declared.default is None:
+            default, place = parameter.default, declared.place if declared else ""
+        else:
+            default, place = declared.default, declared.place
+        first = parameter.origin == START
+        origin = self._origin(key, declared, parameter) if first else parameter.origin
+        return replace(parameter, default=default, declared_at=place, origin=origin)
+
+    def _origin(self, key: Key, declared: Declaration | None, parameter: ParameterInfo) -> str:
+        if declared is None:
+            return self._given.get(key, START)
+        source = declared.override
+        if not source:
+            return "declared value" if parameter.value == declared.default else START
+        if source == COMMAND_LINE:
+            return self._given.get(key, "command line")
+        name = os.path.basename(source)
+        if name.startswith(WRITTEN_BY_LAUNCH):
+            return self._given.get(key, "launch file")
+        if not os.path.isabs(source) and not os.path.exists(source):
+            return source
+        profile = self._profile_of(source)
+        return f"profile {profile}" if profile else f"parameter file {source}"

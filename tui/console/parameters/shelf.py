@@ -1,0 +1,67 @@
+"""All profiles that there are: those found, those opened by name, and those saved here."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from bot_console.tui.console.model import ParameterTree, Profile
+from bot_console.tui.console.parameters.file import save
+from bot_console.tui.console.parameters.profiles import find, load
+from bot_console.tui.console.protocol import Answer
+from bot_console.tui.files.save_file import NotSaved, typed_path
+
+_NAME = re.compile(r"[\w][\w .+-]*")
+
+
+class Shelf:
+    """Looks for profiles in folders; `own` is where new ones are saved, and is looked into first."""
+
+    def __init__(self, folders: Sequence[Path], own: Path | None = None, mixed: Sequence[Path] = ()) -> None:
+        self._folders = tuple(folders)
+        self._own = own
+        self._mixed = tuple(mixed)
+        self._opened: dict[str, Path] = {}
+        self.profiles: tuple[Profile, ...] = ()
+        """The same object until something has come, gone or changed."""
+        self.look_again()
+
+    def look_again(self) -> None:
+        """Read all of them anew."""
+        # The names of those that come with the robot stay theirs: launch files and command lines know them.
+        own = [self._own] if self._own is not None else []
+        found = [*find([*self._folders, *own], mixed=self._mixed)]
+        known = {Path(each.path).resolve() for each in found}
+        found += [load(path) for path in self._opened.values() if path.resolve() not in known]
+        profiles = tuple(sorted(found, key=lambda each: each.name))
+        if profiles != self.profiles:
+            self.profiles = profiles
+
+    def open(self, path: str) -> Answer:
+        """Take a file in; the answer's text is the name under which it stands, or why it cannot be used."""
+        try:
+            place = typed_path(path)
+        except NotSaved as error:
+            return Answer(False, str(error))
+        if not place.is_file():
+            return Answer(False, f"there is no file {place}")
+        self._opened[str(place.resolve())] = place
+        self.look_again()
+        found = next(each for each in self.profiles if Path(each.path).resolve() == place.resolve())
+        return Answer(not found.problem, found.name if not found.problem else f"{place}: {found.problem}")
+
+    def save(self, name: str, description: str, trees: Mapping[str, ParameterTree]) -> Answer:
+        """Save what runs as a profile of the user's; one of that name is brought up to date, its comments stay."""
+        if self._own is None:
+            return Answer(False, "this console has no folder for profiles")
+        if not _NAME.fullmatch(name):
+            return Answer(False, f"'{name}' is no name for a profile: letters, digits, blanks, . + - _")
+        path = self._own / f"{name}.yaml"
+        title = f"# {' '.join(description.split())}\n" if description.strip() else ""
+        try:
+            saved = save(path, trees, title=title)
+        except NotSaved as error:
+            return Answer(False, f"not saved: {error}")
+        self.look_again()
+        return Answer(True, saved.text(path))

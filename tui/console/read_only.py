@@ -1,0 +1,134 @@
+"""A console that only looks on: what would change anything is refused with the reason, below the screen."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Future
+
+from bot_console.tui.console.model import LaunchArgument
+from bot_console.tui.console.no_console import NoConsole, done
+from bot_console.tui.console.protocol import Answer, CommandLine, Console, Stream
+from bot_console.tui.console.topics.reading import ReadingTraffic
+from bot_console.tui.console.traffic import Traffic
+
+WHY = "this console only looks on (--read-only)"
+
+READING: Mapping[str, frozenset[str]] = {
+    "action": frozenset(("info", "list", "type")),
+    "interface": frozenset(("list", "package", "packages", "proto", "show")),
+    "lifecycle": frozenset(("get", "list", "nodes")),
+    "node": frozenset(("info", "list")),
+    "param": frozenset(("describe", "get", "list")),
+    "pkg": frozenset(("executables", "list", "prefix", "xml")),
+    "service": frozenset(("find", "info", "list", "type")),
+    "topic": frozenset(("bw", "delay", "echo", "find", "hz", "info", "list", "type")),
+}
+"""The lines that change nothing: verb and what follows it."""
+
+
+class ReadOnlyConsole(NoConsole):
+    """Reads all, plots and saves to files; asks the system for nothing but to stop, which anybody may."""
+
+    def __init__(self, console: Console, tell: Callable[[str], None]) -> None:
+        """`tell` is given what was refused where no answer is expected."""
+        super().__init__(WHY, console)
+        self._console = console
+        self._tell = tell
+
+    @property
+    def traffic(self) -> Traffic:
+        """Topics are seen; nothing is sent."""
+        return ReadingTraffic(WHY, self._console.traffic)
+
+    def watch(self, path: str) -> Answer:
+        """Collect a series."""
+        return self._console.watch(path)
+
+    def unwatch(self, path: str) -> None:
+        """Stop collecting a series."""
+        self._console.unwatch(path)
+
+    def clear_logs(self) -> None:
+        """Forget the records of this console."""
+        self._console.clear_logs()
+
+    def open_profile(self, path: str) -> Answer:
+        """Take a file in, to see what it would change."""
+        return self._console.open_profile(path)
+
+    def save_profile(self, name: str, description: str = "") -> Answer:
+        """Save what runs as a profile."""
+        return self._console.save_profile(name, description)
+
+    def save_parameters(self, path: str, nodes: Sequence[str] = (), *, only_changed: bool = False) -> Answer:
+        """Write a parameter file."""
+        return self._console.save_parameters(path, nodes, only_changed=only_changed)
+
+    def all_stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
+        """Lock the robot's emergency stop; releasing it is refused."""
+        if hold:
+            self._console.all_stop(True, reason)
+        else:
+            self._tell(f"the robot stays locked: {WHY}")
+
+    def release(self, others: Sequence[str]) -> None:
+        """Refused."""
+        self.all_stop(False)
+
+    def close(self) -> None:
+        """Close the console."""
+        self._console.close()
+
+
+class ReadOnlyLauncher:
+    """Starts and ends nothing."""
+
+    def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
+        """Refused."""
+        return done(Answer(False, WHY))
+
+    def arguments(self, path: str) -> Sequence[LaunchArgument]:
+        """Refused: raises `ValueError`."""
+        raise ValueError(WHY)
+
+    def files(self) -> Sequence[str]:
+        """None."""
+        return ()
+
+    def start(self, key: str) -> Future[Answer]:
+        """Refused."""
+        return done(Answer(False, WHY))
+
+    def stop(self, key: str) -> Future[Answer]:
+        """Refused."""
+        return done(Answer(False, WHY))
+
+    def kill(self, key: str) -> Future[Answer]:
+        """Refused."""
+        return done(Answer(False, WHY))
+
+    def restart(self, key: str) -> Future[Answer]:
+        """Refused."""
+        return done(Answer(False, WHY))
+
+
+class ReadOnlyCommandLine:
+    """Runs lines that change nothing."""
+
+    def __init__(self, lines: CommandLine) -> None:
+        self._lines = lines
+
+    def stream(self, line: str) -> Stream | None:
+        """Begin a line that goes on; those that there are only read."""
+        return self._lines.stream(line)
+
+    def run(self, line: str) -> Future[str]:
+        """Run a line that only reads; any other is refused in its place."""
+        try:
+            words = shlex.split(line)
+        except ValueError:
+            return self._lines.run(line)  # which says what is wrong with it
+        words = words[1:] if words[:1] == ["ros2"] else words
+        reads = len(words) > 1 and words[1] in READING.get(words[0], ())
+        return self._lines.run(line) if reads or len(words) == 1 else done(f"refused: {WHY}")

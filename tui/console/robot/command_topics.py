@@ -1,0 +1,59 @@
+"""Where robots take velocity commands: found by type and last token, in whatever namespace, stamped or not."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from bot_console.tui.console.model import GraphInfo
+
+TELEOP, FINAL, ASKED = "cmd_vel_teleop", "cmd_vel", "cmd_vel_nav"
+TWIST, STAMPED = "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"
+
+
+@dataclass(frozen=True)
+class CommandTopics:
+    """Those of one robot by their last token; where a robot takes a command by another name, that topic is its name."""
+
+    robot: str
+    topics: Mapping[str, str]
+    standard: bool = True
+    """Whether they have the names that every robot's have, so that it is one for sure."""
+
+    def get(self, token: str) -> str:
+        """A topic; empty where there is none."""
+        return self.topics.get(token, "")
+
+
+NOBODY = CommandTopics("", MappingProxyType({}))
+
+
+def types_of(graph: GraphInfo) -> dict[str, str]:
+    """The type of each topic of velocities."""
+    ends = (each for node in graph.nodes for each in (*node.publishers, *node.subscriptions))
+    return {each.name: kind for each in ends for kind in each.types if kind in (TWIST, STAMPED)}
+
+
+def robots_of(graph: GraphInfo) -> tuple[CommandTopics, ...]:
+    """All robots that listen: those with the usual names first, the shortest namespace before the others."""
+    listened = {
+        each.name
+        for node in graph.nodes
+        for each in node.subscriptions
+        if not node.hidden and any(kind in (TWIST, STAMPED) for kind in each.types)
+    }
+    found: dict[str, dict[str, str]] = {}
+    for topic in listened:
+        namespace, _, token = topic.rpartition("/")
+        if token in (TELEOP, FINAL):
+            found.setdefault(namespace or "/", {})[token] = topic
+    usual = [CommandTopics(name, topics) for name, topics in _by_length(found.items())]
+    named = {topic for each in usual for topic in each.topics.values()}
+    inside = {topic for topic in listened - named if topic.rpartition("/")[0] in found or topic.endswith(ASKED)}
+    unusual = [CommandTopics(topic, {FINAL: topic}, False) for topic in sorted(listened - named - inside)]
+    return (*usual, *unusual)
+
+
+def _by_length(items: Iterable[tuple[str, dict[str, str]]]) -> list[tuple[str, dict[str, str]]]:
+    return sorted(items, key=lambda item: (len(item[0]), item[0]))

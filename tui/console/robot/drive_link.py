@@ -1,0 +1,282 @@
+"""Velocity commands from the console, and what became of them on their way to the robot."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.console.robot.command_topics import (
+    ASKED,
+    FINAL,
+    NOBODY,
+    STAMPED,
+    TELEOP,
+    CommandTopics,
+    robots_of,
+    types_of,
+)
+from bot_console.tui.console.robot.robot_model import DriveInfo
+from bot_console.tui.console.robot.stop_link import STATUS, StopLink
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import Twist, TwistStamped
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+
+HOLD_PERIOD = 0.1
+"""Seconds between two zeros, or requests, while a stop is not acknowledged; a command is dead after 0.5 s."""
+
+VERDICT = "diagnostics"
+DIAGNOSTICS = "diagnostic_msgs/msg/DiagnosticArray"
+SILENCE = 0.5
+"""Seconds after which a velocity command is dead, and the robot stops by itself."""
+CLOCK = "/clock"
+ANYHOW = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+"""Hears every publisher, whatever it offers."""
+NO_COMMAND = "no command on cmd_vel for 0.5 s"
+NO_ARBITER = "the node that takes cmd_vel_teleop has ended; start it again to drive"
+
+Velocity = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What an arbiter made of the command that it chose: the rule or parameter that limited it, and what was left."""
+
+    limited_by: str = ""
+    asked: Velocity | None = None
+    limited: Velocity | None = None
+
+
+class DriveLink:
+    """Publishes Twists where the robot listens for a person, and watches the command chain.
+
+    `drive` and `stop` may be called from any thread.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._publishers: dict[tuple[str, Any], Any] = {}
+        self._watching: dict[str, Any] = {}
+        self._seen: dict[str, Velocity] = {}
+        self._stop = StopLink(node)
+        self._zeros = False
+        self._verdict = Verdict()
+        self._heard = 0.0
+        self._info = DriveInfo()
+        self._robots: tuple[CommandTopics, ...] = ()
+        self._robot = NOBODY
+        self._chosen = ""
+        self._types: dict[str, str] = {}
+        self._simulated = False
+        self._acted = False
+        self._arbitrated = False
+        node.create_timer(HOLD_PERIOD, self._repeat)
+
+    def follow(self, graph: GraphInfo) -> None:
+        """Find the robots' command topics, and what goes on on those of the one that is steered."""
+        self._types, self._robots = types_of(graph), robots_of(graph)
+        self._simulated = any(each.name == CLOCK for each in graph.topics)
+        self._follow_robot()
+        self._stop.follow(each.name for node in graph.nodes for each in node.publishers if STATUS in each.types)
+        told = {each.name for node in graph.nodes for each in node.publishers if DIAGNOSTICS in each.types}
+        self._watch(VERDICT, _topic(told, VERDICT))
+
+    def _follow_robot(self) -> None:
+        usual = (each for each in self._robots if each.standard)
+        robot = next((each for each in self._robots if each.robot == self._chosen), next(usual, NOBODY))
+        before, self._robot = self._robot, robot
+        if before.robot not in ("", robot.robot):
+            self._arbitrated = False
+        if before.get(TELEOP) and not robot.get(TELEOP):
+            self.zero()  # it need not wait until its last command is dead
+        self._arbitrated = bool(robot.get(TELEOP)) or (self._arbitrated and bool(robot.get(FINAL)))
+        space = robot.robot.rstrip("/") if robot.standard else ""
+        for token in (FINAL, ASKED):
+            named = {each for each in self._types if each.startswith(space + "/")}
+            self._watch(token, robot.get(FINAL) if not robot.standard and token == FINAL else _topic(named, token))
+        for each in (TELEOP, FINAL):
+            if robot.get(each):
+                self._publisher(robot.get(each))  # now, since a first message may be too early for whoever listens
+
+    def choose(self, robot: str) -> None:
+        """Steer another one of `DriveInfo.robots`; the one before gets a zero, if it was driven from here."""
+        if robot != self._robot.robot:
+            if self._acted:
+                self.zero()
+            self._chosen = robot
+            self._follow_robot()
+
+    def _watch(self, token: str, topic: str) -> None:
+        now = self._watching.get(token)
+        if (now.topic_name if now else "") == topic:
+            return
+        if now:
+            self._node.destroy_subscription(now)
+            del self._watching[token]
+            self._seen.pop(token, None)
+        if token == VERDICT:
+            self._verdict = Verdict()
+            if topic:
+                self._watching[token] = self._node.create_subscription(DiagnosticArray, topic, self._told, 10)
+        elif topic:
+            self._watching[token] = self._node.create_subscription(
+                self._kind(topic), topic, partial(self._saw, token), ANYHOW
+            )
+
+    def _told(self, message: DiagnosticArray) -> None:
+        """What an arbiter of velocities says about its last decision."""
+        for status in message.status:
+            values = {each.key: each.value for each in status.values}
+            if "limited_by" in values:
+                self._verdict = Verdict(values["limited_by"], _velocity(values, "asked"), _velocity(values, "final"))
+
+    def _kind(self, topic: str) -> Any:
+        return TwistStamped if self._types.get(topic) == STAMPED else Twist
+
+    def _saw(self, token: str, message: Any) -> None:
+        twist = getattr(message, "twist", message)
+        velocity = (twist.linear.x, twist.angular.z)
+        self._seen[token] = velocity
+        if token == FINAL:
+            self._heard = time.monotonic()
+        if token == FINAL and self._zeros and velocity != (0.0, 0.0):
+            # Somebody else drives on; without an arbiter the last word counts, so ours follows at once.
+            self._send(FINAL, 0.0, 0.0)
+
+    @property
+    def topic(self) -> str:
+        """Where commands of this console go; empty when no robot listens."""
+        return self._robot.get(self._token)
+
+    @property
+    def _token(self) -> str:
+        """A robot whose arbiter has left is not driven past it: what kept it safe is gone."""
+        return TELEOP if self._arbitrated else FINAL
+
+    def drive(self, linear: float, angular: float) -> None:
+        """Publish one command (m/s, rad/s), unless the robot is held; raises `ValueError` for NaN and infinity."""
+        if not (math.isfinite(linear) and math.isfinite(angular)):
+            raise ValueError("a velocity must be a finite number")
+        if not (self._stop.info.stopped or self._zeros):
+            self._acted = True
+            self._send(self._token, linear, angular)
+
+    def stop(self, hold: bool, reason: str, others: Sequence[str] = ()) -> None:
+        """Lock the robot, or take that back with the stops of these `others`, and zero velocity now.
+
+        A robot without a lock gets zeros again and again.
+        """
+        if hold:
+            self._stop.stop(reason)
+        else:
+            self._stop.release(others)
+        self._zeros = self._acted = hold
+        self._zero_all()
+
+    def steer(self, hold: bool) -> None:
+        """Say that a person holds the steering, or does no more; while held to be called ten times a second."""
+        if hold:
+            self._stop.steer()
+        else:
+            self._stop.hand_back()
+
+    def close(self) -> None:
+        """The last word: zero velocity, and a lock where this console leaves while it holds the steering.
+
+        A robot that was only looked at is left alone.
+        """
+        if self._stop.steering:
+            self._stop.stop("the console that held the steering was closed")
+        if self._acted:
+            self.zero()
+
+    def zero(self) -> None:
+        """One zero to every topic on which the robot that is steered, or its arbiter, listens."""
+        for token in (TELEOP, FINAL):
+            self._send(token, 0.0, 0.0)
+
+    def _each_robot(self) -> Iterable[CommandTopics]:
+        """All that are robots for sure, and the one that is steered."""
+        every = {each.robot: each for each in (*self._robots, self._robot)}
+        return [each for each in every.values() if each.standard or each is self._robot]
+
+    def _zero_all(self) -> None:
+        """The same to every robot there is."""
+        for topic in (topic for robot in self._each_robot() for topic in robot.topics.values()):
+            self._publish(topic, 0.0, 0.0)
+
+    def _repeat(self) -> None:
+        self._stop.repeat()
+        if self._stop.info.locks:
+            self._zeros = False  # a lock needs no zeros, and they would keep a robot that somebody else has released
+        if self._zeros:
+            for robot in self._each_robot():
+                self._publish(robot.get(TELEOP) or robot.get(FINAL), 0.0, 0.0)
+
+    def _send(self, token: str, linear: float, angular: float) -> None:
+        self._publish(self._robot.get(token), linear, angular)
+
+    def _publisher(self, topic: str) -> Any:
+        key = (topic, self._kind(topic))
+        if key not in self._publishers:
+            self._publishers[key] = self._node.create_publisher(key[1], topic, 10)
+        return self._publishers[key]
+
+    def _publish(self, topic: str, linear: float, angular: float) -> None:
+        if not topic:
+            return
+        message = self._kind(topic)()
+        twist = getattr(message, "twist", message)
+        twist.linear.x, twist.angular.z = float(linear), float(angular)
+        if twist is not message and not self._simulated:
+            # In simulated time a stamp of ours would be from another time; zero means now.
+            message.header.stamp = self._node.get_clock().now().to_msg()
+        self._publisher(topic).publish(message)
+
+    def info(self, actual: Velocity | None) -> DriveInfo:
+        """The chain as known now; the same object while nothing changes."""
+        silent = FINAL in self._seen and time.monotonic() - self._heard > SILENCE
+        why = NO_COMMAND if silent else self._verdict.limited_by
+        if self._arbitrated and not self._robot.get(TELEOP):
+            why = NO_ARBITER
+        stop = self._stop.info
+        info = DriveInfo(
+            topic=self.topic,
+            robot=self._robot.robot,
+            robots=tuple(each.robot for each in self._robots),
+            asked=self._verdict.asked or self._seen.get(ASKED),
+            limited=self._verdict.limited,
+            final=None if silent else self._seen.get(FINAL),
+            actual=actual,
+            limited_by=why,
+            stopped=stop.stopped or self._zeros,
+            stop_confirmed=stop.confirmed,
+            stop_holder="this console" if stop.holder == self._stop.holder else stop.holder,
+            stop_reason=stop.reason,
+            stopped_here=stop.here or self._zeros,
+            stops=stop.stops,
+            lockable=stop.locks > 0,
+            steered_by=stop.steered_by,
+        )
+        if info != self._info:
+            self._info = info
+        return self._info
+
+
+def _topic(names: set[str], token: str) -> str:
+    """The shortest topic that ends in a token; empty when there is none."""
+    fitting = [name for name in names if name.rsplit("/", 1)[-1] == token]
+    return min(fitting, key=lambda name: (len(name), name), default="")
+
+
+def _velocity(values: Mapping[str, str], prefix: str) -> Velocity | None:
+    """A velocity written out under `<prefix>.linear` and `<prefix>.angular`; None where that is not there."""
+    try:
+        return float(values[f"{prefix}.linear"]), float(values[f"{prefix}.angular"])
+    except (KeyError, ValueError):
+        return None

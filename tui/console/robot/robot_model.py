@@ -1,0 +1,129 @@
+"""What is known of the robot: the place it is in, and the way of its velocity commands.
+
+Standard library only. Distances are m, angles rad, speeds m/s and rad/s.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Pose:
+    """A pose in the plane: m, m, rad counter-clockwise from +x."""
+
+    x: float = 0.0
+    y: float = 0.0
+    heading: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class GridMap:
+    """An occupancy grid, `nav_msgs/OccupancyGrid`: row-major from the lower left, 0..100, 255 unknown."""
+
+    width: int
+    height: int
+    resolution: float
+    origin: Pose
+    cells: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class Turtle:
+    """A turtle of `turtlesim`: its pose (m, rad), velocity (m/s, rad/s), and a trail where its drawing is not known."""
+
+    name: str
+    pose: Pose
+    speed: float = 0.0
+    turn: float = 0.0
+    trail: tuple[tuple[float, float], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Drawing:
+    """What turtles have drawn: rows from the top of red, green, blue, and 255 where somebody has drawn, else 0.
+
+    Where nobody has, the colour is the background's.
+    """
+
+    width: int
+    height: int
+    pixels: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class TurtleField:
+    """The field of a `turtlesim` node with the turtles on it."""
+
+    node: str
+    turtles: tuple[Turtle, ...] = ()
+    drawing: Drawing | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class WorldInfo:
+    """What is known of the place: the map, the robot in it, its trail, and where the LIDAR beams end (x, y in m).
+
+    `pose_source` names the topic the pose came from, so that a pane can say ground truth from odometry.
+    """
+
+    map: GridMap | None = None
+    pose: Pose | None = None
+    pose_source: str = ""
+    trail: tuple[tuple[float, float], ...] = ()
+    hits: tuple[tuple[float, float], ...] = ()
+    goal: tuple[float, float] | None = None
+    speed: float = 0.0
+    turn: float = 0.0
+    nearest: float | None = None
+    fields: tuple[TurtleField, ...] = ()
+    """Fields with turtles, beside or instead of a robot."""
+
+
+@dataclass(frozen=True, slots=True)
+class RobotStop:
+    """One of the stops that hold the robot: the key by which it is released, who made it, and why.
+
+    `here` says that this console made it, `by_node` that no person did but a node of the robot.
+    """
+
+    key: str
+    holder: str = ""
+    reason: str = ""
+    here: bool = False
+    by_node: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class DriveInfo:
+    """The command chain, each (m/s, rad/s) or None when unknown: asked, limited, final, actual.
+
+    `limited_by` names the parameter or rule that changed the command, in words; empty when nothing did.
+    """
+
+    topic: str = ""
+    robot: str = ""
+    """Which robot is steered, by its namespace."""
+    robots: tuple[str, ...] = ()
+    """All that listen for velocities."""
+    armed: bool = False
+    asked: tuple[float, float] | None = None
+    limited: tuple[float, float] | None = None
+    final: tuple[float, float] | None = None
+    actual: tuple[float, float] | None = None
+    limited_by: str = ""
+    stopped: bool = False
+    """Whether a stop was asked for, or a lock holds the robot."""
+    stop_confirmed: bool = False
+    """Whether every lock of the robot has acknowledged that it holds."""
+    stop_holder: str = ""
+    """Who has held it longest, as the robot says; `this console` for ourselves."""
+    stop_reason: str = ""
+    stopped_here: bool = False
+    """Whether one of the stops is this console's."""
+    stops: tuple[RobotStop, ...] = ()
+    """Everybody's stops that the robot has acknowledged, the oldest first."""
+    lockable: bool = False
+    """Whether the robot has an emergency stop that acknowledges."""
+    steered_by: str = ""
+    """Who holds the steering, as the robot says."""

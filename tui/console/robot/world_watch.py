@@ -1,0 +1,156 @@
+"""What the console knows of the place: the map, the robot's pose and speed, and where its LIDAR beams end.
+
+The topics are found by type, so that a robot in a namespace, or another make of robot, shows as well.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.console.offered import OfferedSubscription
+from bot_console.tui.console.robot.robot_model import GridMap, Pose, WorldInfo
+from bot_console.tui.console.robot.turtle_watch import TurtleWatch
+from nav_msgs.msg import OccupancyGrid, Odometry
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from sensor_msgs.msg import LaserScan
+
+TRAIL = 400
+TRAIL_STEP = 0.1
+"""Metres between two points of the trail."""
+
+SENSOR = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+PREFERRED = {
+    "nav_msgs/msg/OccupancyGrid": ("map",),
+    "nav_msgs/msg/Odometry": ("ground_truth", "odom"),
+    "sensor_msgs/msg/LaserScan": ("scan",),
+}
+
+
+class WorldWatch:
+    """Keeps the newest map, pose and scan; `info` puts them together when it is asked and something is new."""
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._subscriptions: dict[str, Any] = {}
+        self._map: GridMap | None = None
+        self._odometry: Odometry | None = None
+        self._scan: LaserScan | None = None
+        self._trail: deque[tuple[float, float]] = deque(maxlen=TRAIL)
+        self._turtles = TurtleWatch(node)
+        self._fresh = False
+        self._info = WorldInfo()
+
+    def follow(self, graph: GraphInfo) -> None:
+        """Subscribe to what the graph offers as it is offered, and let go of what has left."""
+        for each in self._subscriptions.values():
+            each.follow()
+        for type_name, wanted in PREFERRED.items():
+            offered = {each.name for each in self._publishers(graph) if type_name in each.types}
+            self._use(type_name, _best(offered, wanted))
+        self._turtles.follow(graph)
+
+    def _publishers(self, graph: GraphInfo) -> list[Any]:
+        return [each for node in graph.nodes for each in node.publishers]
+
+    def _use(self, type_name: str, topic: str) -> None:
+        now = self._subscriptions.get(type_name)
+        if (now.topic_name if now else "") == topic:
+            return
+        if now:
+            now.destroy()
+            del self._subscriptions[type_name]
+        if topic:
+            kinds: dict[str, tuple[type[Any], Callable[[Any], None], QoSProfile]] = {
+                "nav_msgs/msg/OccupancyGrid": (OccupancyGrid, self._on_map, LATCHED),
+                "nav_msgs/msg/Odometry": (Odometry, self._on_odometry, SENSOR),
+                "sensor_msgs/msg/LaserScan": (LaserScan, self._on_scan, SENSOR),
+            }
+            kind, callback, qos = kinds[type_name]
+            self._subscriptions[type_name] = OfferedSubscription(self._node, kind, topic, callback, qos, eager=False)
+
+    def _on_map(self, message: OccupancyGrid) -> None:
+        meta = message.info
+        origin = Pose(meta.origin.position.x, meta.origin.position.y, _heading(meta.origin.orientation))
+        cells = np.asarray(message.data, np.int8).tobytes()  # -1, unknown, is the byte 255
+        self._map = GridMap(meta.width, meta.height, meta.resolution, origin, cells)
+        self._trail.clear()
+        self._fresh = True
+
+    def _on_odometry(self, message: Odometry) -> None:
+        place = message.pose.pose.position
+        if not self._trail or math.dist(self._trail[-1], (place.x, place.y)) >= TRAIL_STEP:
+            self._trail.append((place.x, place.y))
+        self._odometry = message
+        self._fresh = True
+
+    def _on_scan(self, message: LaserScan) -> None:
+        self._scan = message
+        self._fresh = True
+
+    @property
+    def info(self) -> WorldInfo:
+        """What is known now; the same object until something new has come."""
+        if self._fresh or self._turtles.fresh:
+            self._fresh = False
+            self._info = self._build()
+        return self._info
+
+    def _build(self) -> WorldInfo:
+        odometry, scan = self._odometry, self._scan
+        pose, speed, turn = None, 0.0, 0.0
+        if odometry:
+            place = odometry.pose.pose
+            pose = Pose(place.position.x, place.position.y, _heading(place.orientation))
+            speed, turn = odometry.twist.twist.linear.x, odometry.twist.twist.angular.z
+        hits, nearest = _hits(scan, pose) if scan else ((), None)
+        source = self._subscriptions.get("nav_msgs/msg/Odometry")
+        return WorldInfo(
+            self._map,
+            pose,
+            source.topic_name if source and pose else "",
+            tuple(self._trail),
+            hits,
+            None,
+            speed,
+            turn,
+            nearest,
+            self._turtles.fields(),
+        )
+
+
+def _best(offered: set[str], wanted: tuple[str, ...]) -> str:
+    """The offered topic whose last token stands first in the wanted list, else the first by name."""
+    ranked = sorted(offered, key=lambda name: (_rank(name.rsplit("/", 1)[-1], wanted), len(name), name))
+    return ranked[0] if ranked else ""
+
+
+def _rank(token: str, wanted: tuple[str, ...]) -> int:
+    return wanted.index(token) if token in wanted else len(wanted)
+
+
+def _heading(orientation: Any) -> float:
+    """The yaw of a quaternion, in rad."""
+    q = orientation
+    return math.atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z))
+
+
+def _hits(scan: LaserScan, pose: Pose | None) -> tuple[tuple[tuple[float, float], ...], float | None]:
+    """Where beams end, in the pose's frame (m), and the nearest return (m); no return is infinite (REP 117)."""
+    ranges = np.asarray(scan.ranges, float)
+    valid = np.isfinite(ranges) & (ranges >= scan.range_min) & (ranges <= scan.range_max)
+    if not valid.any():
+        return (), None
+    nearest = float(ranges[valid].min())
+    if pose is None:
+        return (), nearest
+    angles = pose.heading + scan.angle_min + scan.angle_increment * np.flatnonzero(valid)
+    x = pose.x + ranges[valid] * np.cos(angles)
+    y = pose.y + ranges[valid] * np.sin(angles)
+    return tuple(zip(x.tolist(), y.tolist(), strict=True)), nearest

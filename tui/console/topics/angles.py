@@ -1,0 +1,44 @@
+"""Headings: quaternions from and to a yaw."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+DEGREES = ("°", "deg", "degrees")
+
+
+def quaternion(yaw: float) -> tuple[float, float, float, float]:
+    """x, y, z and w of a turn about the vertical axis (rad)."""
+    return 0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)
+
+
+def parse_yaw(text: str) -> float:
+    """A yaw in rad from `1.57`, `90°` or `90 deg`; raises `ValueError`."""
+    words = text.strip().lower().removeprefix("yaw").strip()
+    unit = next((each for each in DEGREES if words.endswith(each)), "")
+    words = words.removesuffix(unit).removesuffix("rad").strip()
+    try:
+        value = float(words)
+    except ValueError:
+        raise ValueError(f"'{text}' is no yaw; write 90° or 1.57") from None
+    if not math.isfinite(value):
+        raise ValueError("a yaw must be a finite number")
+    return math.radians(value) if unit else value
+
+
+def angles_text(q: Any) -> str:
+    """A quaternion in degrees: its yaw, and roll and pitch where there are any."""
+    norm = math.sqrt(q.x**2 + q.y**2 + q.z**2 + q.w**2)
+    if not math.isfinite(norm):
+        return "not finite"
+    if norm < 1e-6:
+        return "no rotation: its length is 0"
+    x, y, z, w = (each / norm for each in (q.x, q.y, q.z, q.w))
+    yaw = math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
+    roll = math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
+    pitch = math.asin(max(-1.0, min(1.0, 2 * (w * y - z * x))))
+    text = f"yaw {math.degrees(yaw):.1f}°"
+    if abs(roll) > 1e-3 or abs(pitch) > 1e-3:
+        text += f" roll {math.degrees(roll):.1f}° pitch {math.degrees(pitch):.1f}°"
+    return text

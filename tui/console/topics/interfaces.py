@@ -1,0 +1,99 @@
+"""Classes and field types of messages, services and actions, by the public names of rosidl."""
+
+from __future__ import annotations
+
+import importlib
+import re
+from collections.abc import Mapping
+from functools import lru_cache
+from typing import Any
+
+from bot_console.tui.console.traffic import Payload
+
+FOLDERS = {Payload.MESSAGE: "msg", Payload.REQUEST: "srv", Payload.GOAL: "action"}
+ARRAY = re.compile(r"sequence<(?P<of>[^,]+?)(?:,\s*\d+)?>|(?P<fixed>.+)\[(?P<count>\d+)\]")
+INTEGERS = {f"{sign}int{bits}": bits for sign in ("", "u") for bits in (8, 16, 32, 64)}
+REALS = ("float", "double")
+TIMES = ("builtin_interfaces/Time", "builtin_interfaces/Duration")
+QUATERNION = "geometry_msgs/Quaternion"
+HEADER = "std_msgs/Header"
+
+
+def interface(payload: Payload, type_name: str) -> Any:
+    """The class of a type such as `std_srvs/srv/SetBool`; raises `ValueError` when it is not installed."""
+    package, _, rest = type_name.partition("/")
+    try:
+        return getattr(importlib.import_module(f"{package}.{FOLDERS[payload]}"), rest.rsplit("/", 1)[-1])
+    except (ImportError, AttributeError):
+        raise ValueError(f"the type {type_name} is not known here; source the workspace it is built in") from None
+
+
+def filled_class(payload: Payload, type_name: str) -> Any:
+    """The class of what is filled in: the message itself, a request, a goal."""
+    found = interface(payload, type_name)
+    return {
+        Payload.MESSAGE: found,
+        Payload.REQUEST: getattr(found, "Request", None),
+        Payload.GOAL: getattr(found, "Goal", None),
+    }[payload]
+
+
+def fields_of(message: Any) -> Mapping[str, str]:
+    """Names and types of the fields of a message or of its class."""
+    return message.get_fields_and_field_types()
+
+
+def is_message(type_name: str) -> bool:
+    """Whether a field type names a message, and is no array of them."""
+    return "/" in type_name and not ARRAY.fullmatch(type_name)
+
+
+def element_type(type_name: str) -> str:
+    """What an array holds; empty for what is no array."""
+    found = ARRAY.fullmatch(type_name)
+    return (found["of"] or found["fixed"]).strip() if found else ""
+
+
+def full_name(field_type: str) -> str:
+    """`geometry_msgs/Point` as `geometry_msgs/msg/Point`."""
+    package, _, name = field_type.partition("/")
+    return f"{package}/msg/{name}"
+
+
+def short_name(type_name: str) -> str:
+    """`geometry_msgs/msg/Point` as `geometry_msgs/Point`."""
+    package, _, rest = type_name.partition("/")
+    return f"{package}/{rest.rsplit('/', 1)[-1]}"
+
+
+def constants(message: Any) -> Mapping[str, Mapping[int, str]]:
+    """For each integer field of a message whose constants name its values: the name of each value."""
+    return constants_of(message.__class__)
+
+
+@lru_cache(maxsize=512)
+def constants_of(message_class: Any) -> Mapping[str, Mapping[int, str]]:
+    """The same for a class.
+
+    A constant belongs to the field whose name it begins with; those that begin with none belong to the only field of
+    a byte's size, where there is just one.
+    """
+    fields = {name: kind for name, kind in fields_of(message_class).items() if kind in INTEGERS or kind == "octet"}
+    found: dict[str, dict[int, str]] = {}
+    rest: dict[int, str] = {}
+    for name in (each for each in dir(message_class) if each.isupper() and not each.startswith("_")):
+        value = getattr(message_class, name)
+        number = value[0] if isinstance(value, bytes) and len(value) == 1 else value
+        if not isinstance(number, int) or isinstance(number, bool):
+            continue
+        owner = max((each for each in fields if name.startswith(f"{each.upper()}_")), key=len, default="")
+        if owner:
+            found.setdefault(owner, {})[number] = name.removeprefix(f"{owner.upper()}_")
+        elif number in rest:
+            rest[number] = ""  # two names for one value: they belong to different fields
+        else:
+            rest[number] = name
+    small = [name for name, kind in fields.items() if name not in found and kind in ("uint8", "int8", "octet")]
+    if len(small) == 1 and rest and all(rest.values()):
+        found[small[0]] = rest
+    return found

@@ -1,0 +1,78 @@
+"""The newest message of one topic, as lines."""
+
+from __future__ import annotations
+
+import time
+from typing import Any
+
+from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.console.topics.interfaces import interface
+from bot_console.tui.console.topics.message_tree import tree
+from bot_console.tui.console.topics.offers import offered_qos, types_of
+from bot_console.tui.console.traffic import LiveMessage, Payload
+from rclpy.node import Node
+
+AGES = 10
+"""Parts of a second in which an age is told, so that it is not another thing at every look."""
+
+
+class Listening:
+    """Keeps what came last; it becomes lines only when somebody looks."""
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._topic = ""
+        self._type = ""
+        self._offer: tuple[bool, bool] | None = None
+        self._subscription: Any = None
+        self._newest: tuple[int, Any, float] = (0, None, 0.0)
+        self._problem = ""
+        self._live = LiveMessage()
+
+    def listen(self, topic: str, graph: GraphInfo) -> None:
+        """Listen to this topic and to no other; called by the executor."""
+        if topic == self._topic and (self._subscription is None) == (not topic):
+            return
+        self._let_go()
+        self._newest, self._problem = (0, None, 0.0), ""
+        self._topic = topic
+        self.follow(graph)
+
+    def follow(self, graph: GraphInfo) -> None:
+        """The graph is another: the topic may have come only now, or be offered with another QoS."""
+        topic = self._topic
+        types = types_of(graph, topic) if topic else ()
+        if not topic or not types:
+            self._problem = f"there is no topic {topic} now" if topic and self._subscription is None else ""
+            return
+        offer = offered_qos(graph, topic)
+        if self._subscription is not None and (types[0], offer.key) == (self._type, self._offer):
+            return
+        self._let_go()
+        try:
+            kind = interface(Payload.MESSAGE, types[0])
+        except ValueError as error:
+            self._problem = str(error)
+            return
+        self._problem, self._type, self._offer = "", types[0], offer.key
+        self._subscription = self._node.create_subscription(kind, topic, self._take, offer.profile())
+
+    def _let_go(self) -> None:
+        if self._subscription is not None:
+            self._node.destroy_subscription(self._subscription)
+        self._subscription = None
+
+    def _take(self, message: Any) -> None:
+        self._newest = (self._newest[0] + 1, message, time.monotonic())
+
+    def heard(self) -> LiveMessage:
+        """What came last; from any thread, and the same object until there is more to tell."""
+        count, message, moment = self._newest
+        age = round((time.monotonic() - moment) * AGES) / AGES if count else None
+        old = self._live
+        if (old.topic, old.count, old.problem, old.age) == (self._topic, count, self._problem, age):
+            return old
+        same = old.topic == self._topic and old.count == count
+        fields = old.fields if same else tree(message, self._type) if message is not None else ()
+        self._live = LiveMessage(self._topic, self._type, fields, count, age, self._problem)
+        return self._live

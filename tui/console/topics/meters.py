@@ -1,0 +1,187 @@
+"""Rate, bandwidth, age and latency of topics, taken from serialized messages, so that none is ever built."""
+
+from __future__ import annotations
+
+import struct
+import time
+from collections import deque
+from collections.abc import Callable, Collection, Mapping, Sequence
+from typing import Any
+
+from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.console.topics.interfaces import HEADER, fields_of, interface
+from bot_console.tui.console.topics.offers import offered_qos, types_of
+from bot_console.tui.console.traffic import Measure, Payload
+from rclpy.node import Node
+
+WINDOW = 5.0
+"""Seconds over which a rate is taken."""
+TURN = 3.0
+"""Seconds for which it is settled who is measured."""
+BUDGET = 1000.0
+"""Messages per second that are measured at most."""
+LOOK = 0.25
+"""Least seconds between two looks that are kept."""
+OTHER_CLOCK = 3600.0
+"""Seconds by which a stamp may be off before it counts as one of another clock."""
+LITTLE, BIG = struct.Struct("<iI"), struct.Struct(">iI")
+STAMP_AT = 4
+"""Where a message begins behind the four bytes that tell how it is serialized."""
+
+
+class Meter:
+    """Counts the messages of one topic; `take` is called by the executor, `look` by whoever draws."""
+
+    def __init__(self, stamped: bool, clock: Callable[[], int]) -> None:
+        self._stamped = stamped
+        self._clock = clock
+        self._count = self._size = self._stamps = 0
+        self._late = 0
+        """Sum of all latencies, ns."""
+        self._first = self._last = 0.0
+        self._looks: deque[tuple[float, float, int, int, int, int]] = deque([(time.monotonic(), 0.0, 0, 0, 0, 0)])
+
+    def take(self, data: bytes) -> None:
+        """Count one serialized message."""
+        now = time.monotonic()
+        self._count += 1
+        self._size += len(data)
+        self._first, self._last = self._first or now, now
+        if self._stamped and len(data) >= STAMP_AT + 8:
+            seconds, nanoseconds = (LITTLE if data[1] & 1 else BIG).unpack_from(data, STAMP_AT)
+            self._late += self._clock() - seconds * 1_000_000_000 - nanoseconds
+            self._stamps += 1
+
+    def look(self) -> Measure:
+        """What is known now, over the last seconds."""
+        now = time.monotonic()
+        here = (now, self._last, self._count, self._size, self._late, self._stamps)
+        looks = self._looks
+        if now - looks[-1][0] >= LOOK:
+            looks.append(here)
+        while len(looks) > 2 and now - looks[1][0] > WINDOW:
+            looks.popleft()
+        begun, first, count, size, late, stamps = looks[0]
+        new = self._count - count
+        if not new:
+            silent = now - begun >= WINDOW
+            return Measure(0.0 if silent else None, 0.0 if silent else None, self._age(now), None, self._count)
+        span, spaces = (self._last - first, new) if count else (self._last - self._first, new - 1)
+        rate = spaces / span if span > 0 else None
+        if rate and now - self._last > 2 / rate:
+            rate = new / (now - begun)  # it has become slower, or has ended
+        stamped = self._stamps - stamps
+        latency = (self._late - late) / stamped / 1e9 if stamped else None
+        if latency is not None and abs(latency) > OTHER_CLOCK:
+            latency = None
+        bandwidth = rate * (self._size - size) / new if rate is not None else None
+        return Measure(rate, bandwidth, self._age(now), latency, self._count)
+
+    def _age(self, now: float) -> float | None:
+        return now - self._last if self._count else None
+
+
+class Meters:
+    """The topics that are measured: those in view.
+
+    Each message that is taken costs some 40 us. Where more come than `BUDGET`, the fastest topics take turns: what was
+    measured of one stands until its next turn.
+    """
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._meters: dict[str, tuple[Any, Meter, tuple[bool, bool]]] = {}
+        self._resting: dict[str, Measure] = {}
+        """What was measured of topics before they were let go for a turn, the longest rest first."""
+        self._wanted: frozenset[str] = frozenset()
+        self._problems: dict[str, str] = {}
+        self._timer: Any = None
+        self._graph = GraphInfo()
+
+    def measure(self, topics: Collection[str], graph: GraphInfo) -> None:
+        """Measure these and no others, each with the QoS it is offered with now; called by the executor."""
+        self._wanted = frozenset(topics)
+        for topic in list(self._meters):
+            if topic not in self._wanted or self._meters[topic][2] != offered_qos(graph, topic).key:
+                self._let_go(topic)
+        for known in (self._problems, self._resting):
+            for topic in known.keys() - self._wanted:
+                del known[topic]
+        for topic in self._wanted - self._meters.keys() - self._resting.keys():
+            self._begin(topic, graph)
+        if self._wanted and self._timer is None:
+            self._timer = self._node.create_timer(TURN, lambda: self.turn(self._graph))
+        elif not self._wanted and self._timer is not None:
+            self._node.destroy_timer(self._timer)
+            self._timer = None
+        self._graph = graph
+
+    def _let_go(self, topic: str) -> Meter:
+        subscription, meter, _ = self._meters.pop(topic)
+        self._node.destroy_subscription(subscription)
+        return meter
+
+    def _begin(self, topic: str, graph: GraphInfo) -> None:
+        types = types_of(graph, topic)
+        if not types:
+            return
+        try:
+            kind = interface(Payload.MESSAGE, types[0])
+        except ValueError as error:
+            self._problems[topic] = str(error)
+            return
+        offer = offered_qos(graph, topic)
+        meter = Meter(_stamped(kind), time.time_ns)
+        subscription = self._node.create_subscription(kind, topic, meter.take, offer.profile(), raw=True)
+        self._meters[topic] = subscription, meter, offer.key
+        self._problems.pop(topic, None)
+
+    def turn(self, graph: GraphInfo) -> None:
+        """Choose who is measured until the next turn."""
+        rates = {topic: each.rate or 0.0 for topic, each in self.measured().items()}
+        chosen = in_turn(rates, list(self._resting), BUDGET)
+        for topic in [each for each in self._meters if each not in chosen]:
+            self._resting[topic] = self._shown(topic, self._meters[topic][1].look())
+            self._let_go(topic)
+        for topic in [each for each in self._resting if each in chosen and each not in self._meters]:
+            self._begin(topic, graph)
+        for topic in [each for each in self._resting if each in self._meters]:
+            if self._meters[topic][1].look().rate is not None:
+                del self._resting[topic]
+
+    def _shown(self, topic: str, now: Measure) -> Measure:
+        """What is known of a topic: of one whose turn has only begun, what was known before."""
+        return now if now.rate is not None else self._resting.get(topic, now)
+
+    def follow(self, graph: GraphInfo) -> None:
+        """The graph is another: what is measured may be offered otherwise, or have come only now."""
+        if self._wanted:
+            self.measure(self._wanted, graph)
+
+    def measured(self) -> Mapping[str, Measure]:
+        """What is known; from any thread."""
+        found = dict(self._resting)
+        found.update({topic: self._shown(topic, meter.look()) for topic, (_, meter, _) in list(self._meters.items())})
+        return {**found, **{topic: Measure(problem=why) for topic, why in list(self._problems.items())}}
+
+
+def in_turn(rates: Mapping[str, float], resting: Sequence[str], budget: float) -> set[str]:
+    """Which topics (rates in Hz) are measured next: all where their sum is in the budget, else all the slow ones, and
+    of the others those that have rested longest.
+    """
+    if sum(rates.values()) <= budget:
+        return set(rates)
+    fair = budget / (2 * len(rates))
+    chosen = {topic for topic, rate in rates.items() if rate <= fair}
+    left = budget - sum(rates[topic] for topic in chosen)
+    fast = [*(each for each in resting if each in rates), *(each for each in rates if each not in resting)]
+    for topic in (each for each in fast if each not in chosen):
+        if left >= rates[topic] or topic == fast[0]:
+            chosen.add(topic)
+            left -= rates[topic]
+    return chosen
+
+
+def _stamped(kind: Any) -> bool:
+    """Whether a message begins with a header, and so with a stamp."""
+    return next(iter(fields_of(kind).values()), "") == HEADER

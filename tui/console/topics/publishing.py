@@ -1,0 +1,104 @@
+"""Messages that a person publishes: once, or again and again."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.console.topics.forms import filled, stamp
+from bot_console.tui.console.traffic import Payload, Repeated, Values
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+
+FASTEST = 1000.0
+"""Hz"""
+LOOK = 0.05
+"""Seconds between two looks whether a new publisher has met those who listen."""
+LOOKS = 20
+
+
+@dataclass
+class _Running:
+    """A message that is published at a rate."""
+
+    timer: Any
+    type: str
+    rate: float
+    count: int = 0
+
+
+class Publishing:
+    """Publishers made when they are needed; only the executor's thread may call this."""
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._publishers: dict[tuple[str, str], Any] = {}
+        self._running: dict[str, _Running] = {}
+        self._repeated: Mapping[str, Repeated] = {}
+
+    def publish(self, topic: str, type_name: str, values: Values, rate: float, graph: GraphInfo) -> None:
+        """Publish once (rate 0), or at a rate (Hz) in place of what is published there at a rate now.
+
+        Raises `ValueError` for a message that cannot be filled in.
+        """
+        message, now = filled(Payload.MESSAGE, type_name, values)
+        publisher = self._publisher(topic, type_name, type(message), graph)
+
+        def send() -> None:
+            stamp(message, now, lambda: self._node.get_clock().now().to_msg())
+            publisher.publish(message)
+
+        if rate:
+            self.stop(topic)
+            running = _Running(None, type_name, rate)
+
+            def again() -> None:
+                send()
+                running.count += 1
+
+            running.timer = self._node.create_timer(1.0 / rate, again)
+            self._running[topic] = running
+            return
+        heard = any(each.name == topic for node in graph.nodes for each in node.subscriptions)
+        self._when_matched(publisher, send, LOOKS if heard else 0)
+
+    def _publisher(self, topic: str, type_name: str, kind: Any, graph: GraphInfo) -> Any:
+        key = topic, type_name
+        if key not in self._publishers:
+            wanted = [each.qos for node in graph.nodes for each in node.subscriptions if each.name == topic]
+            profile = QoSProfile(depth=10)
+            if any("transient local" in each for each in wanted):
+                profile = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+            self._publishers[key] = self._node.create_publisher(kind, topic, profile)
+        return self._publishers[key]
+
+    def _when_matched(self, publisher: Any, send: Any, looks: int) -> None:
+        """Send when the publisher has met a subscription; after a while in any case."""
+        if not looks or publisher.get_subscription_count():
+            send()
+            return
+        left = [looks]
+
+        def look() -> None:
+            left[0] -= 1
+            if publisher.get_subscription_count() or left[0] <= 0:
+                self._node.destroy_timer(timer)
+                send()
+
+        timer = self._node.create_timer(LOOK, look)
+
+    def stop(self, topic: str = "") -> None:
+        """End what is published at a rate, on one topic or on all."""
+        for name in [topic] if topic else list(self._running):
+            running = self._running.pop(name, None)
+            if running is not None:
+                self._node.destroy_timer(running.timer)
+
+    def repeated(self) -> Mapping[str, Repeated]:
+        """What is published at a rate; from any thread."""
+        found = {topic: Repeated(each.type, each.rate, each.count) for topic, each in list(self._running.items())}
+        if found != self._repeated:
+            self._repeated = found
+        return self._repeated

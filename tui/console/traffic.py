@@ -1,0 +1,195 @@
+"""What a person sees and does on topics, services and actions. Standard library only.
+
+`Traffic` is read by pulling, as `Console` is, of which it is a part: nothing here blocks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from concurrent.futures import Future
+from dataclasses import dataclass
+from enum import Enum
+from typing import Protocol
+
+from bot_console.tui.console.protocol import Answer
+
+
+class Payload(Enum):
+    """What is filled in: a message of a topic, the request of a service, the goal of an action."""
+
+    MESSAGE = "message"
+    REQUEST = "request"
+    GOAL = "goal"
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """What was measured of a topic; None where it is not known yet, or where messages do not tell it."""
+
+    rate: float | None = None
+    """Hz over the last seconds; 0 where nothing came in them."""
+    bandwidth: float | None = None
+    """Bytes per second, serialized."""
+    age: float | None = None
+    """Seconds since the newest message."""
+    latency: float | None = None
+    """Seconds from the stamp of a header to its arrival, in the mean."""
+    count: int = 0
+    problem: str = ""
+    """Why it cannot be measured; empty when it can."""
+
+
+@dataclass(frozen=True, slots=True)
+class Field:
+    """A line of a message: a field, or an element of an array."""
+
+    path: str
+    name: str
+    depth: int
+    type: str
+    text: str = ""
+    """The value on one line; of what has lines below it a summary, or nothing."""
+    unit: str = ""
+    number: bool = False
+    """Whether it can be plotted."""
+    holds: int = 0
+    """How many of the lines that follow are part of it."""
+    closed: bool = False
+    """Whether the lines that follow are of little use to most."""
+
+
+@dataclass(frozen=True, slots=True)
+class LiveMessage:
+    """The newest message of the topic that is listened to."""
+
+    topic: str = ""
+    type: str = ""
+    fields: tuple[Field, ...] = ()
+    count: int = 0
+    """Messages up to this one."""
+    age: float | None = None
+    problem: str = ""
+    """Why there is none, or why nothing can come; empty when all is well."""
+
+
+@dataclass(frozen=True, slots=True)
+class Slot:
+    """A field of a form: what stands in it, and what it may hold."""
+
+    path: str
+    name: str
+    depth: int
+    type: str
+    text: str = ""
+    choices: tuple[str, ...] = ()
+    unit: str = ""
+    editable: bool = True
+    """Whether something can be typed here; else the slots that follow are its parts."""
+
+
+@dataclass(frozen=True, slots=True)
+class Repeated:
+    """A message that is published again and again."""
+
+    type: str
+    rate: float
+    """Hz"""
+    count: int = 0
+    problem: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Reply:
+    """What a service answered: the fields of its response, or in words why there is none."""
+
+    ok: bool
+    text: str = ""
+    seconds: float = 0.0
+    """From the request to the response."""
+    fields: tuple[Field, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Goal:
+    """The last goal that was sent to an action from here."""
+
+    action: str
+    status: str
+    """In words, such as `executing`, `succeeded` or `rejected`."""
+    active: bool = True
+    seconds: float = 0.0
+    """From when it was sent to its end, or to now."""
+    feedback: tuple[Field, ...] = ()
+    feedback_count: int = 0
+    result: tuple[Field, ...] = ()
+    problem: str = ""
+
+
+Values = Mapping[str, str]
+"""What was typed into a form, by path; what was not changed is left out."""
+
+
+class Traffic(Protocol):
+    """Topics, services and actions of a ROS system, as a person uses them."""
+
+    def measure(self, topics: Collection[str], asker: str = "") -> None:
+        """Measure these topics from now on and none that the same asker wanted before; each is subscribed to as it is
+        offered.
+        """
+        ...
+
+    def measured(self) -> Mapping[str, Measure]:
+        """What is known of the topics that are measured."""
+        ...
+
+    def listen(self, topic: str) -> None:
+        """Keep the newest message of this topic, and of no other; an empty name ends that."""
+        ...
+
+    def heard(self) -> LiveMessage:
+        """The newest message of the topic listened to; the same object until there is another."""
+        ...
+
+    def slots(self, payload: Payload, type_name: str, values: Values) -> Sequence[Slot]:
+        """The form of a type with what was typed so far; raises `ValueError` where the type is not known here."""
+        ...
+
+    def wrong(self, payload: Payload, type_name: str, path: str, text: str) -> str:
+        """Why a text cannot stand in a slot, in words; empty when it can."""
+        ...
+
+    def line(self, payload: Payload, name: str, type_name: str, values: Values, rate: float = 0.0) -> str:
+        """The `ros2` command that sends the same."""
+        ...
+
+    def earlier(self, name: str) -> Sequence[Values]:
+        """What was sent to a topic, service or action from here, the newest last."""
+        ...
+
+    def publish(self, topic: str, type_name: str, values: Values, rate: float = 0.0) -> Answer:
+        """Publish a message once, or at a rate (Hz) until `stop`."""
+        ...
+
+    def repeated(self) -> Mapping[str, Repeated]:
+        """What is being published at a rate, by topic; the same object until something changes."""
+        ...
+
+    def stop(self, topic: str = "") -> None:
+        """Publish no more to a topic, or, without a name, to none."""
+        ...
+
+    def call(self, service: str, type_name: str, values: Values) -> Future[Reply]:
+        """Call a service."""
+        ...
+
+    def send_goal(self, action: str, type_name: str, values: Values) -> Answer:
+        """Send a goal; what becomes of it is in `goals`."""
+        ...
+
+    def goals(self) -> Mapping[str, Goal]:
+        """The last goal of each action to which one was sent from here."""
+        ...
+
+    def cancel(self, action: str) -> Answer:
+        """Ask that the last goal be cancelled."""
+        ...

@@ -1,0 +1,1 @@
+"""Files that the console writes, and where they are."""

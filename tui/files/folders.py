@@ -1,0 +1,27 @@
+"""Where the user's own files are: settings and layouts, and what a program leaves behind."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+OVERRIDE = "BOT_CONSOLE_USER_DIR"
+"""Environment variable: one folder for all of it, for instance on a borrowed account."""
+
+
+def config_folder() -> Path:
+    """What a person writes: settings, layouts, profiles (`~/.config/bot-console` on Linux)."""
+    given = os.environ.get(OVERRIDE)
+    return Path(given) / "config" if given else _platform("user_config_path")
+
+
+def state_folder() -> Path:
+    """What the program keeps from run to run: history, the last screen, crash files (`~/.local/state/bot-console`)."""
+    given = os.environ.get(OVERRIDE)
+    return Path(given) / "state" if given else _platform("user_state_path")
+
+
+def _platform(kind: str) -> Path:
+    import platformdirs
+
+    return getattr(platformdirs, kind)("bot-console", appauthor=False)

@@ -1,0 +1,54 @@
+"""One key: what it does, and how it is written."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Key:
+    """One action: its keys (any of them, separated by commas), what it does, and whether the footer names it."""
+
+    id: str
+    keys: str
+    action: str
+    text: str
+    footer: bool = False
+    shown: str = ""
+    """How the key is written; empty: as Textual writes it."""
+    priority: bool = False
+    short: str = ""
+    """What the footer says, where `text` is too long for it."""
+
+
+NAMES = {
+    "question_mark": "?",
+    "colon": ":",
+    "exclamation_mark": "!",
+    "slash": "/",
+    "plus": "+",
+    "equals_sign": "=",
+    "minus": "-",
+    "greater_than_sign": ">",
+    "left_square_bracket": "[",
+    "right_square_bracket": "]",
+    "less_than_sign": "<",
+    "comma": ",",
+    "full_stop": ".",
+    "escape": "esc",
+    "up": "↑",
+    "down": "↓",
+    "left": "←",
+    "right": "→",
+}
+
+
+def key_text(key: Key, most: int = 9) -> str:
+    """The keys of an action, at most so many, as they are written on the keyboard."""
+    return " ".join(_written(each) for each in key.keys.split(",")[:most])
+
+
+def _written(key: str) -> str:
+    shift = "⇧" if key.startswith("shift+") else ""
+    name = key.removeprefix("shift+")
+    return shift + NAMES.get(name, name.replace("ctrl+", "^"))

@@ -1,0 +1,1 @@
+"""How panes share the screen: a tree of splits, what it comes to in cells, and the layouts that have names."""

@@ -1,0 +1,68 @@
+"""Trees of splits as plain data, as they stand in a layout file."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from typing import Any, cast
+
+from bot_console.tui.layout.tree import Split, Tree, panes
+
+DEEPEST = 8
+
+
+class NoLayout(ValueError):
+    """Data that describe no layout; the text says what is wrong and how it should be."""
+
+
+def data_of(tree: Tree) -> object:
+    """A tree as names, lists and mappings: `{beside: [parameters, {below: [world, plot]}], share: [3, 2]}`."""
+    if isinstance(tree, str):
+        return tree
+    data: dict[str, object] = {tree.way: [data_of(part) for part in tree.parts]}
+    if len(set(tree.shares)) > 1:
+        data["share"] = list(tree.shares)
+    return data
+
+
+def tree_of(data: object, known: Collection[str]) -> Tree:
+    """The tree that data describe; raises `NoLayout`."""
+    tree = _tree(data, known, 0)
+    twice = sorted({pane for pane in panes(tree) if panes(tree).count(pane) > 1})
+    if twice:
+        raise NoLayout(f"{twice[0]} stands twice; a pane can be on the screen once")
+    return tree
+
+
+def _tree(data: object, known: Collection[str], depth: int) -> Tree:
+    if isinstance(data, str):
+        if data not in known:
+            raise NoLayout(f"there is no pane '{data[:40]}'; panes: {', '.join(sorted(known))}")
+        return data
+    if depth > DEEPEST:
+        raise NoLayout(f"splits are nested deeper than {DEEPEST}")
+    if not isinstance(data, Mapping):
+        raise NoLayout(f"a pane's name, or a mapping with 'beside' or 'below', not {_kind(data)}")
+    given = cast("Mapping[object, Any]", data)
+    unknown = [str(key) for key in given if key not in ("beside", "below", "share")]
+    ways = [way for way in ("beside", "below") if way in given]
+    if unknown or len(ways) != 1:
+        raise NoLayout(f"'{unknown[0][:40]}' is not known here" if unknown else "give either 'beside' or 'below'")
+    parts = given[ways[0]]
+    if not isinstance(parts, list) or len(cast("list[object]", parts)) < 2:
+        raise NoLayout(f"'{ways[0]}' has a list of two parts or more")
+    trees = tuple(_tree(part, known, depth + 1) for part in cast("list[object]", parts))
+    return Split("beside" if ways[0] == "beside" else "below", trees, _shares(given.get("share"), len(trees)))
+
+
+def _shares(given: object, count: int) -> tuple[int, ...]:
+    if given is None:
+        return (1,) * count
+    shares = cast("list[object]", given) if isinstance(given, list) else []
+    whole = [each for each in shares if isinstance(each, int) and not isinstance(each, bool) and 0 < each <= 10_000]
+    if len(whole) != count or len(shares) != count:
+        raise NoLayout(f"'share' has a positive whole number for each of the {count} parts")
+    return tuple(whole)
+
+
+def _kind(data: object) -> str:
+    return "nothing" if data is None else f"a {type(data).__name__}"

@@ -1,0 +1,106 @@
+"""What a tree of splits comes to in cells. Pure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from bot_console.tui.layout.tree import Split, Tree, Way
+
+LEAST = (20, 4)
+"""Columns and lines below which a pane shows nothing that can be used."""
+
+
+class Box(NamedTuple):
+    """A rectangle of cells: its upper left corner, its width and its height."""
+
+    x: int
+    y: int
+    width: int
+    height: int
+
+
+@dataclass(frozen=True)
+class Border:
+    """The line between two parts of a split: which split (a path of part numbers), which line, and where it is."""
+
+    path: tuple[int, ...]
+    after: int
+    way: Way
+    box: Box
+    """The two lines of cells on both sides of it."""
+    whole: int
+    """The columns, or lines, of the whole split."""
+
+
+def boxes(tree: Tree, box: Box) -> dict[str, Box]:
+    """Where each pane stands."""
+    if isinstance(tree, str):
+        return {tree: box}
+    found: dict[str, Box] = {}
+    for part, own in zip(tree.parts, _parts(tree, box), strict=True):
+        found |= boxes(part, own)
+    return found
+
+
+def borders(tree: Tree, box: Box, path: tuple[int, ...] = ()) -> Iterator[Border]:
+    """The lines between parts, those of inner splits first."""
+    if isinstance(tree, str):
+        return
+    places = _parts(tree, box)
+    for at, (part, place) in enumerate(zip(tree.parts, places, strict=True)):
+        yield from borders(part, place, (*path, at))
+    for at, place in enumerate(places[1:]):
+        if tree.way == "beside":
+            yield Border(path, at, tree.way, Box(place.x - 1, box.y, 2, box.height), box.width)
+        else:
+            yield Border(path, at, tree.way, Box(box.x, place.y - 1, box.width, 2), box.height)
+
+
+def _parts(tree: Split, box: Box) -> list[Box]:
+    """The boxes of the parts; what does not divide evenly goes where it is noticed least, cell by cell."""
+    whole = box.width if tree.way == "beside" else box.height
+    total = sum(tree.shares)
+    found: list[Box] = []
+    begin = before = 0
+    for share in tree.shares:
+        before += share
+        end = whole * before // total
+        if tree.way == "beside":
+            found.append(Box(box.x + begin, box.y, end - begin, box.height))
+        else:
+            found.append(Box(box.x, box.y + begin, box.width, end - begin))
+        begin = end
+    return found
+
+
+def fits(places: Mapping[str, Box]) -> bool:
+    """Whether every pane has room enough to be used."""
+    return all(each.width >= LEAST[0] and each.height >= LEAST[1] for each in places.values())
+
+
+def neighbour(places: Mapping[str, Box], pane: str, dx: int, dy: int) -> str:
+    """The pane that one comes to from another in a direction; itself where there is none."""
+    here = places[pane]
+    others = [(name, box) for name, box in places.items() if name != pane and _lies(here, box, dx, dy)]
+    return min(others, key=lambda each: _distance(here, each[1], dx, dy), default=(pane, here))[0]
+
+
+def _lies(here: Box, there: Box, dx: int, dy: int) -> bool:
+    if dx:
+        return there.x >= here.x + here.width if dx > 0 else there.x + there.width <= here.x
+    return there.y >= here.y + here.height if dy > 0 else there.y + there.height <= here.y
+
+
+def _distance(here: Box, there: Box, dx: int, dy: int) -> tuple[int, int]:
+    """How far a box is in the direction, and how far beside it: the nearest one that is most in line wins."""
+    if dx:
+        ahead = there.x - here.x - here.width if dx > 0 else here.x - there.x - there.width
+        return ahead, _apart((here.y, here.height), (there.y, there.height))
+    ahead = there.y - here.y - here.height if dy > 0 else here.y - there.y - there.height
+    return ahead, _apart((here.x, here.width), (there.x, there.width))
+
+
+def _apart(one: Sequence[int], other: Sequence[int]) -> int:
+    return abs(2 * one[0] + one[1] - 2 * other[0] - other[1])

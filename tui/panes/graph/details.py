@@ -1,0 +1,112 @@
+"""Everything known of an item of the graph, each line of it something to go to. Pure."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+
+from bot_console.tui.console.graph.findings import Finding, findings
+from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo
+from bot_console.tui.format import value_text
+from bot_console.tui.panes.graph.view import ACTION, SERVICE, TOPIC, ends_of, node_of, types_of
+from bot_console.tui.widgets.prompt.question import Option
+
+ITEM, PANE, TYPE = "item ", "pane ", "type "
+"""How the values of options begin: an item of the graph, a pane with a name in it, an interface type."""
+NODE_ENDS = (
+    ("publishes", TOPIC, "publishers"),
+    ("subscribes to", TOPIC, "subscriptions"),
+    ("serves", SERVICE, "services"),
+    ("calls", SERVICE, "clients"),
+    ("executes", ACTION, "action_servers"),
+    ("sends goals to", ACTION, "action_clients"),
+)
+
+
+def details(snapshot: ConsoleSnapshot, item: str) -> list[Option]:
+    """The lines of an item: a node's ends, parameters and process; a link's types and nodes."""
+    if item.startswith(TOPIC):
+        return list(_topic(snapshot.graph, item.removeprefix(TOPIC)))
+    if item.startswith((SERVICE, ACTION)):
+        return list(_service(snapshot.graph, item))
+    return list(_node(snapshot, item))
+
+
+def _node(snapshot: ConsoleSnapshot, name: str) -> Iterator[Option]:
+    node = node_of(snapshot.graph, name)
+    if node is None:
+        yield Option("The node has left.")
+        return
+    for verb, kind, field in NODE_ENDS:
+        ends: tuple[Endpoint, ...] = getattr(node, field)
+        for each in ends:
+            about = f"{', '.join(each.types)}  {each.qos}".rstrip()
+            yield Option(f"{verb} {each.name}", about, f"{ITEM}{kind}{each.name}")
+    tree = snapshot.parameters.get(name)
+    for each in tree.parameters if tree else ():
+        yield Option(f"parameter {each.name}", f"{value_text(each.value)} {each.unit}", f"{PANE}parameters {name}")
+    if tree and tree.problem:
+        yield Option("parameters", tree.problem, f"{PANE}parameters {name}")
+    for process in snapshot.launch.processes:
+        if name in process.nodes:
+            pid = f"  pid {process.pid}" if process.pid else ""
+            yield Option(f"process {process.label}", f"{process.state.value}{pid}", f"{PANE}launch {name}")
+    yield Option("log lines", "of this node", f"{PANE}logs {name}")
+
+
+def _topic(info: GraphInfo, name: str) -> Iterator[Option]:
+    types = types_of(info, name)
+    for each in types:
+        yield Option(f"type {each}", "more than one: not all hear each other" if len(types) > 1 else "", TYPE + each)
+    qos = {
+        (node.name, publishing): each.qos
+        for node in info.nodes
+        for publishing, ends in ((True, node.publishers), (False, node.subscriptions))
+        for each in ends
+        if each.name == name
+    }
+    publishers, subscribers = ends_of(info, name)
+    for word, nodes, publishing in (("published by", publishers, True), ("heard by", subscribers, False)):
+        for each in nodes:
+            yield Option(f"{word} {each}", qos.get((each, publishing), ""), ITEM + each)
+        if not nodes:
+            yield Option(f"{word} nobody")
+    yield Option("rate, messages, publishing", "in the topics pane", f"{PANE}topics {name}")
+
+
+def _service(info: GraphInfo, item: str) -> Iterator[Option]:
+    kind, _, name = item.partition(":")
+    given, taken = ("services", "clients") if kind == "service" else ("action_servers", "action_clients")
+    for word, field in (("served by", given), ("asked by", taken)):
+        found = [(node.name, each) for node in info.nodes for each in _named(getattr(node, field), name)]
+        for node, each in found:
+            yield Option(f"{word} {node}", ", ".join(each.types), ITEM + node)
+        if not found:
+            yield Option(f"{word} nobody")
+
+
+def _named(ends: Iterable[Endpoint], name: str) -> list[Endpoint]:
+    return [each for each in ends if each.name == name]
+
+
+def finding_options(info: GraphInfo) -> list[Option]:
+    """What is odd, each line with the item that it is about."""
+    return [Option(each.text, "fault" if each.fault else "", ITEM + _item_of(info, each)) for each in findings(info)]
+
+
+def _item_of(info: GraphInfo, finding: Finding) -> str:
+    subject = finding.subject
+    if node_of(info, subject) is not None:
+        return subject
+    services = {each.name for node in info.nodes for each in (*node.services, *node.clients)}
+    actions = {each.name for node in info.nodes for each in (*node.action_servers, *node.action_clients)}
+    return (ACTION if subject in actions else SERVICE if subject in services else TOPIC) + subject
+
+
+def narrowed(options: Sequence[Option]) -> Callable[[str], Sequence[Option]]:
+    """Finds those that have all the words typed."""
+
+    def find(typed: str) -> Sequence[Option]:
+        words = typed.lower().split()
+        return [each for each in options if all(word in f"{each.title} {each.about}".lower() for word in words)]
+
+    return find

@@ -1,0 +1,61 @@
+"""What a person has focused on in the graph, with the way back and forth. Pure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+STEP = 2
+"""Edges of one hop: to a topic and on to the node behind it."""
+
+
+@dataclass(frozen=True)
+class Focus:
+    """An item and how many hops around it are drawn; an empty item: everything is."""
+
+    item: str = ""
+    hops: int = 1
+
+
+@dataclass
+class Journey:
+    """Where the focus was, is, and was before one went back."""
+
+    now: Focus = field(default_factory=Focus)
+    _behind: list[Focus] = field(default_factory=lambda: [])
+    _ahead: list[Focus] = field(default_factory=lambda: [])
+
+    def go(self, item: str) -> None:
+        """Focus on an item; the same one again widens it by a hop."""
+        wider = self.now.hops + 1 if item == self.now.item else 1
+        self._behind.append(self.now)
+        self._ahead.clear()
+        self.now = Focus(item, wider)
+
+    def back(self) -> bool:
+        """Where the focus was before; whether there was anything."""
+        return self._move(self._behind, self._ahead)
+
+    def forth(self) -> bool:
+        """Where the focus was before one went back."""
+        return self._move(self._ahead, self._behind)
+
+    def _move(self, source: list[Focus], target: list[Focus]) -> bool:
+        if not source:
+            return False
+        target.append(self.now)
+        self.now = source.pop()
+        return True
+
+
+def around(focus: Focus, edges: Iterable[tuple[str, str]]) -> set[str]:
+    """The items within the hops of a focus, against and along the arrows."""
+    near: dict[str, set[str]] = {}
+    for a, b in edges:
+        near.setdefault(a, set()).add(b)
+        near.setdefault(b, set()).add(a)
+    found = frontier = {focus.item}
+    for _ in range(focus.hops * STEP):
+        frontier = {one for each in frontier for one in near.get(each, ())} - found
+        found = found | frontier
+    return found

@@ -1,0 +1,56 @@
+"""Namespaces as boxes: what is in a folded one is drawn as one item. Pure."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+
+SPACE = "namespace:"
+"""Begins the id of a box that stands for all nodes of a namespace."""
+FEWEST = 2
+"""Nodes that a namespace has at least to be worth a box."""
+
+
+def namespace_of(node: str) -> str:
+    """The namespace of a node; empty for the root."""
+    return node.rpartition("/")[0]
+
+
+def outermost(nodes: Iterable[str]) -> frozenset[str]:
+    """The namespaces next to the root that have nodes enough for a box."""
+    counts: dict[str, int] = {}
+    for node in nodes:
+        space = "/" + node.split("/")[1] if node.count("/") > 1 else ""
+        counts[space] = counts.get(space, 0) + 1
+    return frozenset(space for space, count in counts.items() if space and count >= FEWEST)
+
+
+def box_of(node: str, folded: Collection[str]) -> str:
+    """The item that stands for a node: itself, or the box of the outermost folded namespace that it is in."""
+    space = namespace_of(node)
+    within = [each for each in folded if space == each or space.startswith(f"{each}/")]
+    return SPACE + min(within, key=len) if within else node
+
+
+def folded_edges(
+    edges: Iterable[tuple[str, str]], folded: Collection[str], is_link: Collection[str]
+) -> tuple[set[tuple[str, str]], set[str]]:
+    """Edges between what is drawn, and the links (topics, services) that stand inside one box and are not drawn.
+
+    `is_link` are the ids that are no nodes.
+    """
+    boxes: dict[str, str] = {}
+
+    def box(item: str) -> str:
+        if item in is_link:
+            return item
+        if item not in boxes:
+            boxes[item] = box_of(item, folded)
+        return boxes[item]
+
+    drawn = {(box(a), box(b)) for a, b in edges}
+    ends: dict[str, set[str]] = {}
+    for a, b in drawn:
+        link, node = (a, b) if a in is_link else (b, a)
+        ends.setdefault(link, set()).add(node)
+    inside = {link for link, nodes in ends.items() if len(nodes) == 1 and next(iter(nodes)).startswith(SPACE)}
+    return {(a, b) for a, b in drawn if a not in inside and b not in inside}, inside

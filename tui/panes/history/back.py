@@ -1,0 +1,49 @@
+"""Going back to a moment: what parameters had then, as far as the history tells. Pure."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from bot_console.tui.console.model import Change, ParameterTree, Value
+
+
+@dataclass(frozen=True)
+class Return:
+    """One value that going back would set."""
+
+    node: str
+    name: str
+    now: Value
+    then: Value
+
+
+def values_at(changes: Sequence[Change], row: Change) -> dict[tuple[str, str], Value]:
+    """What parameters had right after a change, oldest change first, of those that its run had set or set later.
+
+    Nothing is said of what other runs have set: nodes that were started again have begun with their start values.
+    """
+    then: dict[tuple[str, str], Value] = {}
+    for each in (each for each in changes if each.accepted and each.run == row.run):
+        key = (each.node, each.name)
+        if each.seq <= row.seq:
+            then[key] = each.new
+        else:
+            then.setdefault(key, each.old)
+    return then
+
+
+def returns(
+    then: Mapping[tuple[str, str], Value], trees: Mapping[str, ParameterTree]
+) -> tuple[list[Return], list[str]]:
+    """What has to be set for that, and what cannot be, in words: a node that has left, a parameter that is no more."""
+    found: list[Return] = []
+    missing: list[str] = []
+    for (node, name), value in sorted(then.items()):
+        tree = trees.get(node)
+        parameter = tree.get(name) if tree else None
+        if parameter is None:
+            missing.append(f"{node} {name}: " + ("there is no such parameter now" if tree else "the node is not there"))
+        elif parameter.value != value and value is not None and not parameter.read_only:
+            found.append(Return(node, name, parameter.value, value))
+    return found, missing

@@ -1,0 +1,214 @@
+"""The history pane: every parameter change and refusal, of this run and of earlier ones, and the way back."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from concurrent.futures import Future
+from pathlib import Path
+from typing import Any
+
+from bot_console.tui import keymap
+from bot_console.tui.console.model import Change, ChangeSource, ConsoleSnapshot, JournalState, SetOutcome, Value
+from bot_console.tui.console.parameters.safety import takes_safety
+from bot_console.tui.console.protocol import Answer
+from bot_console.tui.console.query import Query, parse
+from bot_console.tui.format import counted, harmless, value_text
+from bot_console.tui.panes.history.back import Return, returns, values_at
+from bot_console.tui.panes.history.export import FORMS, export
+from bot_console.tui.panes.history.rows import ChangeRows, command, day_text, details, words
+from bot_console.tui.panes.list_pane import ListPane
+from bot_console.tui.widgets.prompt.line import Prompt
+from bot_console.tui.widgets.prompt.question import Confirmation
+from bot_console.tui.widgets.row_list import RowList
+from bot_console.tui.widgets.words import Words
+from rich.text import Text
+from textual.app import ComposeResult
+
+ALL = -(10**9)
+"""A number before the first change of all runs."""
+MOST = 12
+"""Values that a question names one by one."""
+
+
+class HistoryPane(ListPane):
+    """Changes of parameters, the newest first."""
+
+    TITLE = "History"
+    HELP = (
+        "Every change of a parameter and every refusal, whoever made it, the newest first; those of earlier runs\n"
+        "stand below with their date. u goes back to a row: whatever was changed after it gets the value that it had\n"
+        "then, all or nothing, after a question. Log and plot look at the moment of the row at the cursor; Escape is\n"
+        "now."
+    )
+    BINDINGS = keymap.bindings("history")
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self._journal = JournalState()
+        self._every: list[Change] = []
+        self._query = Query()
+        self._only_refused = False
+        self._problem = ""
+
+    def compose(self) -> ComposeResult:
+        """The changes, what is known of the one at the cursor, a prompt."""
+        yield ChangeRows()
+        yield Words(id="history-detail")
+        yield Prompt(id="history-prompt")
+
+    @property
+    def _list(self) -> ChangeRows:
+        return self.query_one(ChangeRows)
+
+    def focus_target(self) -> None:
+        """The changes take the keys."""
+        self._list.focus()
+
+    def show(self, snapshot: ConsoleSnapshot) -> None:
+        """Take in what is new in the journal."""
+        self._problem = snapshot.problem
+        if snapshot.journal is not self._journal or not self._every:
+            new = snapshot.journal
+            if not self._every or new.end != self._journal.end or new.first != self._journal.first:
+                self._every = [*self.console.changes(ALL)]
+            self._journal = new
+            self._arrange()
+
+    def _arrange(self) -> None:
+        """Show what passes the filter."""
+        shown = [each for each in reversed(self._every) if self._wanted(each)]
+        self._list.exchange(shown)
+        more = ("refused" if self._only_refused else "", self._journal.problem)
+        self.tell_filter(len(shown), len(self._every), *more)
+        self._describe()
+
+    def _wanted(self, change: Change) -> bool:
+        if self._only_refused and change.accepted:
+            return False
+        return not self._query.terms or self._query.matches(words(change), change.node)
+
+    def _describe(self) -> None:
+        change = self._list.current
+        if change is not None:
+            text = details(change)
+        elif self.words or self._only_refused:
+            text = Text("Nothing matches. Escape shows all.", "dim")
+        else:
+            text = Text(harmless(self._problem) or "No parameter was changed yet.", "dim")
+        self.query_one("#history-detail", Words).say(text)
+
+    def on_row_list_moved(self, event: RowList.Moved) -> None:
+        """Another change: tell of it, and look at its moment."""
+        event.stop()
+        self._describe()
+        change = self._list.current
+        if change is not None and self._list.has_focus:
+            self.time_cursor.move(change.stamp, self)
+
+    def time_moved(self, stamp: int | None) -> None:
+        """Another pane looks at a moment: go to the last change before it."""
+        if stamp is None or not self.is_mounted:
+            return
+        before = (index for index, each in enumerate(self._list.rows) if each.stamp <= stamp)
+        at = next(before, None)
+        if at is not None:
+            self._list.cursor = at
+
+    def action_clear_filter(self) -> None:
+        """Look at now again; or else show everything."""
+        if self.time_cursor.stamp is not None:
+            self.time_cursor.move(None, self)
+        else:
+            self._only_refused = False
+            self.set_filter("")
+
+    def filter_is(self, words: str) -> None:
+        """Show the changes that pass."""
+        self._query = parse(words)
+        self._arrange()
+
+    def action_refused(self) -> None:
+        """Only refusals, or all."""
+        self._only_refused = not self._only_refused
+        self._arrange()
+
+    def action_back(self) -> None:
+        """Go back to the row at the cursor, after a question."""
+        change = self._list.current
+        if change is not None:
+            moment = day_text(change.stamp)
+            self._ask(values_at(self._every, change), f"Go back to {moment}, {change.node} {change.name}?")
+
+    def action_before(self) -> None:
+        """Put the value before one change back, after a question where that takes from the robot's safety."""
+        change = self._list.current
+        if change is None:
+            return
+        if not change.accepted:
+            self.notify(f"{change.name} was refused, so there is nothing to put back.")
+        elif change.old is None:
+            self.notify(f"{change.name} had no value before.")
+        else:
+            self._ask({(change.node, change.name): change.old}, f"Put {change.name} back?")
+
+    def _ask(self, then: Mapping[tuple[str, str], Value], question: str) -> None:
+        trees = self.console.snapshot().parameters
+        found, missing = returns(then, trees)
+        if not found:
+            self.notify("; ".join(["The robot has these values already." if not missing else "", *missing]).strip("; "))
+            return
+        lines = [self._line(each) for each in found[:MOST]]
+        lines += [f"... and {counted(len(found) - MOST, 'value')} more"] if len(found) > MOST else []
+        lines += [f"not set: {each}" for each in missing[:MOST]]
+        self.ask(Confirmation(question, lambda _: self._go(found), reasons="\n".join(lines)))
+
+    def _line(self, each: Return) -> str:
+        tree = self.console.snapshot().parameters.get(each.node)
+        parameter = tree.get(each.name) if tree else None
+        unsafe = takes_safety(parameter, each.now, each.then) if parameter else ""
+        text = f"{each.node} {each.name}  {value_text(each.now)} → {value_text(each.then)}"
+        return f"⚠ {text}: {unsafe}" if unsafe else f"  {text}"
+
+    def _go(self, found: list[Return]) -> None:
+        values: dict[str, dict[str, Value]] = {}
+        for each in found:
+            values.setdefault(each.node, {})[each.name] = each.then
+        answer = self.console.set_all(values, ChangeSource.HISTORY)
+        answer.add_done_callback(lambda done: self.host.call_later(self._outcome, done))
+
+    def _outcome(self, done: Future[tuple[SetOutcome, ...]]) -> None:
+        error = done.exception()
+        if error is not None:
+            self.notify(str(error), severity="error")
+            return
+        refused = [each for each in done.result() if not each.accepted and each.refused_by != "console"]
+        refused = refused or [each for each in done.result() if not each.accepted]
+        if refused:
+            first = refused[0]
+            self.notify(
+                f"Nothing was set: {first.node} refused {first.name} = {value_text(first.value)}: {first.reason}",
+                severity="error",
+            )
+        else:
+            self.notify(f"{counted(len(done.result()), 'value')} put back; u in the Parameters pane undoes it.")
+
+    def action_plot(self) -> None:
+        """Plot the parameter at the cursor."""
+        change = self._list.current
+        if change is not None:
+            self.post_message(self.PlotWanted(f"{change.node}:{change.name}"))
+
+    def action_copy(self) -> None:
+        """Copy the command that makes the change, through the terminal (OSC 52)."""
+        change = self._list.current
+        if change is not None:
+            text = command(change, change.new)
+            self.host.copy_to_clipboard(text)
+            self.notify(text, title="Copied")
+
+    def action_export(self) -> None:
+        """Ask where what is shown goes."""
+        self.ask_file(f"export to ({' '.join(FORMS)})", "history.csv", self._export)
+
+    def _export(self, path: Path) -> Answer:
+        return Answer(True, f"{counted(export(path, self._list.rows[::-1]), 'change')} exported to {path}")

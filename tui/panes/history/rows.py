@@ -1,0 +1,119 @@
+"""The rows of the history: when, which parameter, from what to what, by whom, and why not."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+
+from bot_console.tui.console.model import Change, ChangeSource, Kind, ParameterInfo, Value
+from bot_console.tui.console.query import Query
+from bot_console.tui.format import clock_text, command_of, cut, harmless, value_text
+from bot_console.tui.widgets.item_list import ItemList
+from rich.segment import Segment
+from rich.style import Style
+from rich.text import Text
+
+WHO = {
+    ChangeSource.EDIT: "here",
+    ChangeSource.UNDO: "undo",
+    ChangeSource.REDO: "redo",
+    ChangeSource.PROFILE: "profile",
+    ChangeSource.FILE: "file",
+    ChangeSource.HISTORY: "history",
+    ChangeSource.ROLLBACK: "taken back",
+    ChangeSource.OTHER: "another program or the node",
+}
+GAP = "  "
+NODE, NAME, VALUES = 18, 24, 22
+"""Cells that node, name and values take at most."""
+
+
+def who(change: Change) -> str:
+    """Who has asked for a change, and what it was a part of."""
+    return f"{WHO[change.source]} {change.by}".rstrip()
+
+
+def words(change: Change) -> str:
+    """What a filter looks at, besides the node."""
+    verdict = "taken" if change.accepted else "refused"
+    values = f"{value_text(change.old)} {value_text(change.new)}"
+    return f"{change.name} {values} {who(change)} {verdict} {change.reason}"
+
+
+def day_text(stamp: int) -> str:
+    """Date and time of a change of an earlier run, in local time."""
+    return time.strftime("%m-%d %H:%M", time.localtime(stamp // 10**9))
+
+
+def changed_text(change: Change) -> str:
+    """From what to what."""
+    return f"{harmless(value_text(change.old))} → {harmless(value_text(change.new))}"
+
+
+def command(change: Change, value: Value) -> str:
+    """The `ros2` line that gives the parameter a value."""
+    of_bytes = isinstance(value, tuple) and any(isinstance(each, bytes) for each in value)
+    kind = Kind.BYTE_ARRAY if of_bytes else Kind.NOT_SET
+    return command_of(ParameterInfo(change.node, change.name, kind, value), value)
+
+
+def details(change: Change) -> Text:
+    """All that is known of a change."""
+    text = Text(no_wrap=False, overflow="fold")
+    if not change.accepted:
+        text.append(f"✗ {harmless(value_text(change.new))} was refused: {harmless(change.reason)}\n", "bold")
+    at = time.strftime("%Y-%m-%d ", time.localtime(change.stamp // 10**9)) + clock_text(change.stamp)
+    text.append(f"{harmless(change.node)} {harmless(change.name)}  {changed_text(change)}\n")
+    text.append(f"{at} · {harmless(who(change))}{' · an earlier run' if change.seq < 0 else ''}\n", "dim")
+    text.append(harmless(command(change, change.new)), "dim italic")
+    return text
+
+
+class ChangeRows(ItemList[Change]):
+    """Changes, the newest first."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._node = self._name = self._values = 0
+
+    def key(self, item: Change) -> object:
+        """A change is itself, wherever it stands."""
+        return item.seq
+
+    def exchange(self, rows: Sequence[Change], *, stay: bool = True) -> None:
+        """Show other changes; the cursor stays on its own, or on the newest where it was there."""
+        self._node = min(NODE, max((len(each.node) for each in rows), default=0))
+        self._name = min(NAME, max((len(each.name) for each in rows), default=0))
+        self._values = min(VALUES, max((len(changed_text(each)) for each in rows[:200]), default=0))
+        super().exchange(rows, stay=stay and self.cursor > 0)
+        self.refresh()
+
+    def matches(self, index: int, query: Query) -> bool:
+        """Whether a change matches a filter."""
+        return query.matches(words(self.rows[index]), self.rows[index].node)
+
+    def _style(self, name: str) -> Style:
+        return self.get_component_rich_style(f"row-list--{name}", partial=True)
+
+    def row(self, index: int, width: int) -> list[Segment]:
+        """One change."""
+        change = self.rows[index]
+        dim = self._style("dim")
+        moment = day_text(change.stamp) if change.seq < 0 else clock_text(change.stamp)[:8]
+        node = harmless(change.node)
+        node = cut("…" + node[1 - self._node :] if len(node) > self._node else node, self._node, pad=True)
+        head = [Segment(f"{moment:<11} ", dim)]
+        if width >= 70:
+            head.append(Segment(node + GAP, dim))
+        name = cut(harmless(change.name), self._name, pad=True)
+        mark = " " if change.accepted else "✗"
+        values = cut(changed_text(change), self._values, pad=True)
+        refused = self._style("error")
+        tail = f"{harmless(change.reason)} ({harmless(who(change))})" if not change.accepted else harmless(who(change))
+        return [
+            *head,
+            Segment(f"{mark} ", refused),
+            Segment(name + GAP, self._style("plain") if change.accepted else refused),
+            Segment(values + GAP, self._style("strong") if change.accepted else refused),
+            Segment(tail, dim if change.accepted else refused),
+        ]

@@ -1,0 +1,40 @@
+"""A pane around a list: its filter, the matches in it, and how many of how many are shown."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from bot_console.tui.console.query import parse
+from bot_console.tui.panes.pane import Pane
+from bot_console.tui.widgets.prompt.filtered import Narrowed
+from bot_console.tui.widgets.prompt.line import Prompt
+from bot_console.tui.widgets.prompt.question import Line
+from bot_console.tui.widgets.row_list import RowList
+
+
+class ListPane(Pane, Narrowed):
+    """A pane whose first `RowList` has a filter. A subclass gives `filter_is` and composes a `Prompt`."""
+
+    SCOPES: ClassVar[tuple[str, ...]] = ("find", "narrowed", "list")
+
+    def ask_words(self, line: Line) -> None:
+        """Ask at the foot of the pane."""
+        self.query_one(Prompt).ask(line)
+
+    def _searched(self) -> RowList:
+        return self.query(RowList).first()
+
+    def find(self, words: str, step: int) -> bool:
+        """The next row that matches."""
+        return self._searched().find(parse(words), step)
+
+    def stands_on_match(self, words: str) -> bool:
+        """Whether the row at the cursor matches."""
+        rows = self._searched()
+        return rows.cursor < rows.row_count() and rows.matches(rows.cursor, parse(words))
+
+    def tell_filter(self, shown: int, every: int, *more: str) -> None:
+        """Write the filter, and how many pass it, into the frame; then what else narrows the list."""
+        narrowed = (f"/{self.words}" if self.words else "", *more)
+        counts = f"{shown} of {every}" if any(narrowed) else ""
+        self.caption("  ".join(each for each in (*narrowed, counts) if each))

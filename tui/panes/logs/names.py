@@ -1,0 +1,31 @@
+"""Nodes in the log as the graph spells them: a logger `arm.left.zoo` is the node `/arm/left/zoo`."""
+
+from __future__ import annotations
+
+from bot_console.tui.console.model import GraphInfo
+
+
+class NodeNames:
+    """The names of all nodes that were ever seen: lines outlive those who wrote them."""
+
+    def __init__(self) -> None:
+        self._names: dict[str, str] = {}
+        self._graph: GraphInfo | None = None
+
+    def learn(self, graph: GraphInfo) -> bool:
+        """Take in the nodes of the graph; whether there is a new one."""
+        if graph is self._graph:
+            return False
+        self._graph, before = graph, len(self._names)
+        self._names.update({each.name.strip("/").replace("/", "."): each.name for each in graph.nodes})
+        return len(self._names) > before
+
+    def of(self, logger: str) -> str:
+        """The node that a logger belongs to, with what comes behind it: `/arm/zoo.planner`; others as they are."""
+        head, rest = logger, ""
+        while head:
+            if head in self._names:
+                return self._names[head] + rest
+            head, dot, last = head.rpartition(".")
+            rest = f"{dot}{last}{rest}" if dot else rest
+        return logger

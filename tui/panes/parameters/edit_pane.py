@@ -1,0 +1,250 @@
+"""How values are changed in the parameter pane: typed, stepped, slid, marked first, and as one of two sets."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from concurrent.futures import Future
+from functools import partial
+
+from bot_console.tui.console.model import ChangeSource, Kind, ParameterInfo, SetOutcome, Value
+from bot_console.tui.console.parameter_types import ARRAYS
+from bot_console.tui.console.parameters.safety import takes_safety
+from bot_console.tui.format import field_text, value_text
+from bot_console.tui.panes.list_pane import ListPane
+from bot_console.tui.panes.parameters import editing
+from bot_console.tui.panes.parameters.staging import SETS, Key, Staging, by_node
+from bot_console.tui.panes.parameters.table import ParameterRows
+from bot_console.tui.widgets.prompt.question import Confirmation, Elements, Line
+
+
+class EditPane(ListPane):
+    """A pane around a tree of parameters in which values are changed."""
+
+    def __init__(self, *args: object, **kwargs: object) -> None:
+        super().__init__(*args, **kwargs)  # type: ignore[arg-type] -- handed on as they are
+        self.staging = Staging()
+
+    @property
+    def _list(self) -> ParameterRows:
+        return self.query_one(ParameterRows)
+
+    def _at(self) -> ParameterInfo | None:
+        row = self._list.current
+        return row.parameter if row else None
+
+    def redraw_marks(self) -> None:
+        """Draw what is marked and refused, and tell of it."""
+        raise NotImplementedError
+
+    def action_fold(self, closed: bool) -> None:
+        """Close or open what stands at the cursor."""
+        raise NotImplementedError
+
+    def _now(self, parameter: ParameterInfo) -> Value:
+        """The value that a step goes on from: the marked one, else the present one."""
+        return self.staging.marked.get((parameter.node, parameter.name), parameter.value)
+
+    def action_edit(self) -> None:
+        """Edit a value, toggle a bool, list the elements of an array, open or close a node or a group."""
+        row = self._list.current
+        if row is None:
+            return
+        parameter = row.parameter
+        if parameter is None:
+            self.action_fold(not row.folded)
+        elif parameter.kind in ARRAYS:
+            now = self._now(parameter)
+            values = now if isinstance(now, tuple) else ()
+            then, gone = partial(self._set, parameter), partial(self._gone, parameter)
+            self.ask(Elements(editing.label(parameter), then, gone, values=values, kind=parameter.kind))
+        else:
+            self.action_edit_text()
+
+    def action_edit_text(self) -> None:
+        """Edit a value on one line; toggle a bool."""
+        parameter = self._at()
+        if parameter is None:
+            return
+        now = self._now(parameter)
+        if parameter.kind is Kind.BOOL and isinstance(now, bool):
+            self._set(parameter, not now)
+            return
+        self.ask(
+            Line(
+                editing.label(parameter),
+                partial(self._set_text, parameter),
+                partial(self._gone, parameter),
+                text=field_text(now),
+                check=partial(editing.wrong, parameter),
+                outlook=partial(_outlook, parameter),
+            )
+        )
+
+    def _gone(self, parameter: ParameterInfo) -> str:
+        """Why a parameter cannot be set any more."""
+        tree = self.console.snapshot().parameters.get(parameter.node)
+        if tree is None:
+            return f"{parameter.node} has left; {parameter.name} was not set."
+        if tree.get(parameter.name) is None and not tree.problem:
+            return f"{parameter.node} has no parameter {parameter.name} any more; it was not set."
+        return ""
+
+    def _set_text(self, parameter: ParameterInfo, text: str) -> None:
+        if text != field_text(self._now(parameter)):
+            self._set(parameter, editing.typed_value(text, parameter))
+
+    def _set(self, parameter: ParameterInfo, value: Value) -> None:
+        """Send a value, or mark it."""
+        if self.staging.marking:
+            self.staging.mark((parameter.node, parameter.name), parameter.value, value)
+            self.redraw_marks()
+            return
+        answer = self.console.set_parameters(parameter.node, {parameter.name: value}, ChangeSource.EDIT)
+        answer.add_done_callback(lambda done: self.host.call_later(self._outcome, done))
+
+    def _outcome(self, done: Future[tuple[SetOutcome, ...]]) -> bool:
+        """Mark what was refused; whether everything was taken."""
+        error = done.exception()
+        if error is not None:
+            self.notify(str(error), severity="error", markup=False)
+            return False
+        for each in done.result():
+            key = (each.node, each.name)
+            if each.accepted:
+                self._list.refused.pop(key, None)
+            else:
+                self._list.refused[key] = each
+        self.redraw_marks()
+        return all(each.accepted for each in done.result())
+
+    def action_dismiss(self) -> bool:
+        """Take the mark of a refusal away, or the marked value; whether there was one."""
+        row = self._list.current
+        key = (row.node, row.parameter.name if row.parameter else "") if row else ("", "")
+        marked = self._list.refused.pop(key, None) is not None or self.staging.marked.pop(key, None) is not None
+        if marked:
+            self.redraw_marks()
+        return marked
+
+    def action_nudge(self, steps: int) -> None:
+        """Move a number by its step, or by a hundredth of its range."""
+        parameter = self._at()
+        value = editing.stepped(parameter, self._now(parameter), steps) if parameter else None
+        if parameter is not None and value is not None:
+            self._set(parameter, value)
+
+    def action_limit(self, share: float) -> None:
+        """The least value of the range, or the greatest."""
+        parameter = self._at()
+        if parameter is None:
+            return
+        value = editing.at_share(parameter, share)
+        if value is None:
+            self.notify(f"{parameter.name} has no range, so no least and no greatest value.")
+        else:
+            self._set(parameter, value)
+
+    def on_parameter_rows_slid(self, event: ParameterRows.Slid) -> None:
+        """The slider was clicked."""
+        event.stop()
+        value = editing.at_share(event.parameter, event.share)
+        if value is not None:
+            self._set(event.parameter, value)
+
+    def on_parameter_rows_pressed(self, event: ParameterRows.Pressed) -> None:
+        """A row was clicked that was chosen already."""
+        event.stop()
+        self.action_edit()
+
+    def action_reset(self) -> None:
+        """Put the default back."""
+        parameter = self._at()
+        if parameter is not None and self._now(parameter) != parameter.default and parameter.default is not None:
+            self._set(parameter, parameter.default)
+
+    def action_stage(self) -> None:
+        """Mark edits from now on instead of sending them, or send them again."""
+        self.staging.marking = not self.staging.marking
+        self.redraw_marks()
+
+    def action_apply(self) -> None:
+        """Send all marked values together: all of them are taken, or none."""
+        if not self.staging.marked:
+            self.notify("Nothing is marked; m marks edits instead of sending them.")
+            return
+        values = dict(self.staging.marked)
+        self._asked_first("Apply what is marked?", values, partial(self._apply, values))
+
+    def _apply(self, values: dict[Key, Value]) -> None:
+        answer = self.console.set_all(by_node(values), ChangeSource.EDIT)
+        answer.add_done_callback(lambda done: self.host.call_later(self._applied, values, done))
+
+    def _applied(self, values: Mapping[Key, Value], done: Future[tuple[SetOutcome, ...]]) -> None:
+        if self._outcome(done):
+            marked = self.staging.marked
+            self.staging.marked = {key: value for key, value in marked.items() if values.get(key) != value}
+            self.staging.marking = bool(self.staging.marked)
+            self.redraw_marks()
+        else:
+            self._tell_refusal(done)
+
+    def action_compare(self) -> None:
+        """Make set B of what is marked and send it; or swap the two sets."""
+        if self.staging.marked:
+            self.staging.begin(self.console.snapshot().parameters)
+        if not self.staging.other:
+            self.notify("Mark values with m first: they become set B, and what is now is set A.")
+            return
+        values = self.staging.other
+        self._asked_first(f"Send {SETS[1 - self.staging.live]}?", values, partial(self._swap, values))
+
+    def _swap(self, values: dict[Key, Value]) -> None:
+        answer = self.console.set_all(by_node(values), ChangeSource.EDIT, SETS[1 - self.staging.live])
+        answer.add_done_callback(lambda done: self.host.call_later(self._swapped, done))
+
+    def _swapped(self, done: Future[tuple[SetOutcome, ...]]) -> None:
+        if self._outcome(done):
+            self.staging.live = 1 - self.staging.live
+            self.redraw_marks()
+        else:
+            self._tell_refusal(done)
+
+    def _tell_refusal(self, done: Future[tuple[SetOutcome, ...]]) -> None:
+        refused = [] if done.exception() else [each for each in done.result() if not each.accepted]
+        why = next((each for each in refused if each.refused_by != "console"), refused[0] if refused else None)
+        if why is not None:
+            value = value_text(why.value)
+            self.notify(f"Nothing was set: {why.node} {why.name} = {value}: {why.reason}", severity="error")
+
+    def _asked_first(self, question: str, values: Mapping[Key, Value], then: partial[None]) -> None:
+        """Do it; where it takes from the robot's safety, only after that was said and agreed to."""
+        trees = self.console.snapshot().parameters
+        reasons: list[str] = []
+        for (node, name), value in values.items():
+            tree = trees.get(node)
+            parameter = tree.get(name) if tree else None
+            why = takes_safety(parameter, parameter.value, value) if parameter else ""
+            if parameter and why:
+                reasons.append(f"⚠ {node} {name} {value_text(parameter.value)} → {value_text(value)} {why}.")
+        if reasons:
+            self.ask(Confirmation(question, lambda _: then(), reasons="\n".join(reasons)))
+        else:
+            then()
+
+
+def _outlook(parameter: ParameterInfo, text: str) -> str:
+    """What a typed text means where it is an expression, and what the change would take from safety."""
+    value = editing.typed_value(text, parameter)
+    plain = field_text(value)
+    unit = f" {parameter.unit}" if parameter.unit else ""
+    said = f"= {plain}{unit}" if editing.is_number(value) and not _is_plain(text) else ""
+    risk = takes_safety(parameter, parameter.value, value)
+    return "  ".join(each for each in (said, f"⚠ {risk}" if risk else "") if each)
+
+
+def _is_plain(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True

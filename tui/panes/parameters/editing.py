@@ -1,0 +1,97 @@
+"""What a person may type or press to change a value, worked out; pure."""
+
+from __future__ import annotations
+
+import math
+
+from bot_console.tui.console.model import Kind, ParameterInfo, Value
+from bot_console.tui.expression import evaluate
+from bot_console.tui.format import parse_value, range_text
+from bot_console.tui.units import factor, split_unit
+
+NUMBERS = (Kind.INTEGER, Kind.DOUBLE)
+
+
+def label(parameter: ParameterInfo) -> str:
+    """Name, kind, range and unit of what is asked for."""
+    facts = (parameter.kind.word, range_text(parameter.range, parameter.kind), parameter.unit)
+    return f"{parameter.name} ({', '.join(each for each in facts if each)})"
+
+
+def typed_value(text: str, parameter: ParameterInfo) -> Value:
+    """What a person typed: a value as YAML has it, or for a number an expression, with a unit behind it.
+
+    Raises `ValueError` with a mend.
+    """
+    try:
+        return parse_value(text, parameter)
+    except ValueError:
+        if parameter.kind not in NUMBERS or not any(letter.isdigit() for letter in text):
+            raise
+    return _calculated(text, parameter)
+
+
+def _calculated(text: str, parameter: ParameterInfo) -> Value:
+    expression, unit = split_unit(text)
+    scale = factor(unit, parameter.unit) if unit else 1
+    value = evaluate(expression) * scale
+    if not math.isfinite(value):
+        raise ValueError("the result is no finite number")
+    if parameter.kind is Kind.DOUBLE:
+        return float(f"{value:.12g}")  # 30 cm is 0.3 m, whatever binary fractions make of it
+    nearest = round(value)
+    if abs(value - nearest) > 1e-9 * max(1.0, abs(value)):
+        raise ValueError(f"{value:g} is no integer")
+    if not -(2**63) <= nearest < 2**63:
+        raise ValueError(f"{nearest} does not fit into 64 bits")
+    return nearest
+
+
+def wrong(parameter: ParameterInfo, text: str) -> str:
+    """What is wrong with a typed value; empty when nothing is."""
+    try:
+        typed_value(text, parameter)
+    except ValueError as error:
+        return str(error)
+    return ""
+
+
+def is_number(value: Value) -> bool:
+    """Whether a value can be moved by steps."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def stepped(parameter: ParameterInfo, value: Value, steps: int) -> Value:
+    """A number moved by some steps: those of its descriptor, or hundredths of its range; None where there is none."""
+    if not isinstance(value, (int, float)) or isinstance(value, bool):
+        return None
+    limits = parameter.range
+    integer = parameter.kind is Kind.INTEGER
+    step = limits.step if limits and limits.step else ((limits.high - limits.low) / 100 if limits else 0.0)
+    step = step or max(abs(value) / 10, 0.1)
+    step = max(1, round(step)) if integer else _round_step(step)
+    moved = value + steps * step
+    if limits:
+        moved = min(max(moved, limits.low), limits.high)
+    return int(moved) if integer else round(moved, 10)
+
+
+def at_share(parameter: ParameterInfo, share: float) -> Value:
+    """The value at a share (0 to 1) of the range, on one of its steps; None where there is no range."""
+    limits = parameter.range
+    if limits is None or not is_number(parameter.value):
+        return None
+    share = min(1.0, max(0.0, share))
+    value = limits.low + share * (limits.high - limits.low)
+    step = limits.step or (1 if parameter.kind is Kind.INTEGER else _round_step((limits.high - limits.low) / 100))
+    if 0.0 < share < 1.0:
+        value = min(limits.low + round((value - limits.low) / step) * step, limits.high)
+    return int(value) if parameter.kind is Kind.INTEGER else round(value, 10)
+
+
+def _round_step(step: float) -> float:
+    """The nearest of 1, 2, 5 times a power of ten."""
+    if not step > 0:
+        return 0.1
+    power = 10.0 ** math.floor(math.log10(step))
+    return min((1, 2, 5, 10), key=lambda each: abs(each * power - step)) * power

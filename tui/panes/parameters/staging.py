@@ -1,0 +1,68 @@
+"""Values that were marked instead of sent, and the two sets that are compared."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+from bot_console.tui.console.model import ParameterTree, Value
+
+Key: TypeAlias = "tuple[str, str]"
+Values: TypeAlias = "dict[Key, Value]"
+SETS = ("set A", "set B")
+"""What a change is said to be a part of, in the journal."""
+
+
+@dataclass
+class Staging:
+    """What is marked, and the sets A and B with the one that is live."""
+
+    marking: bool = False
+    """Whether edits are marked instead of sent."""
+    marked: Values = field(default_factory=dict[Key, Value])
+    sets: tuple[Values, Values] | None = None
+    live: int = 0
+    """Which of the sets was sent last."""
+
+    def mark(self, key: Key, now: Value, value: Value) -> None:
+        """Mark a value; one that is the present one needs no mark."""
+        if value == now and type(value) is type(now):
+            self.marked.pop(key, None)
+        else:
+            self.marked[key] = value
+
+    def begin(self, trees: Mapping[str, ParameterTree]) -> None:
+        """Make two sets: A is how the marked parameters are now, B what is marked; A is live."""
+        before: Values = {}
+        for key in self.marked:
+            tree = trees.get(key[0])
+            parameter = tree.get(key[1]) if tree else None
+            if parameter is not None:
+                before[key] = parameter.value
+        self.sets = (before, {key: self.marked[key] for key in before})
+        self.live = 0
+        self.marked = {}
+        self.marking = False
+
+    @property
+    def other(self) -> Values:
+        """The values of the set that is not live."""
+        return self.sets[1 - self.live] if self.sets else {}
+
+    def caption(self) -> str:
+        """What is to be known of it in a few words."""
+        parts: list[str] = []
+        if self.marking or self.marked:
+            parts.append(f"{'marking, ' if self.marking else ''}{len(self.marked)} marked: a applies")
+        if self.sets:
+            parts.append(f"{SETS[self.live]} is live: A swaps")
+        return "  ".join(parts)
+
+
+def by_node(values: Mapping[Key, Value]) -> dict[str, dict[str, Value]]:
+    """Values by node and name."""
+    found: dict[str, dict[str, Value]] = {}
+    for (node, name), value in values.items():
+        found.setdefault(node, {})[name] = value
+    return found

@@ -1,0 +1,95 @@
+"""The responses to set A and set B over each other, as lines of the plot, with their figures."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from bot_console.tui.console.model import Change
+from bot_console.tui.console.protocol import Console
+from bot_console.tui.format import harmless
+from bot_console.tui.widgets.picture import Line
+
+if TYPE_CHECKING:
+    from bot_console.tui.panes.plot.curves import Curve
+    from bot_console.tui.panes.plot.response import Response
+
+HOW = "No responses yet: mark values in the Parameters pane (m), then A there sends set B, and again set A."
+
+
+@dataclass
+class Responses:
+    """What is compared: the curve that is chosen, against a reference, by a formula of one's own."""
+
+    console: Console
+    shown: bool = False
+    reference: str = ""
+    """The path of the curve that the response should follow; empty: none."""
+    formula: str = ""
+    _moments: dict[str, int] = field(default_factory=dict[str, int])
+
+    def read(self, changes: Sequence[Change]) -> None:
+        """Learn when the sets were sent."""
+        from bot_console.tui.panes.plot.response import moments
+
+        self._moments = moments(changes)
+
+    def of(self, curve: Curve, window: float) -> list[Response]:
+        """The responses of a curve, each as long as the window (s), or until the other set was sent."""
+        from bot_console.tui.panes.plot.response import response
+
+        starts = {name: self.console.plot_time(stamp) for name, stamp in self._moments.items()}
+        found: list[Response] = []
+        for name, start in sorted(starts.items()):
+            later = [each for each in starts.values() if each > start]
+            end = min([start + window, *later])
+            one = response(name, curve.times, curve.values, start, end)
+            if one is not None:
+                found.append(one)
+        return found
+
+    def draw(self, curves: Sequence[Curve], chosen: int, window: float, size: tuple[int, int]) -> list[Line]:
+        """The picture: both responses from the moment of their change on, and a line of figures for each."""
+        from bot_console.tui.panes.plot.curves import Curve
+        from bot_console.tui.panes.plot.response import figures, figures_text
+        from bot_console.tui.panes.plot.view import Axes, framed
+
+        width, height = size
+        found = self.of(curves[chosen], window) if chosen < len(curves) else []
+        if not found:
+            return [()] * ((height - 1) // 2) + [((HOW[:width].center(width), "dim"),)]
+        drawn = [Curve(each.name, at, each.times, each.values) for at, each in enumerate(found)]
+        axes = Axes(0.0, max(min(window, max(float(each.times[-1]) for each in found)), 1e-3), since=True)
+        lines = framed(drawn, (), axes, width, max(4, height - len(found)))
+        for at, each in enumerate(found):
+            text = figures_text(figures(each, self._reference_value(curves, each)), self.formula)
+            lines.append(((f"━ {each.name} ", f"curve-{at}"), (text, "")))
+        return lines
+
+    def _reference_value(self, curves: Sequence[Curve], of: Response) -> float | None:
+        """What the reference was at the end of a response."""
+        curve = next((each for each in curves if each.path == self.reference), None)
+        if curve is None:
+            return None
+        end = self.console.plot_time(self._moments[of.name]) + float(of.times[-1])
+        before = curve.values[curve.times <= end]
+        return float(before[-1]) if len(before) else None
+
+    def caption(self, curves: Sequence[Curve], chosen: int) -> str:
+        """What is compared with what."""
+        path = curves[chosen].path if chosen < len(curves) else ""
+        parts = [f"responses of {path}", f"reference {self.reference}" if self.reference else "r sets the reference"]
+        return harmless(" · ".join([*parts, f"score {self.formula}" if self.formula else "s: a score"]))
+
+
+def wrong_formula(text: str) -> str:
+    """What is wrong with a score's formula; empty when nothing is."""
+    from bot_console.tui.panes.plot.response import Figures, score
+
+    try:
+        if text.strip():
+            score(text, Figures(1.0, 1.0, 1.0, 1.0))
+    except ValueError as error:
+        return str(error)
+    return ""

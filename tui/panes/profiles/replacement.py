@@ -1,0 +1,54 @@
+"""One running system in place of another: everything is stopped before anything is launched."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Sequence
+from concurrent.futures import Future
+from dataclasses import dataclass, field
+
+from bot_console.tui.console.model import Profile
+from bot_console.tui.console.protocol import Answer, Launcher
+
+
+@dataclass
+class Replacement:
+    """Stops processes and, when all of them have ended, launches a profile; tells what came of it."""
+
+    launcher: Launcher
+    keys: Sequence[str]
+    profile: Profile
+    tell: Callable[[Answer], object]
+    _left: int = 0
+    _problems: list[str] = field(default_factory=list[str])
+    _lock: threading.Lock = field(default_factory=threading.Lock)
+
+    def begin(self) -> None:
+        """Ask all of them to stop."""
+        self._left = len(self.keys)
+        if not self.keys:
+            self._launch()
+        for key in self.keys:
+            self.launcher.stop(key).add_done_callback(self._stopped)
+
+    def _stopped(self, done: Future[Answer]) -> None:
+        error = done.exception()
+        answer = Answer(False, str(error)) if error else done.result()
+        with self._lock:
+            self._left -= 1
+            if not answer.ok:
+                self._problems.append(answer.text)
+            last = self._left == 0
+        if last and self._problems:
+            self.tell(Answer(False, f"{self.profile.name} was not launched: {'; '.join(self._problems)}"))
+        elif last:
+            self._launch()
+
+    def _launch(self) -> None:
+        self.launcher.launch(self.profile.launch, self.profile.arguments).add_done_callback(self._launched)
+
+    def _launched(self, done: Future[Answer]) -> None:
+        error = done.exception()
+        answer = Answer(False, str(error)) if error else done.result()
+        text = answer.text or self.profile.launch
+        self.tell(Answer(answer.ok, f"{self.profile.name}: {text}" if answer.ok else f"not launched: {text}"))

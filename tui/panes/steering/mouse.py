@@ -1,0 +1,35 @@
+"""What a place on the steering pane means: a velocity on a slider, both of them on the pad. Pure."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from bot_console.tui.panes.steering.view import PAD, WORDS
+from bot_console.tui.widgets.picture import Line
+
+ENDS = 7
+"""Cells of the left end of a slider: its value and the bracket."""
+
+
+def velocities(
+    lines: Sequence[Line], x: int, y: int, greatest: tuple[float, float]
+) -> tuple[float | None, float | None, bool] | None:
+    """Linear and angular velocity (m/s, rad/s; None: as it is) at a cell, and whether it is on the pad; None beside."""
+    texts = ["".join(text for text, _ in line) for line in lines]
+    if not 0 <= y < len(texts):
+        return None
+    for word, axis in (("linear", 0), ("angular", 1)):
+        if texts[y].startswith(f" {word} "):
+            start, end = texts[y].find("├") + 1, texts[y].find("┤")
+            if not 0 < start <= x < end:
+                return None
+            share = 2 * (x - start) / max(1, end - start - 1) - 1
+            return (share * greatest[0], None, False) if axis == 0 else (None, -share * greatest[1], False)
+    top = next((at for at, text in enumerate(texts) if "forward" in text and "╭" in text), None)
+    if top is None:
+        return None
+    across, down = PAD[0] // 2, PAD[1] // 2
+    column, row = x - (WORDS + 2), y - top - 1
+    if not (0 <= column < PAD[0] and 0 <= row < PAD[1]):
+        return None
+    return (down - row) / down * greatest[0], (across - column) / across * greatest[1], True

@@ -1,0 +1,362 @@
+"""The topics pane: what is published how often, messages as they come, and publishing, calling, sending goals."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+from bot_console.tui import keymap
+from bot_console.tui.console.model import ConsoleSnapshot, GraphInfo
+from bot_console.tui.console.query import Query, parse
+from bot_console.tui.console.traffic import LiveMessage
+from bot_console.tui.format import counted
+from bot_console.tui.panes.list_pane import ListPane
+from bot_console.tui.panes.topics.figures import age_text, rate_text
+from bot_console.tui.panes.topics.message import MessageRows
+from bot_console.tui.panes.topics.rows import Kind, Row, matches, rows
+from bot_console.tui.panes.topics.table import TopicRows, heading
+from bot_console.tui.widgets.prompt.line import Prompt
+from bot_console.tui.widgets.prompt.question import Choice, Fill, Option
+from bot_console.tui.widgets.row_list import RowList
+from bot_console.tui.widgets.words import Words
+from textual.app import ComposeResult
+from textual.containers import Container
+
+PERIOD = 1.0
+"""Seconds between two looks at what was measured."""
+MESSAGE_PERIOD = 0.25
+"""Seconds between two looks at the message that is open."""
+SIDE = 110
+"""Cells from which list and message stand side by side."""
+
+
+class TopicsPane(ListPane):
+    """Topics, services and actions."""
+
+    TITLE = "Topics"
+    HELP = (
+        "Every topic with its publishers and subscribers, rate, bandwidth, age of the newest message, latency by the\n"
+        "stamps of headers, type and offered QoS; only the rows in view are measured, and only while they are seen.\n"
+        "Enter opens the newest message as a tree that goes on living. P fills in a message and publishes it. m lists\n"
+        "services and actions, which Enter calls. What is wrong with a topic is marked ! and said below."
+    )
+    BINDINGS = keymap.bindings("topics")
+
+    clock: Callable[[], float] = staticmethod(time.monotonic)
+    """Seconds of a steady clock; tests give one that they step."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self._info: GraphInfo | None = None
+        self._problem = ""
+        self._kind = Kind.TOPICS
+        self._query = Query()
+        self._every = 0
+        self._hidden = False
+        self._measuring: list[str] = []
+        self._topic = ""
+        """The topic whose message is open."""
+        self._shown = LiveMessage()
+        self._frozen = False
+        self._looked = self._looked_at_message = 0.0
+
+    def compose(self) -> ComposeResult:
+        """Titles, the list and the message beside it, a line on what is at the cursor, a prompt."""
+        yield Words(id="topics-heading")
+        with Container(id="topics-body"):
+            yield TopicRows()
+            with Container(id="topics-message"):
+                yield Words(id="message-state")
+                yield MessageRows()
+        yield Words(id="topics-status")
+        yield Prompt(id="topics-prompt")
+
+    @property
+    def _list(self) -> TopicRows:
+        return self.query_one(TopicRows)
+
+    @property
+    def _message(self) -> MessageRows:
+        return self.query_one(MessageRows)
+
+    @property
+    def _in_message(self) -> bool:
+        """Whether keys are for the message."""
+        return bool(self._topic) and (self._message.has_focus or not self._list.display)
+
+    def focus_target(self) -> None:
+        """The message takes the keys while it is open, else the list."""
+        (self._message if self._topic else self._list).focus()
+
+    def show(self, snapshot: ConsoleSnapshot) -> None:
+        """List anew when the graph is another object."""
+        if snapshot.graph is not self._info or snapshot.problem != self._problem:
+            self._info, self._problem = snapshot.graph, snapshot.problem
+            self._arrange()
+        self._look(self.clock())
+
+    def _arrange(self) -> None:
+        shown = self._list
+        shown.kind = self._kind
+        every = rows(self._info or GraphInfo(), self._kind, hidden=self._hidden)
+        self._every = len(every)
+        shown.exchange([each for each in every if matches(self._query, each)])
+        self._head()
+        self._tell()
+
+    def _head(self) -> None:
+        shown = self._list
+        if shown.across:
+            self.query_one("#topics-heading", Words).say(heading(shown.columns(shown.across), self._kind))
+
+    def tick(self) -> None:
+        """Measure what is in view and show it; nothing of that while the pane is hidden."""
+        if not self.display:
+            if self._measuring:
+                self._measure([])
+            if self._looked_at_message:
+                self._looked_at_message = 0.0
+                self.console.traffic.listen("")
+            return
+        now = self.clock()
+        if now - self._looked >= PERIOD:
+            self._look(now)
+        if self._topic and now - self._looked_at_message >= MESSAGE_PERIOD:
+            self._look_at_message(now)
+
+    def go_to(self, name: str) -> None:
+        """Put the cursor on a topic."""
+        if self._kind is not Kind.TOPICS:
+            self._kind, self.border_title = Kind.TOPICS, self.TITLE
+        self.set_filter("")
+        names = [each.name for each in self._list.rows]
+        if name in names:
+            self._list.cursor = names.index(name)
+
+    def let_go(self) -> None:
+        """Measure no more."""
+        self._measure([])
+        self.console.traffic.listen("")
+
+    def _measure(self, topics: list[str]) -> None:
+        if topics != self._measuring:
+            self._measuring = topics
+            self.console.traffic.measure(topics, "topics")
+
+    def _look(self, now: float) -> None:
+        """Show what was measured since the last look, and measure what is in view now."""
+        self._looked = now
+        shown, traffic = self._list, self.console.traffic
+        self._measure(shown.in_view if self._kind is Kind.TOPICS and shown.display else [])
+        if self._kind is Kind.TOPICS:
+            shown.show_measured(traffic.measured(), traffic.repeated())
+        elif self._kind is Kind.ACTIONS:
+            goals = traffic.goals()
+            if {n: g.active for n, g in goals.items()} != {n: g.active for n, g in shown.goals.items()}:
+                shown.refresh()
+            shown.goals = goals
+        self._tell()
+
+    def _look_at_message(self, now: float) -> None:
+        """Show the newest message, or, while frozen, how many have come since."""
+        if not self._looked_at_message:
+            self.console.traffic.listen(self._topic)
+        self._looked_at_message = now
+        heard = self.console.traffic.heard()
+        if heard.topic != self._topic:
+            heard = LiveMessage(self._topic)
+        if not self._frozen and heard is not self._shown:
+            self._shown = heard
+            self._message.show_message(heard)
+        self.query_one("#message-state", Words).say(self._message_state(heard))
+
+    def _message_state(self, heard: LiveMessage) -> str:
+        if heard.problem:
+            return f"{self._topic}  {heard.problem}"
+        if not heard.count:
+            return f"{self._topic}  no message yet"
+        if self._frozen:
+            return f"{self._topic}  frozen, +{heard.count - self._shown.count} new; space goes on"
+        rate = self._list.measure_of(self._topic).rate
+        parts = [counted(heard.count, "message"), age_text(heard.age)] + ([f"{rate_text(rate)} Hz"] if rate else [])
+        return f"{self._topic}  {', '.join(parts)}"
+
+    def _tell(self) -> None:
+        """What is listed, and all about the row at the cursor."""
+        shown, row = self._list, self._list.current
+        self.tell_filter(len(shown.rows), self._every, "hidden ones too" if self._hidden else "")
+        if row is not None:
+            text = self._about(row)
+        elif self._problem:
+            text = self._problem
+        elif self.words:
+            text = "Nothing matches the filter; escape takes it away."
+        else:
+            text = f"No {self._kind.value} yet; m lists {_next(self._kind).value}."
+        status = self.query_one("#topics-status", Words)
+        status.say(text)
+
+    def _about(self, row: Row) -> str:
+        traffic = self.console.traffic
+        repeated = traffic.repeated().get(row.name) if self._kind is Kind.TOPICS else None
+        if repeated:
+            return f"publishing here at {repeated.rate:g} Hz, {counted(repeated.count, 'message')}; x ends it"
+        goal = traffic.goals().get(row.name) if self._kind is Kind.ACTIONS else None
+        if goal is not None:
+            return f"{goal.status}, {goal.feedback_count} feedback, {goal.seconds:.1f} s  {goal.problem}"
+        if row.problem or self._list.measure_of(row.name).problem:
+            return row.problem or self._list.measure_of(row.name).problem
+        ends = f"{' '.join(row.gives) or 'nobody'} → {' '.join(row.takes) or 'nobody'}"
+        return f"{row.type}  {ends if self._kind is Kind.TOPICS else ' '.join(row.gives) or 'no server'}"
+
+    def on_row_list_moved(self, event: RowList.Moved) -> None:
+        """Tell of the row at the cursor."""
+        event.stop()
+        self._tell()
+
+    def on_resize(self) -> None:
+        """List and message side by side where there is room."""
+        self.set_class(self.size.width >= SIDE, "side")
+        self.call_after_refresh(self._laid_out)
+
+    def _laid_out(self) -> None:
+        """Other rows are in view now."""
+        self._head()
+        if self.display:
+            self._look(self.clock())
+
+    def action_open(self) -> None:
+        """Open the newest message of the topic, fold a line of it, or fill in a request or a goal."""
+        row = self._list.current
+        if self._in_message:
+            self._message.fold()
+        elif row is not None and self._kind is Kind.TOPICS:
+            self._open(row.name)
+        else:
+            self.action_fill()
+
+    def _open(self, topic: str) -> None:
+        self._topic, self._frozen, self._shown = topic, False, LiveMessage()
+        self._looked_at_message = 0.0
+        self._message.show_fields(())
+        self.add_class("opened")
+        self._look_at_message(self.clock())
+        self.focus_target()
+        self.call_after_refresh(self._laid_out)
+
+    def _close(self) -> None:
+        self._topic, self._looked_at_message = "", 0.0
+        self.console.traffic.listen("")
+        self.remove_class("opened")
+        self.focus_target()
+        self.call_after_refresh(self._laid_out)
+
+    def action_clear_filter(self) -> None:
+        """Close the message, or take the filter away."""
+        if self._topic:
+            self._close()
+        else:
+            self.set_filter("")
+
+    def action_fold(self, closed: bool) -> None:
+        """Close or open what a line of the message holds."""
+        if self._in_message:
+            self._message.fold(closed)
+
+    def action_freeze(self) -> None:
+        """Let the message stand still, or go on."""
+        if self._topic:
+            self._frozen = not self._frozen
+            self._look_at_message(self.clock())
+
+    def action_kind(self) -> None:
+        """Topics, services, actions."""
+        if self._topic:
+            self._close()
+        self._kind = _next(self._kind)
+        self.border_title = self._kind.value.capitalize()
+        self._list.set_reactive(RowList.cursor, 0)
+        self._arrange()
+        self._look(self.clock())
+
+    def action_hidden(self) -> None:
+        """Show hidden and built-in ones too, or no more."""
+        self._hidden = not self._hidden
+        self._arrange()
+
+    def filter_is(self, words: str) -> None:
+        """Show what passes."""
+        self._query = parse(words)
+        self._arrange()
+
+    def action_plot(self) -> None:
+        """Plot the field at the cursor; in the list, one of the topic's fields."""
+        row, field = self._list.current, self._message.current
+        if self._in_message:
+            if field is None or not field.number:
+                self.notify("Only a number can be plotted.", severity="warning")
+            else:
+                self.post_message(self.PlotWanted(f"{self._topic}/{field.path}"))
+        elif row is not None and self._kind is Kind.TOPICS:
+            paths = [each for each in self.console.plottable() if each.startswith(f"{row.name}/")]
+            if not paths:
+                self.notify(f"{row.name} has no number that could be plotted.", severity="warning")
+            else:
+                self.ask(Choice(f"Plot {row.name}", self._plot, find=partial(_paths, paths), hint="words of a field"))
+
+    def _plot(self, path: str) -> None:
+        self.post_message(self.PlotWanted(path))
+
+    def action_copy(self) -> None:
+        """Copy the `ros2` command that shows the same."""
+        row = self._list.current
+        if row is not None:
+            verb = {Kind.TOPICS: "topic echo", Kind.SERVICES: "service type", Kind.ACTIONS: "action info"}[self._kind]
+            text = f"ros2 {verb} {row.name}"
+            self.host.copy_to_clipboard(text)
+            self.notify(f"copied: {text}", markup=False)
+
+    def action_stop(self) -> None:
+        """Publish no more, or cancel the goal."""
+        row = self._list.current
+        if row is None:
+            return
+        if self._kind is Kind.ACTIONS:
+            answer = self.console.traffic.cancel(row.name)
+            self.tell(answer)
+        elif row.name in self.console.traffic.repeated():
+            self.console.traffic.stop(row.name)
+            self.notify(f"{row.name}: nothing is published from here any more")
+        else:
+            self.notify(f"Nothing is published to {row.name} from here at a rate.", severity="warning")
+
+    def action_fill(self) -> None:
+        """Fill in a message, a request or a goal, and send it."""
+        row = self._list.current
+        if row is None:
+            return
+        if not row.type:
+            self.notify(f"The type of {row.name} is not known.", severity="warning")
+            return
+        traffic = self.console.traffic
+        try:
+            traffic.slots(self._kind.payload, row.type, {})
+        except ValueError as error:
+            self.notify(str(error), severity="warning")
+            return
+        self.ask(
+            Fill(row.name, lambda _: None, payload=self._kind.payload, name=row.name, type=row.type, traffic=traffic)
+        )
+
+
+def _next(kind: Kind) -> Kind:
+    kinds = list(Kind)
+    return kinds[(kinds.index(kind) + 1) % len(kinds)]
+
+
+def _paths(paths: list[str], typed: str) -> list[Option]:
+    """The paths that have all the words typed."""
+    words = typed.lower().split()
+    return [Option(each) for each in paths if all(word in each.lower() for word in words)]

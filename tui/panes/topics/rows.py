@@ -1,0 +1,131 @@
+"""Topics, services and actions as rows. Pure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import Enum
+
+from bot_console.tui.console.graph.qos import mismatch
+from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.console.query import Query
+from bot_console.tui.console.traffic import Payload
+
+OWN = "/_bot_console"
+"""The console's node, which listens so that something can be shown, and is none of the system."""
+
+BUILT_IN = (
+    "/describe_parameters", "/get_parameter_types", "/get_parameters", "/list_parameters", "/set_parameters",
+    "/set_parameters_atomically", "/get_type_description", "/get_logger_levels", "/set_logger_levels",
+)  # fmt: skip
+"""How the names of the services end that every node has."""
+
+
+class Kind(Enum):
+    """What is listed."""
+
+    TOPICS = "topics"
+    SERVICES = "services"
+    ACTIONS = "actions"
+
+    @property
+    def payload(self) -> Payload:
+        """What is filled in for one of them."""
+        return {Kind.TOPICS: Payload.MESSAGE, Kind.SERVICES: Payload.REQUEST, Kind.ACTIONS: Payload.GOAL}[self]
+
+
+@dataclass(frozen=True)
+class Row:
+    """A topic, service or action: its types, and who gives and takes (publishers and subscribers, or servers and
+    clients).
+    """
+
+    name: str
+    types: tuple[str, ...] = ()
+    gives: tuple[str, ...] = ()
+    takes: tuple[str, ...] = ()
+    qos: str = ""
+    """What is offered; of several different ones the first, and a plus."""
+    problem: str = ""
+    """What is wrong with it, in words."""
+
+    @property
+    def type(self) -> str:
+        """The type that counts."""
+        return self.types[0] if self.types else ""
+
+
+class _Found:
+    """What was found of one name."""
+
+    def __init__(self) -> None:
+        self.types: dict[str, None] = {}
+        self.gives: list[tuple[str, str]] = []
+        self.takes: list[tuple[str, str]] = []
+        self.own = False
+
+
+def rows(info: GraphInfo, kind: Kind, *, hidden: bool) -> list[Row]:
+    """The rows of a kind, by name; hidden and built-in ones only where asked for."""
+    found: dict[str, _Found] = {}
+    for node in info.nodes:
+        gives, takes = _ends(node, kind)
+        for ends, giving in ((gives, True), (takes, False)):
+            for each in ends:
+                _take(found.setdefault(each.name, _Found()), node.name, each, giving)
+    for each in {Kind.TOPICS: info.topics, Kind.SERVICES: info.services, Kind.ACTIONS: ()}[kind]:
+        one = found.setdefault(each.name, _Found())
+        one.types.update(dict.fromkeys(each.types))
+    made = (_row(name, each, kind) for name, each in sorted(found.items()) if each.gives or each.takes or not each.own)
+    return [row for row in made if hidden or not is_built_in(row.name, kind)]
+
+
+def _take(found: _Found, node: str, end: Endpoint, giving: bool) -> None:
+    if node == OWN:
+        found.own = True
+        return
+    found.types.update(dict.fromkeys(end.types))
+    (found.gives if giving else found.takes).append((node, end.qos))
+
+
+def _ends(node: NodeInfo, kind: Kind) -> tuple[Iterable[Endpoint], Iterable[Endpoint]]:
+    if kind is Kind.TOPICS:
+        return node.publishers, node.subscriptions
+    if kind is Kind.SERVICES:
+        return node.services, node.clients
+    return node.action_servers, node.action_clients
+
+
+def is_built_in(name: str, kind: Kind) -> bool:
+    """Whether it is one of those that every node has, or hidden."""
+    return "/_" in name or (kind is Kind.SERVICES and name.endswith(BUILT_IN))
+
+
+def _row(name: str, found: _Found, kind: Kind) -> Row:
+    offers = list(dict.fromkeys(qos for _, qos in found.gives if qos))
+    qos = offers[0] + ("  +" if len(offers) > 1 else "") if offers else ""
+    gives, takes = (tuple(node for node, _ in ends) for ends in (found.gives, found.takes))
+    return Row(name, tuple(found.types), gives, takes, qos, _problem(found, kind))
+
+
+def _problem(found: _Found, kind: Kind) -> str:
+    if len(found.types) > 1:
+        return f"different types, which do not hear each other: {', '.join(found.types)}"
+    if kind is Kind.TOPICS:
+        for publisher, offered in found.gives:
+            for subscriber, wanted in found.takes:
+                why = mismatch(offered, wanted)
+                if why:
+                    return f"{publisher} to {subscriber}: {why}, so nothing arrives"
+    if found.takes and not found.gives:
+        return "nobody publishes it: is the name right?" if kind is Kind.TOPICS else "no server: calls wait in vain"
+    return ""
+
+
+def matches(query: Query, row: Row) -> bool:
+    """Whether a filter lets a row through, by its name, its types or one of its nodes."""
+    if not query.terms:
+        return True
+    nodes = row.gives + row.takes
+    text = f"{row.name} {' '.join(row.types)}"
+    return any(query.matches(text, node) for node in nodes) if nodes else query.matches(text)

@@ -1,0 +1,162 @@
+"""The list of topics, services or actions, with what was measured of those in view."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from bot_console.tui.console.traffic import Goal, Measure, Repeated
+from bot_console.tui.format import cut, harmless
+from bot_console.tui.panes.topics.figures import age_text, amount_text, rate_text, span_text, steady
+from bot_console.tui.panes.topics.rows import Kind, Row
+from bot_console.tui.widgets.item_list import ItemList
+from rich.cells import cell_len
+from rich.segment import Segment
+from rich.style import Style
+
+ENDS, RATE, AMOUNT, AGE, LATENCY = 6, 6, 8, 7, 8
+"""Cells of the columns of figures, their gaps included."""
+NAME = 14
+"""Cells that a name has at least."""
+QOS = 32
+
+
+@dataclass(frozen=True)
+class Columns:
+    """Cells of each column; 0: the column is left out."""
+
+    name: int
+    type: int
+    figures: bool
+    latency: bool
+    qos: int
+
+
+def columns(rows: Sequence[Row], kind: Kind, width: int) -> Columns:
+    """Share a width: names first, then figures, types, and what else has room."""
+    longest = max((cell_len(harmless(each.name)) + 3 for each in rows), default=NAME)
+    figures = kind is Kind.TOPICS
+    latency = figures and width >= 90
+    room = width - ENDS - (RATE + AMOUNT + AGE if figures else 0) - (LATENCY if latency else 0)
+    name = max(NAME, min(longest, room))
+    left = room - name
+    types = min(max((cell_len(_short(each.type)) + 2 for each in rows), default=0), left) if left >= 12 else 0
+    qos = QOS if figures and left - types >= QOS else 0
+    rest = left - types - qos
+    return Columns(name + (0 if types else rest), types + (rest if types else 0), figures, latency, qos)
+
+
+def heading(shown: Columns, kind: Kind) -> str:
+    """The titles of the columns."""
+    ends = "pub/sub" if kind is Kind.TOPICS else "srv/cli"
+    text = cut("  " + kind.value[:-1], shown.name - 2, pad=True) + f"{ends:>{ENDS + 2}}"
+    if shown.figures:
+        text += f"{'Hz':>{RATE}}{'per s':>{AMOUNT}}{'age':>{AGE}}"
+    if shown.latency:
+        text += f"{'latency':>{LATENCY}}"
+    if shown.type:
+        text += cut("  type", shown.type, pad=True)
+    return text + ("  qos offered" if shown.qos else "")
+
+
+def _short(type_name: str) -> str:
+    """A type without its middle: `sensor_msgs/LaserScan`."""
+    return harmless(type_name.replace("/msg/", "/").replace("/srv/", "/").replace("/action/", "/"))
+
+
+class TopicRows(ItemList[Row]):
+    """One row for each; figures only where they are known."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.kind = Kind.TOPICS
+        self.repeated: Mapping[str, Repeated] = {}
+        self.goals: Mapping[str, Goal] = {}
+        self._measured: dict[str, Measure] = {}
+        self._texts: dict[str, str] = {}
+        self._columns: tuple[object, Columns] | None = None
+
+    def key(self, item: Row) -> object:
+        """Its name."""
+        return item.name
+
+    @property
+    def in_view(self) -> list[str]:
+        """The names in view."""
+        top = self.scroll_offset.y
+        return [each.name for each in self.rows[top : top + self.size.height]]
+
+    def columns(self, width: int) -> Columns:
+        """The columns for a width, worked out once for the same rows."""
+        key = (self.rows, self.kind, width)
+        known = self._columns
+        if known is None or known[0] != key:
+            known = self._columns = (key, columns(self.rows, self.kind, width))
+        return known[1]
+
+    def show_measured(self, measured: Mapping[str, Measure], repeated: Mapping[str, Repeated]) -> None:
+        """Take new figures, and draw the rows that say something else now."""
+        before = self._measured
+        self._measured = {topic: _steady(before.get(topic), each) for topic, each in measured.items()}
+        self.repeated = repeated
+        top = self.scroll_offset.y
+        for index in range(top, min(len(self.rows), top + self.size.height)):
+            name = self.rows[index].name
+            text = self._figures(name, latency=True) + self._mark(name)
+            if self._texts.get(name) != text:
+                self._texts[name] = text
+                self.row_changed(index)
+
+    def measure_of(self, name: str) -> Measure:
+        """What is known of a topic."""
+        return self._measured.get(name, Measure())
+
+    def _mark(self, name: str) -> str:
+        goal = self.goals.get(name)
+        return "▶" if name in self.repeated or (goal is not None and goal.active) else " "
+
+    def _figures(self, name: str, *, latency: bool) -> str:
+        known = self._measured.get(name, Measure())
+        text = f"{rate_text(known.rate):>{RATE}}{amount_text(known.bandwidth):>{AMOUNT}}{age_text(known.age):>{AGE}}"
+        return text + (f"{span_text(known.latency):>{LATENCY}}" if latency else "")
+
+    def row(self, index: int, width: int) -> list[Segment]:
+        """Mark, name, publishers and subscribers, figures, type, QoS."""
+        row, shown = self.rows[index], self.columns(width)
+        style = self._style("warn") if row.problem else None
+        mark = self._mark(row.name)
+        ends = f"{len(row.gives)}/{len(row.takes)}"
+        segments = [
+            Segment(mark, self._style("good")),
+            Segment("!" if row.problem else " ", style),
+            Segment(cut(harmless(row.name), shown.name - 2, pad=True), style),
+            Segment(f"{ends:>{ENDS}}", style or (self._style("dim") if not row.takes else None)),
+        ]
+        if shown.figures:
+            segments.append(Segment(self._figures(row.name, latency=shown.latency)))
+        if shown.type:
+            segments.append(Segment(cut("  " + _short(row.type), shown.type, pad=True), self._style("dim")))
+        if shown.qos:
+            segments.append(Segment(cut("  " + harmless(row.qos), shown.qos), self._style("dim")))
+        return segments
+
+    def _style(self, name: str) -> Style:
+        return self.get_component_rich_style(f"row-list--{name}", partial=True)
+
+
+def _steady(before: Measure | None, now: Measure) -> Measure:
+    if before is None:
+        return now
+    return replace(
+        now,
+        rate=steady(before.rate, now.rate),
+        bandwidth=steady(before.bandwidth, now.bandwidth),
+        latency=_steady_span(before.latency, now.latency),
+    )
+
+
+def _steady_span(before: float | None, now: float | None) -> float | None:
+    """Latencies tremble more than rates: only a change by a fifth, or by a millisecond, counts."""
+    if before is None or now is None:
+        return now
+    return before if abs(now - before) <= max(1e-3, abs(before) / 5) else now

@@ -1,0 +1,61 @@
+"""Other keys for actions, as a person wants them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+
+from bot_console.tui.keymap import TABLE, Key
+
+NEVER_WITHOUT = ("app.stop", "app.quit_now")
+"""Actions that a person must always reach: they may have more keys, but keep their own."""
+
+SHARED = ("app", "find", "narrowed", "list", "diagram")
+"""Scopes whose keys act in the panes, beside their own."""
+
+
+def remap(keys: Mapping[str, str]) -> Mapping[str, str]:
+    """Give actions other keys, by their ids, and return the keys that they have then; help, footer and palette follow.
+
+    Raises `ValueError` with what `wrong_keys` says.
+    """
+    why = wrong_keys(keys)
+    if why:
+        raise ValueError(why)
+    for scope, table in TABLE.items():
+        TABLE[scope] = tuple(
+            replace(key, keys=_with_own(key, keys[key.id]), shown="") if key.id in keys else key for key in table
+        )
+    return {key.id: key.keys for table in TABLE.values() for key in table if key.id in keys}
+
+
+def wrong_keys(keys: Mapping[str, str]) -> str:
+    """Why actions cannot have other keys: an unknown id, no key, one key for two actions; empty when they can."""
+    known = {key.id: key for table in TABLE.values() for key in table}
+    for id, given in keys.items():
+        if id not in known:
+            return f"there is no action '{id[:40]}'; `bot-console config --keys` lists them"
+        if not all(re.fullmatch(r"(?:(?:ctrl|shift|alt)\+)*[a-zA-Z0-9_]+", each) for each in given.split(",")):
+            return f"{id}: '{given[:40]}' is no list of keys such as u,ctrl+u,f2,question_mark"
+    together = [(TABLE[each], each) for each in SHARED]
+    for scope, table in TABLE.items():
+        taken: dict[str, str] = {}
+        for keys_of_scope, _ in [(table, scope), *(each for each in together if each[1] != scope)]:
+            for key in keys_of_scope:
+                for each in _with_own(key, keys.get(key.id, key.keys)).split(","):
+                    other = taken.setdefault(each, key.id)
+                    if other != key.id and (_new(known[other], keys, each) or _new(key, keys, each)):
+                        return f"{each} is taken by {other} and {key.id}"
+    return ""
+
+
+def _new(key: Key, keys: Mapping[str, str], pressed: str) -> bool:
+    """Whether an action has a key only because a person wants it."""
+    return key.id in keys and pressed not in key.keys.split(",")
+
+
+def _with_own(key: Key, given: str) -> str:
+    if key.id not in NEVER_WITHOUT:
+        return given
+    return ",".join(dict.fromkeys((*key.keys.split(","), *given.split(","))))

@@ -1,0 +1,67 @@
+"""The way out of the app: a question first where values would be lost, and the robot stands meanwhile."""
+
+from __future__ import annotations
+
+from bot_console.tui.console.model import ConsoleSnapshot
+from bot_console.tui.console.protocol import Console
+from bot_console.tui.format import counted, value_text
+from bot_console.tui.screens.door import screen_for
+from bot_console.tui.widgets.prompt.question import Confirmation
+from textual.app import App
+
+REASON = "bot-console is asked to quit"
+MOST = 8
+"""Values that are named one by one."""
+
+
+class Quitting:
+    """Ends the app. Whoever asks twice is not asked again; signals end it without coming here."""
+
+    def __init__(self, app: App[None], console: Console) -> None:
+        self._app = app
+        self._console = console
+        self._asking = False
+        self._holding = False
+        """Whether the robot is held for the question alone, and may move again when the answer is no."""
+
+    def wanted(self) -> None:
+        """End, or ask first; asked for once more while the question is open: end."""
+        snapshot = self._console.snapshot()
+        if self._asking or not snapshot.journal.unsaved:
+            self._app.exit()
+            return
+        self._asking = True
+        if not snapshot.drive.stopped_here:
+            self._holding = True
+            self._console.all_stop(True, REASON)
+        self._app.push_screen(
+            screen_for(
+                Confirmation(
+                    "Quit without saving?",
+                    lambda _: self._app.exit(),
+                    given_up=self._go_on,
+                    reasons=f"{lost(snapshot)}\n\nThe robot is held meanwhile. s in the Parameters pane saves them.",
+                )
+            )
+        )
+
+    def keep_held(self) -> bool:
+        """Turn a stop for the question into one that only a person releases; whether there was one."""
+        held, self._holding = self._holding, False
+        return held
+
+    def _go_on(self) -> None:
+        self._asking = False
+        if self.keep_held():
+            self._console.all_stop(False)  # which takes back no stop but this console's
+
+
+def lost(snapshot: ConsoleSnapshot) -> str:
+    """The values that are in no file, line by line."""
+    names = snapshot.journal.unsaved
+    lines = [f"{counted(len(names), 'value')} set here and saved nowhere:"]
+    for node, name in names[:MOST]:
+        tree = snapshot.parameters.get(node)
+        known = tree.get(name) if tree else None
+        lines.append(f"  {node} {name}" + (f" = {value_text(known.value)}" if known else ""))
+    return "\n".join(lines + (["  ..."] if len(names) > MOST else []))

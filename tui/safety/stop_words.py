@@ -1,0 +1,39 @@
+"""What is said of the robot's emergency stop and of those who hold it, and what is asked before theirs is released."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from bot_console.tui.console.robot.robot_model import DriveInfo, RobotStop
+from bot_console.tui.format import counted, harmless
+from bot_console.tui.widgets.prompt.question import Confirmation
+
+MOST = 5
+"""Stops that are named one by one."""
+
+
+def stop_text(drive: DriveInfo) -> str:
+    """What is known of a stop: held is said only when the robot has acknowledged it."""
+    if not drive.lockable:
+        return "STOP SENT, NOT CONFIRMED: zeros only, this robot has no emergency stop (! ends them)"
+    if not drive.stop_confirmed:
+        return "STOP SENT, NOT CONFIRMED (! sends it again)"
+    key = "! releases" if drive.stopped_here else "! holds it too, once more releases"
+    return f"ALL STOP held{held_by(drive)} ({key})"
+
+
+def held_by(drive: DriveInfo) -> str:
+    """By whom and why the robot is held, as the end of a sentence."""
+    who = "" if drive.stop_holder in ("", "this console") else f" by {harmless(drive.stop_holder)}"
+    why = f": {harmless(drive.stop_reason)}" if drive.stop_reason not in ("", "ALL STOP") else ""
+    more = f", and {counted(len(drive.stops) - 1, 'other stop')}" if len(drive.stops) > 1 else ""
+    return f"{who}{why}{more}"
+
+
+def release_question(others: Sequence[RobotStop], then: Callable[[None], object]) -> Confirmation:
+    """Whether stops that others have made are to be released too."""
+    lines = [f"  {harmless(each.holder)}: {harmless(each.reason)}" for each in others[:MOST]]
+    if len(others) > MOST:
+        lines.append(f"  and {len(others) - MOST} more")
+    reasons = ["These stops are not this console's:", *lines, "", "With no the robot stays held, by you too."]
+    return Confirmation("Release the robot all the same?", then, reasons="\n".join(reasons))

@@ -1,0 +1,37 @@
+"""The one key that holds the robot and lets it go."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from bot_console.tui.console.protocol import Console
+from bot_console.tui.console.robot.robot_model import RobotStop
+from bot_console.tui.safety.stop_words import release_question
+from bot_console.tui.screens.door import screen_for
+from textual.app import App
+
+
+class Stopping:
+    """Holds the robot for this console, and takes that back; what others hold is released only after a question."""
+
+    def __init__(self, app: App[None], console: Console) -> None:
+        self._app = app
+        self._console = console
+
+    def wanted(self) -> None:
+        """Hold the robot still, or let it go; a stop that nobody has acknowledged is sent again."""
+        drive = self._console.snapshot().drive
+        others = [each for each in drive.stops if not each.here]
+        if not drive.stopped_here or (drive.lockable and not drive.stop_confirmed):
+            self._console.all_stop(True)
+        elif all(each.by_node for each in others):
+            self._release(others)
+        else:
+            self._app.push_screen(screen_for(release_question(others, lambda _: self._release(others))))
+
+    def _release(self, others: Sequence[RobotStop]) -> None:
+        if others:
+            self._console.release([each.key for each in others])
+        else:
+            self._console.all_stop(False)
+        self._app.notify("The robot may move again.")

@@ -1,0 +1,149 @@
+"""Arranging the panes by key: they stay on the screen and alive, and the keys mean splits until Escape."""
+
+from __future__ import annotations
+
+from typing import ClassVar, Protocol
+
+from bot_console.tui import keymap
+from bot_console.tui.keymap import TABLE
+from bot_console.tui.keys import key_text
+from bot_console.tui.layout.tree import Way
+from bot_console.tui.widgets.prompt.line import Prompt, asks
+from bot_console.tui.widgets.prompt.question import Line
+from rich.style import Style
+from rich.text import Text
+from textual.app import ComposeResult
+from textual.binding import BindingType
+from textual.screen import ModalScreen
+from textual.widgets import Static
+
+
+class Arranger(Protocol):
+    """What can be done with the panes; each method acts on the selected one."""
+
+    def select(self, dx: int, dy: int) -> None:
+        """Select the pane in a direction."""
+        ...
+
+    def exchange(self, dx: int, dy: int) -> None:
+        """Change places with the pane in a direction."""
+        ...
+
+    def split(self, way: Way) -> None:
+        """Ask for a pane and put it `beside` or `below`."""
+        ...
+
+    def put_another(self) -> None:
+        """Ask for a pane and put it here instead."""
+        ...
+
+    def close(self) -> None:
+        """Take the pane away."""
+        ...
+
+    def grow(self, columns: int, lines: int) -> None:
+        """Make it wider or higher by steps; negative ones make it smaller."""
+        ...
+
+    def even(self) -> None:
+        """Share the room equally."""
+        ...
+
+    def turn(self) -> None:
+        """Let what stands beside it stand below, and the other way round."""
+        ...
+
+    def undo(self) -> None:
+        """Take the last change back."""
+        ...
+
+    def open_layout(self) -> None:
+        """Ask for a layout and show it."""
+        ...
+
+    def name_question(self) -> Line:
+        """Under which name to keep what is shown."""
+        ...
+
+
+class ArrangeScreen(ModalScreen[None]):
+    """A line of keys over the last line of the screen; everything above it stays to be seen."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("arrange")]
+    AUTO_FOCUS = ""
+    DEFAULT_CSS = """
+    ArrangeScreen Prompt { dock: bottom; }
+    ArrangeScreen Static { dock: bottom; height: 1; padding: 0 1; background: $accent; color: $background;
+                           text-wrap: nowrap; text-overflow: ellipsis; }
+    """
+
+    def __init__(self, arranger: Arranger) -> None:
+        super().__init__()
+        self._arranger = arranger
+
+    def compose(self) -> ComposeResult:
+        """The line of keys."""
+        line = Text("Arrange  ", Style(bold=True), no_wrap=True)
+        for key in TABLE["arrange"]:
+            if key.footer:
+                line.append(key.shown or key_text(key, 1), Style(bold=True))
+                line.append(f" {key.short or key.text}  ")
+        yield Static(line)
+        yield Prompt()
+
+    def on_mount(self) -> None:
+        """Let the selected pane be seen as such."""
+        self.app.screen_stack[0].add_class("arranging")  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic, and its type is not told
+
+    def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
+        """No key moves panes while a name is typed."""
+        return not asks(self) and super().check_action(action, parameters)
+
+    def action_select(self, dx: int, dy: int) -> None:
+        """Select the pane in a direction."""
+        self._arranger.select(dx, dy)
+
+    def action_exchange(self, dx: int, dy: int) -> None:
+        """Change places with the pane in a direction."""
+        self._arranger.exchange(dx, dy)
+
+    def action_split(self, way: Way) -> None:
+        """Put another pane beside or below."""
+        self._arranger.split(way)
+
+    def action_put_another(self) -> None:
+        """Put another pane here."""
+        self._arranger.put_another()
+
+    def action_close_pane(self) -> None:
+        """Take the pane away."""
+        self._arranger.close()
+
+    def action_grow(self, columns: int, lines: int) -> None:
+        """Make the pane larger or smaller."""
+        self._arranger.grow(columns, lines)
+
+    def action_even(self) -> None:
+        """Share the room equally."""
+        self._arranger.even()
+
+    def action_turn(self) -> None:
+        """Let the split run the other way."""
+        self._arranger.turn()
+
+    def action_undo(self) -> None:
+        """Take the last change back."""
+        self._arranger.undo()
+
+    def action_open_layout(self) -> None:
+        """Show a layout that has a name."""
+        self._arranger.open_layout()
+
+    def action_save_layout(self) -> None:
+        """Give what is shown a name."""
+        self.query_one(Prompt).ask(self._arranger.name_question())
+
+    def action_done(self) -> None:
+        """Back to the panes."""
+        self.app.screen_stack[0].remove_class("arranging")  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic, and its type is not told
+        self.dismiss()

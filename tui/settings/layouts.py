@@ -1,0 +1,106 @@
+"""Layouts as files, one each, and what was on the screen last."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Collection, Mapping
+from pathlib import Path
+from typing import Any, cast
+
+import yaml
+from bot_console.tui.files.folders import config_folder, state_folder
+from bot_console.tui.files.save_file import NotSaved, save_file
+from bot_console.tui.layout.form import NoLayout, data_of, tree_of
+from bot_console.tui.layout.named import OVERVIEW, Layout
+from bot_console.tui.layout.perspective import perspective_tree
+from bot_console.tui.layout.tree import Tree
+from bot_console.tui.opening import RQT_PANES
+from bot_console.tui.yaml_faults import UNREADABLE, fault_of
+
+HEAD = """\
+# A layout of bot-console. `beside` and `below` hold panes or further splits; `share` says how they share the room.
+# Panes: {panes}.
+"""
+LARGEST = 1_000_000
+"""Bytes of a layout file, or of a perspective of rqt."""
+
+
+class FileLayouts:
+    """Layouts in the user's folder, `<name>.yaml` each; the last screen in the state folder."""
+
+    def __init__(self, panes: Collection[str]) -> None:
+        self._panes = panes
+        self.problems: list[str] = []
+        """Files that could not be read, and why."""
+
+    def layouts(self) -> Mapping[str, Layout]:
+        """The layouts of the user, by name; those that cannot be read are left out and noted in `problems`."""
+        found: dict[str, Layout] = {}
+        self.problems = []
+        for path in sorted(_folder().glob("*.yaml")):
+            try:
+                found[path.stem] = Layout(self._read(path), about=str(path))
+            except (NoLayout, OSError) as error:
+                self.problems.append(f"{path}: {error}")
+        return found
+
+    def save(self, name: str, tree: Tree) -> str:
+        """Keep a tree under a name and give the file; raises `NotSaved`."""
+        path = _folder() / f"{name}.yaml"
+        text = yaml.safe_dump({"layout": data_of(tree)}, sort_keys=False, default_flow_style=None)
+        save_file(path, HEAD.format(panes=", ".join(sorted(self._panes))) + text)
+        return str(path)
+
+    def remember(self, name: str, tree: Tree | None) -> None:
+        """Note what is on the screen; what cannot be written is not worth a word at the end of a program."""
+        data: dict[str, object] = {"name": name}
+        if tree is not None:
+            data["layout"] = data_of(tree)
+        with contextlib.suppress(NotSaved):
+            save_file(_last(), yaml.safe_dump(data, sort_keys=False, default_flow_style=None))
+
+    def last(self) -> tuple[str, Tree | None]:
+        """The layout that was on the screen at the end of the last run, and its tree where it was changed."""
+        with contextlib.suppress(NoLayout, OSError):
+            data = _data(_last())
+            name = data.get("name")
+            tree = tree_of(data["layout"], self._panes) if "layout" in data else None
+            if isinstance(name, str):
+                return name, tree
+        return OVERVIEW, None
+
+    def from_file(self, path: Path) -> tuple[Tree, list[str]]:
+        """The tree of a layout file or of a perspective of rqt, and what of it has no counterpart here.
+
+        Raises `NoLayout` and `OSError`.
+        """
+        with path.open("rb") as file:
+            text = file.read(LARGEST + 1)[:LARGEST].decode("utf-8", "replace")
+        if path.suffix in (".yaml", ".yml"):
+            return self._read(path), []
+        return perspective_tree(text, RQT_PANES)
+
+    def _read(self, path: Path) -> Tree:
+        return tree_of(_data(path).get("layout"), self._panes)
+
+
+def _folder() -> Path:
+    return config_folder() / "layouts"
+
+
+def _last() -> Path:
+    return state_folder() / "screen.yaml"
+
+
+def _data(path: Path) -> Mapping[str, Any]:
+    with path.open("rb") as file:
+        content = file.read(LARGEST + 1)
+    if len(content) > LARGEST:
+        raise NoLayout("is too large for a layout")
+    try:
+        data = yaml.load(content, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    except UNREADABLE as error:
+        raise NoLayout(fault_of(error)) from None
+    if not isinstance(data, Mapping):
+        raise NoLayout("a layout file has a line `layout:` with panes below it")
+    return cast("Mapping[str, Any]", data)

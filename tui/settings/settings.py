@@ -1,0 +1,115 @@
+"""The settings file: what it holds, how it is read, and how it looks when it is new."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, cast
+
+import yaml
+from bot_console.tui.files.folders import config_folder
+from bot_console.tui.remapping import wrong_keys
+from bot_console.tui.settings.names import GLYPHS, THEME_NAMES
+from bot_console.tui.yaml_faults import UNREADABLE, fault_of
+
+LARGEST = 100_000
+"""Bytes of a settings file; what is larger is none."""
+
+TEMPLATE = f"""\
+# Settings of bot-console. Every line may be left out; `bot-console config` shows this file, `bot-console config --edit`
+# opens it in $EDITOR, and `bot-console config --check` says what is wrong with it.
+
+# Colours: {", ".join(THEME_NAMES)}. Without colours at all: set NO_COLOR in the environment.
+theme: dark
+
+# Lines, braille and arrows, or ASCII letters in their place: auto (as the locale can), full, plain.
+glyphs: auto
+
+# What the first screen shows: last (as it was left), or the name of a layout.
+layout: last
+
+# Keys: the id of an action, as `bot-console config --keys` lists them, and the keys that do it from now on.
+keys: {{}}
+#  app.quit: ctrl+d
+#  parameters.undo: u,ctrl+u
+"""
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What the settings file says; `problems` is what of it cannot be used, line by line."""
+
+    theme: str = "dark"
+    glyphs: str = "auto"
+    layout: str = "last"
+    keys: Mapping[str, str] = field(default_factory=dict[str, str])
+    problems: tuple[str, ...] = ()
+
+
+def settings_file() -> Path:
+    """The file; it need not be there."""
+    return config_folder() / "settings.yaml"
+
+
+def read_settings(path: Path | None = None) -> Settings:
+    """Read the settings file. What cannot be used is left at its default and named in `problems`; never raises."""
+    path = path or settings_file()
+    try:
+        with path.open("rb") as file:
+            content = file.read(LARGEST + 1)
+    except FileNotFoundError:
+        return Settings()
+    except OSError as error:
+        return Settings(problems=(f"{path}: {error.strerror or error}",))
+    if len(content) > LARGEST:
+        return Settings(problems=(f"{path}: larger than {LARGEST} bytes; no settings file is",))
+    try:
+        data = yaml.load(content, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    except UNREADABLE as error:
+        return Settings(problems=(f"{path}: {fault_of(error)}",))
+    return _settings(data, str(path))
+
+
+def _settings(data: object, path: str) -> Settings:
+    if data is None:
+        return Settings()
+    if not isinstance(data, Mapping):
+        return Settings(problems=(f"{path}: settings are lines such as `theme: dark`",))
+    given = dict(cast("Mapping[Any, Any]", data))
+    wrong: list[str] = []
+
+    def one(name: str, default: str, check: Callable[[str], str]) -> str:
+        value = given.pop(name, default)
+        why = check(value) if isinstance(value, str) else "is a word"
+        if why:
+            wrong.append(f"{path}: {name}: {why}")
+        return default if why else value
+
+    theme = one("theme", "dark", lambda name: _one_of(name, THEME_NAMES))
+    glyphs = one("glyphs", "auto", lambda name: _one_of(name, GLYPHS))
+    layout = one("layout", "last", lambda _: "")
+    keys = _keys(given.pop("keys", None), path, wrong)
+    wrong += [f"{path}: '{str(name)[:40]}' is no setting" for name in given]
+    return Settings(theme, glyphs, layout, keys, tuple(wrong))
+
+
+def _one_of(name: str, known: Sequence[str]) -> str:
+    return "" if name in known else f"'{name[:40]}' is none of {', '.join(known)}"
+
+
+def _keys(data: object, path: str, wrong: list[str]) -> Mapping[str, str]:
+    if data is None:
+        return {}
+    if not isinstance(data, Mapping):
+        wrong.append(f"{path}: keys: lines such as `app.quit: ctrl+d`")
+        return {}
+    found: dict[str, str] = {}
+    for id, keys in cast("Mapping[Any, Any]", data).items():
+        given = {**found, str(id): str(keys)}
+        why = wrong_keys(given)
+        if why:
+            wrong.append(f"{path}: keys: {why}")
+        else:
+            found = given
+    return found

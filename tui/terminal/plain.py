@@ -1,0 +1,73 @@
+"""ASCII letters in the place of what the console draws with, for terminals and locales that have no others. Pure."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from rich.cells import cell_len
+
+LOOK_ALIKE = {
+    **dict.fromkeys("─━═╌╍┄┅┈┉╴╶╸╺", "-"),
+    **dict.fromkeys("│┃║╎╏┆┇┊┋╵╷╹╻▏▕▌▐", "|"),
+    **dict.fromkeys("→⇒▸▶▷►", ">"),
+    **dict.fromkeys("←⇐◂◀◁◄", "<"),
+    **dict.fromkeys("↑⇑▴▲△⇧", "^"),
+    **dict.fromkeys("↓⇓▾▼▽", "v"),
+    **dict.fromkeys("█▓▉▊▋■◼▪", "#"),
+    **dict.fromkeys("▒░▂▃▄▅▆▇▀", "="),
+    **dict.fromkeys("•·∙⋅", "."),
+    **dict.fromkeys("●◉◆★✔✓", "*"),
+    **dict.fromkeys("○◦◌◇☆□◻", "o"),
+    **dict.fromkeys("✗✘✖×", "x"),
+    **dict.fromkeys("“”„", '"'),
+    **dict.fromkeys("‘’‚", "'"),
+    **dict.fromkeys("–—−", "-"),
+    "✚": "+",
+    "▰": "#",
+    "▱": "-",
+    "◐": "o",
+    "↻": "@",
+    "⏎": ";",
+    "▁": "_",
+    "…": "~",
+    "°": "o",
+    "±": "~",
+    "²": "2",
+    "³": "3",
+    "⚠": "!",
+    "≤": "<",
+    "≥": ">",
+    "≠": "!",
+    "≈": "~",
+    "µ": "u",
+    "μ": "u",
+    "↔": "-",
+    "↕": "|",
+    "↗": "/",
+    "↙": "/",
+    "↖": "\\",
+    "↘": "\\",
+    "\xa0": " ",
+}
+DOTS = " .::::*###"
+"""For a braille letter with so many dots."""
+
+
+@lru_cache(maxsize=65536)
+def plain_letter(letter: str) -> str:
+    """One letter of ASCII, or several where it takes several cells; `?` for what nothing looks like."""
+    if letter.isascii():
+        return letter
+    code = ord(letter)
+    if 0x2800 <= code <= 0x28FF:
+        return DOTS[(code - 0x2800).bit_count()]
+    if letter in LOOK_ALIKE:
+        return LOOK_ALIKE[letter]
+    if 0x2500 <= code <= 0x257F:
+        return "+"
+    return "?" * cell_len(letter)
+
+
+def plain_text(text: str) -> str:
+    """A text in ASCII that takes as many cells."""
+    return text if text.isascii() else "".join(map(plain_letter, text))

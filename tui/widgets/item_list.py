@@ -1,0 +1,54 @@
+"""A list of things that come, go and change: the cursor stays with its thing, and only rows that differ are drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Generic, TypeVar
+
+from bot_console.tui.widgets.row_list import RowList
+
+T = TypeVar("T")
+
+
+class ItemList(RowList, Generic[T]):
+    """One item a row. A subclass gives `row`, and `key` where an item can change and still be the same."""
+
+    def __init__(self, rows: Sequence[T] = ()) -> None:
+        super().__init__()
+        self.rows: Sequence[T] = rows
+
+    def key(self, item: T) -> object:
+        """What makes an item the same as one before."""
+        return item
+
+    def row_count(self) -> int:
+        """How many items there are."""
+        return len(self.rows)
+
+    @property
+    def current(self) -> T | None:
+        """The item at the cursor."""
+        return self.rows[self.cursor] if self.cursor < len(self.rows) else None
+
+    def exchange(self, rows: Sequence[T], *, stay: bool = True) -> None:
+        """Show other items. With `stay` the cursor goes along with its item, silently, or stays near where it was."""
+        before, at, place = self.rows, self.current, self.cursor
+        self.rows = rows
+        if at is not None and stay:
+            self.set_reactive(RowList.cursor, self._place(at))
+        if len(before) != len(rows):
+            self.rows_changed()
+            self.show_cursor()
+            return
+        for index, (old, new) in enumerate(zip(before, rows, strict=True)):
+            if old is not new and old != new:
+                self.row_changed(index)
+        if self.cursor != place:
+            self.row_changed(place)
+            self.row_changed(self.cursor)
+            self.show_cursor()
+
+    def _place(self, item: T) -> int:
+        wanted, last = self.key(item), max(0, len(self.rows) - 1)
+        places = (index for index, each in enumerate(self.rows) if self.key(each) == wanted)
+        return next(places, min(self.cursor, last))
