@@ -4,6 +4,7 @@ import atexit
 import itertools
 import os
 import shutil
+import sys
 import tempfile
 from collections.abc import Iterator
 
@@ -40,6 +41,25 @@ def socket_folder(monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
     yield name
     shutil.rmtree(name, ignore_errors=True)
     shutil.rmtree(f"{name}-user", ignore_errors=True)
+
+
+@pytest.fixture(autouse=True)
+def apart(socket_folder: str) -> Iterator[None]:
+    """A test that lets this process take part in a domain does it for itself alone."""
+    before = _takes_part()
+    yield
+    if _takes_part() and not before:
+        from bot_console.runtime.rmw.zenoh.domain_bus import close_shared_buses
+        from bot_console.tui.cli.system.domain import run_apart
+
+        close_shared_buses()
+        run_apart()
+
+
+def _takes_part() -> bool:
+    """Whether contexts of this process share their domain with others; imports nothing that is not in use."""
+    chosen, shared = (sys.modules.get(f"bot_console.runtime.rmw.{name}") for name in ("middleware", "zenoh.domain_bus"))
+    return chosen is not None and shared is not None and chosen.is_chosen(shared.shared_bus)
 
 
 def pytest_xdist_auto_num_workers() -> int:

@@ -70,6 +70,7 @@ class ZenohBus:
         self._lock = threading.Lock()
         self._nodes: dict[NodeId, BridgedNode] = {}
         self._disowned: dict[Any, Bridge] = {}
+        self._own: set[bytes] = set()
         self._watches = Watches(session)
         self._sender = Sender()
         self._whole: WholeGraph | None = None
@@ -106,6 +107,7 @@ class ZenohBus:
         key, shown = self._names(endpoint.node, "MP", endpoint)
         publisher = self._local.create_publisher(endpoint, on_event)
         if shown:
+            self._own.add(endpoint.gid)
             outlet = Outlet(self._session, self._sender, publisher, key)
             watched: tuple[Kind, str, Listener] = ("MS", endpoint.topic, self._telling(outlet.saw))
             self._keep(endpoint.node, publisher, Bridge(outlet, self._session.declare_token(shown), watched))
@@ -117,7 +119,7 @@ class ZenohBus:
         key, shown = self._names(endpoint.node, "MS", endpoint)
         self._local.create_subscription(subscription)
         if shown:
-            inlet = Inlet(self._session, subscription, key)
+            inlet = Inlet(self._session, subscription, key, self._own)
             watched: tuple[Kind, str, Listener] = ("MP", endpoint.topic, self._telling(inlet.saw))
             self._watches.listen(*watched)  # who publishes is known before the first message comes
             inlet.open()
@@ -180,6 +182,8 @@ class ZenohBus:
             self._watches.forget(*bridge.watched)
         bridge.token.undeclare()
         bridge.way.close()
+        if isinstance(bridge.way, Outlet):
+            self._own.discard(bridge.way.gid)
 
     def disown(self, thing: ServiceEndpoint | ClientEndpoint) -> None:
         """Let a service server or client stay when its node leaves."""

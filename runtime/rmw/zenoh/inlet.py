@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Container
 from dataclasses import dataclass
 
 from bot_console.runtime.process import current
@@ -55,8 +56,10 @@ class Arrived(Held):
 class Inlet:
     """Receives for one subscription what others publish."""
 
-    def __init__(self, session: Session, subscription: SubscriptionEndpoint, key: str) -> None:
+    def __init__(self, session: Session, subscription: SubscriptionEndpoint, key: str, own: Container[bytes]) -> None:
+        """`own` has the ids of this process's publishers, whose messages come from object to object."""
         self._subscription = subscription
+        self._own = own
         self.message_class = subscription.endpoint.message_class
         self._key = key
         self._publishers: dict[bytes, RemotePublisher] = {}
@@ -78,6 +81,9 @@ class Inlet:
         subscription = self._subscription
         try:
             number, stamp, gid = unpack(attachment)
+            # The question for what was kept reaches the caches of this session too, whatever its origin may be.
+            if gid in self._own:
+                return
             publisher = self._publishers.get(gid)
             if publisher is None:
                 # Its first message can be here before its token.

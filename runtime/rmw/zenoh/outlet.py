@@ -36,7 +36,7 @@ class Outlet(deque[Any]):
         self._session = session
         self._publisher = publisher
         self._key = key
-        self._gid = publisher.endpoint.gid
+        self.gid = publisher.endpoint.gid
         self._out: Publisher | None = None
         self._process = current()
         self._sender = sender
@@ -53,7 +53,7 @@ class Outlet(deque[Any]):
         """Send one message that the publisher has serialized."""
         data, stamp, number, _ = entry
         out = self._out or self._open()
-        attachment = pack(number, stamp, self._gid)
+        attachment = pack(number, stamp, self.gid)
         if self._patient:
             self._sender.send(out, self._publisher.endpoint.topic, data, attachment)
         else:

@@ -30,7 +30,7 @@ def received():
     subscription = SubscriptionEndpoint(
         endpoint, False, queue_for(QOS), lambda: None, lambda kind, what: events.append((kind, what))
     )
-    return Inlet(SimpleNamespace(lost=0), subscription, "key"), subscription.queue, events
+    return Inlet(SimpleNamespace(lost=0), subscription, "key", set()), subscription.queue, events
 
 
 def give(inlet, number):
