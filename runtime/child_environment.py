@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import sys
+import sysconfig
 import tempfile
 from collections.abc import Iterable, Mapping
 from functools import cached_property
@@ -24,8 +25,7 @@ STAND_IN = '''\
 
 import sys
 
-if {parent!r} not in sys.path:
-    sys.path.append({parent!r})
+sys.path.extend(each for each in {folders!r} if each not in sys.path)
 
 from bot_console.runtime.stand_in import give_way
 
@@ -61,10 +61,10 @@ class ChildEnvironment:
         """The folder of stand-ins; a package that has come to the workspace since the last process gets one now."""
         folder = self._folder / "python"
         folder.mkdir(exist_ok=True)
-        parent = str(Path(__file__).absolute().parents[2])
+        folders = [str(Path(__file__).absolute().parents[2]), *_dependencies()]
         for name in embedded_names():
             if name not in self._stood_in:
-                (folder / f"{name}.py").write_text(STAND_IN.format(name=name, parent=parent))
+                (folder / f"{name}.py").write_text(STAND_IN.format(name=name, folders=folders))
                 self._stood_in.add(name)
         return folder
 
@@ -72,6 +72,11 @@ class ChildEnvironment:
 def _venv() -> list[str]:
     """The folder of `python3`, where that has been installed for this program alone."""
     return [os.path.dirname(sys.executable)] if sys.prefix != sys.base_prefix else []
+
+
+def _dependencies() -> list[str]:
+    """Where what this package needs is installed: another interpreter that runs a program may have none of it."""
+    return list(dict.fromkeys(sysconfig.get_path(each) for each in ("purelib", "platlib")))
 
 
 def _joined(first: Iterable[str], rest: str) -> str:

@@ -14,7 +14,8 @@ import pytest
 if os.name != "posix":
     pytest.skip("needs a shell", allow_module_level=True)
 
-from bot_console.runtime.child_environment import child_environment
+from bot_console.runtime.child_environment import child_environment, let_children_meet
+from bot_console.runtime.rmw.zenoh.domain_bus import share_domains
 from bot_console.runtime.workspace import discover
 from bot_console.runtime.workspace.discover import Workspace, default_folders
 from launch.actions import ExecuteProcess
@@ -31,6 +32,7 @@ node = rclpy.create_node("child")
 node.create_publisher(String, "text", 1).publish(String(data="x"))
 print(Corner(x=1.0), rclpy.__name__, launch.__file__.endswith("runtime/launch/__init__.py"), sys.argv[1:])
 """
+PROBE = "import importlib.util; print('has' if importlib.util.find_spec('zenoh') else 'bare')"
 SAID = "child_shapes.msg.Corner(x=1.0) rclpy True ['a']"
 
 
@@ -57,6 +59,16 @@ def test_a_program_by_its_interpreter(run: Launch, program: str, python: str, ki
     }[kind]()
     text = run([action]).text
     assert SAID.removesuffix("]") in text, text
+
+
+def test_an_interpreter_that_has_nothing_installed_takes_part_in_the_domain(run: Launch, program: str) -> None:
+    share_domains()
+    let_children_meet(True)
+    python = os.path.realpath(sys.executable)
+    text = run([ExecuteProcess(cmd=[python, "-I", "-c", PROBE], output="screen")]).text
+    if "bare" not in text:
+        pytest.skip("the interpreter of this environment has zenoh itself")
+    assert SAID.removesuffix("]") in run([ExecuteProcess(cmd=[python, program, "a"], output="screen")]).text
 
 
 def test_ros2_in_a_line_that_needs_a_shell(run: Launch, program: str) -> None:
