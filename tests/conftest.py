@@ -4,6 +4,7 @@ import atexit
 import itertools
 import os
 import shutil
+import signal
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -17,6 +18,11 @@ ON_ROS = os.environ.get("BOT_CONSOLE_TESTS_ON") == "ros"
 
 if not ON_ROS:
     install()
+
+# Who starts the tests in the background lets them ignore these, and with them every program that a test starts.
+for number in (signal.SIGINT, getattr(signal, "SIGQUIT", signal.SIGINT)):
+    if signal.getsignal(number) is signal.SIG_IGN:
+        signal.signal(number, signal.default_int_handler if number is signal.SIGINT else signal.SIG_DFL)
 
 _sockets = tempfile.mkdtemp(prefix="bc-", dir="/tmp")
 _folders = itertools.count(1)

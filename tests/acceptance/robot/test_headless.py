@@ -60,13 +60,16 @@ def test_real_time_is_real(tmp_path):
 @pytest.mark.parametrize("fast", [["--fast"], []], ids=["fast", "real time"])
 def test_a_run_that_is_ended_early_still_reports(tmp_path, fast, number):
     words = [sys.executable, "-m", "bot_console.tui", "--headless", *fast, "--duration", "1e6"]
-    run = subprocess.Popen(words, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    said = ""
-    while "Office" not in said:
-        said = run.stderr.readline()
-        assert said, "the simulator has not come up"
-    run.send_signal(number)
-    out, err = run.communicate(timeout=PATIENCE)
+    with subprocess.Popen(words, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as run:
+        try:
+            said = ""
+            while "Office" not in said:
+                said = run.stderr.readline()
+                assert said, "the simulator has not come up"
+            run.send_signal(number)
+            out, err = run.communicate(timeout=PATIENCE)
+        finally:
+            run.kill()
     assert run.returncode == 0, err
     assert json.loads(out)["duration"] < 1e6
     assert "Traceback" not in err
