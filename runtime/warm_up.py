@@ -8,7 +8,7 @@ INTERFACES = ("action_msgs", "builtin_interfaces", "geometry_msgs", "nav_msgs", 
               "std_msgs", "std_srvs", "tf2_msgs")  # fmt: skip
 """Those whose messages, services and actions most nodes import."""
 MODULES = ("numpy", "launch_ros.node_program", "rclpy.action", "rclpy.executors", "rclpy.qos",
-           "bot_console.runtime.rmw.zenoh.domain_bus")  # fmt: skip
+           "bot_console.runtime.rmw.zenoh.domain.domain_bus")  # fmt: skip
 
 
 def warm_up() -> None:
@@ -16,8 +16,8 @@ def warm_up() -> None:
     import contextlib
     import importlib
 
-    from bot_console.runtime.rmw.zenoh.attachment import gid_of
     from bot_console.runtime.rmw.zenoh.session import preload
+    from bot_console.runtime.rmw.zenoh.wire.attachment import gid_of
 
     install()
     for package in INTERFACES:

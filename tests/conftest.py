@@ -55,7 +55,7 @@ def apart(socket_folder: str) -> Iterator[None]:
     before = _takes_part()
     yield
     if _takes_part() and not before:
-        from bot_console.runtime.rmw.zenoh.domain_bus import close_shared_buses
+        from bot_console.runtime.rmw.zenoh.domain.domain_bus import close_shared_buses
         from bot_console.tui.cli.system.domain import run_apart
 
         close_shared_buses()
@@ -64,7 +64,9 @@ def apart(socket_folder: str) -> Iterator[None]:
 
 def _takes_part() -> bool:
     """Whether contexts of this process share their domain with others; imports nothing that is not in use."""
-    chosen, shared = (sys.modules.get(f"bot_console.runtime.rmw.{name}") for name in ("middleware", "zenoh.domain_bus"))
+    chosen, shared = (
+        sys.modules.get(f"bot_console.runtime.rmw.{name}") for name in ("middleware", "zenoh.domain.domain_bus")
+    )
     return chosen is not None and shared is not None and chosen.is_chosen(shared.shared_bus)
 
 

@@ -27,9 +27,9 @@ import rclpy  # noqa: E402
 import yaml  # noqa: E402
 from ament_index_python.packages import get_package_share_directory  # noqa: E402
 from bot_console.tui.cli import arguments as console_arguments  # noqa: E402
-from bot_console.tui.cli import run as console_run  # noqa: E402
+from bot_console.tui.cli.verbs import run as console_run  # noqa: E402
 from bot_console.tui.keymap import TABLE  # noqa: E402
-from bot_console.tui.keys import key_text  # noqa: E402
+from bot_console.tui.keys.key import key_text  # noqa: E402
 from bot_console_robot.controller_node import MotionController  # noqa: E402
 from bot_console_robot.robot_node import RobotNavigator  # noqa: E402
 from bot_console_robot.safety_node import SafetyMonitor  # noqa: E402

@@ -13,13 +13,13 @@ from typing import Any, ClassVar, TypeVar
 from bot_console.tui import keymap
 from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.commands import Command, all_commands, options_for
+from bot_console.tui.console.connection.no_console import NoCommandLine
 from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.console.no_console import NoCommandLine
 from bot_console.tui.console.protocol import CommandLine, Console, Launcher
 from bot_console.tui.faults import Faults
 from bot_console.tui.files.crash import keep, reason
 from bot_console.tui.format import brief, harmless
-from bot_console.tui.keyboard import Keyboard
+from bot_console.tui.keys.keyboard import Keyboard
 from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.look import Look
 from bot_console.tui.opening import Opening, is_rqt, rqt_opening

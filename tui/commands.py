@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from bot_console.tui.keymap import TABLE
-from bot_console.tui.keys import key_text
+from bot_console.tui.keys.key import key_text
 from bot_console.tui.opening import is_rqt
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.widgets.prompt.question import Option

@@ -9,7 +9,7 @@ from shlex import quote
 
 from bot_console.tui.console.model import ConsoleSnapshot, Kind, ParameterInfo, Range, Severity, Value
 from bot_console.tui.console.parameter_types import ARRAYS
-from bot_console.tui.yaml_flow import in_quotes, is_plain, items, quoted, unquoted
+from bot_console.tui.text.yaml_flow import in_quotes, is_plain, items, quoted, unquoted
 from rich.cells import cell_len, set_cell_size
 
 WIDE_MARK = "\ufe0f"

@@ -5,8 +5,8 @@ Keys are chosen to survive SSH, tmux and browsers' terminals: letters, digits, E
 
 from __future__ import annotations
 
-from bot_console.tui.keys import Key
-from bot_console.tui.tuning_keys import TUNING
+from bot_console.tui.keys.key import Key
+from bot_console.tui.keys.tuning import TUNING
 from textual.binding import Binding, BindingType
 
 TABLE: dict[str, tuple[Key, ...]] = {

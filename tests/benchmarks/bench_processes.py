@@ -25,8 +25,8 @@ install()
 
 import rclpy
 from bot_console.runtime.rmw.middleware import choose_middleware
-from bot_console.runtime.rmw.zenoh.domain_bus import shared_bus
-from bot_console.runtime.rmw.zenoh.mesh import open_session
+from bot_console.runtime.rmw.zenoh.domain.domain_bus import shared_bus
+from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
 from example_interfaces.srv import AddTwoInts
 from geometry_msgs.msg import Twist
 from rclpy.qos import HistoryPolicy, QoSProfile

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from bot_console.tui.console import linked_console
+from bot_console.tui.console.connection import linked_console
 from rigs import FakeRig, Rig, RosRig, machine_rig, mesh_rig, network_rig
 
 WAYS = [

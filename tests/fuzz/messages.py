@@ -103,7 +103,7 @@ def stop(text: str) -> None:
 
 
 def key_expressions(text: str) -> None:
-    from bot_console.runtime.rmw.zenoh.keys import demangled, ros_type
+    from bot_console.runtime.rmw.zenoh.wire.keys import demangled, ros_type
 
     demangled(text)
     ros_type(text)

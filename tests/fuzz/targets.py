@@ -30,7 +30,7 @@ def targets() -> list[Target]:
     from bot_console.runtime.rmw.arguments import ArgumentsError
     from bot_console.runtime.rmw.lexer import GrammarError
     from bot_console.runtime.rmw.parameter_overrides import ParameterYamlError
-    from bot_console.runtime.rmw.zenoh.keys import FormatError
+    from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
     from bot_console.runtime.rosidl.parse import DefinitionError
     from bot_console.tui.console.plot.series import NotPlottable
     from bot_console.tui.files.save_file import NotSaved

@@ -7,7 +7,7 @@ received; `exit` closes the session and writes how long that took, in s.
 import sys
 import time
 
-from bot_console.runtime.rmw.zenoh.mesh import open_session
+from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
 
 session = open_session(0)
 session.watch()

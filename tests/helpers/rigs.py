@@ -20,13 +20,13 @@ import rclpy
 from bot_console.runtime.rmw.local import LocalBus, local_bus
 from bot_console.runtime.rmw.middleware import choose_middleware
 from bot_console.runtime.rmw.zenoh.bus import ZenohBus
-from bot_console.runtime.rmw.zenoh.mesh import open_session
-from bot_console.runtime.rmw.zenoh.network import Way, open_network_session
-from bot_console.runtime.rmw.zenoh.reach import Tls
-from bot_console.runtime.rmw.zenoh.router import Router
+from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
+from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session
+from bot_console.runtime.rmw.zenoh.network.reach import Tls
+from bot_console.runtime.rmw.zenoh.network.router import Router
 from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.runtime.rmw.zenoh.settings import Serving
-from bot_console.tui.console.connection import RosConsole
+from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import (
     ChangeSource,
     ConsoleSnapshot,

@@ -18,7 +18,7 @@ import sys
 
 sys.path.append({helpers!r})
 from bot_console.runtime.child_environment import let_children_meet
-from bot_console.runtime.rmw.zenoh.domain_bus import share_domains
+from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
 
 share_domains()
 let_children_meet(True)

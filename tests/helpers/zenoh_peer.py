@@ -6,7 +6,7 @@ install()
 
 import rclpy
 from bot_console.runtime.rmw.middleware import choose_middleware
-from bot_console.runtime.rmw.zenoh.domain_bus import shared_bus
+from bot_console.runtime.rmw.zenoh.domain.domain_bus import shared_bus
 from example_interfaces.action import Fibonacci
 from rclpy.action import ActionServer
 from rclpy.node import Node

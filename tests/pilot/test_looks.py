@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.keymap import TABLE
+from bot_console.tui.keys.remapping import remap
 from bot_console.tui.look import Look
-from bot_console.tui.remapping import remap
 from bot_console.tui.terminal.plain import plain_text
 from bot_console.tui.theme import THEMES
 from hypothesis import given

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from bot_console.tui.keymap import TABLE
-from bot_console.tui.keys import key_text
+from bot_console.tui.keys.key import key_text
 from bot_console.tui.pane_table import PANES
 from bot_console.tui.panes.launch.pane import LaunchPane
 from bot_console.tui.panes.logs.pane import LogsPane

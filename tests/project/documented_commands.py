@@ -10,8 +10,9 @@ from pathlib import Path
 
 from bot_console.runtime.ros2cli.command_line import _add, _top_parser, load
 from bot_console.tui import cli
-from bot_console.tui.cli import arguments, bag, ros2
-from bot_console.tui.cli import run as console_run
+from bot_console.tui.cli import arguments
+from bot_console.tui.cli.verbs import bag, ros2
+from bot_console.tui.cli.verbs import run as console_run
 from launch.launch_description_sources import get_launch_description_from_any_launch_file
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -7,8 +7,8 @@ from collections.abc import Callable, Sequence
 from typing import NoReturn
 
 from bot_console.tui import __version__
-from bot_console.tui.cli import ros2
 from bot_console.tui.cli.system.domain import end_program, others_take_part
+from bot_console.tui.cli.verbs import ros2
 
 Words = list[str]
 
@@ -56,7 +56,7 @@ def _attach(words: Words) -> int:
 
 
 def _run(words: Words) -> int:
-    from bot_console.tui.cli.run import run
+    from bot_console.tui.cli.verbs.run import run
 
     return run(words)
 
@@ -75,25 +75,25 @@ def _ros2(words: Words) -> int:
 
 
 def _export(words: Words) -> int:
-    from bot_console.tui.cli.export import run
+    from bot_console.tui.cli.verbs.export import run
 
     return run(words)
 
 
 def _bag(words: Words) -> int:
-    from bot_console.tui.cli.bag import run
+    from bot_console.tui.cli.verbs.bag import run
 
     return run(words)
 
 
 def _config(words: Words) -> int:
-    from bot_console.tui.cli.config import run
+    from bot_console.tui.cli.verbs.config import run
 
     return run(words)
 
 
 def _setup(words: Words) -> int:
-    from bot_console.tui.cli.setup import run
+    from bot_console.tui.cli.verbs.setup import run
 
     return run(words)
 
@@ -105,19 +105,19 @@ def _complete(words: Words) -> int:
 
 
 def _up(words: Words) -> int:
-    from bot_console.tui.cli.background import up
+    from bot_console.tui.cli.verbs.background import up
 
     return up(words)
 
 
 def _down(words: Words) -> int:
-    from bot_console.tui.cli.background import down
+    from bot_console.tui.cli.verbs.background import down
 
     return down(words)
 
 
 def _status(words: Words) -> int:
-    from bot_console.tui.cli.background import status
+    from bot_console.tui.cli.verbs.background import status
 
     return status(words)
 
@@ -129,37 +129,37 @@ def _doctor(words: Words) -> int:
 
 
 def _router(words: Words) -> int:
-    from bot_console.tui.cli.router import run
+    from bot_console.tui.cli.verbs.router import run
 
     return run(words)
 
 
 def _stop(words: Words) -> int:
-    from bot_console.tui.cli.stop import run
+    from bot_console.tui.cli.verbs.stop import run
 
     return run("stop", words)
 
 
 def _release(words: Words) -> int:
-    from bot_console.tui.cli.stop import run
+    from bot_console.tui.cli.verbs.stop import run
 
     return run("release", words)
 
 
 def _graph(words: Words) -> int:
-    from bot_console.tui.cli.graph import run
+    from bot_console.tui.cli.verbs.graph import run
 
     return run(words)
 
 
 def _test(words: Words) -> int:
-    from bot_console.tui.cli.testing import test
+    from bot_console.tui.cli.verbs.testing import test
 
     return test(words)
 
 
 def _launch_test(words: Words) -> int:
-    from bot_console.tui.cli.testing import launch_test
+    from bot_console.tui.cli.verbs.testing import launch_test
 
     return launch_test(words)
 

@@ -8,12 +8,12 @@ from pathlib import Path
 
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.files.save_file import NotSaved, typed_path
+from bot_console.tui.keys.remapping import remap
 from bot_console.tui.layout.arrangement import Arrangement
 from bot_console.tui.layout.form import NoLayout
 from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.look import Look
 from bot_console.tui.pane_table import PANES
-from bot_console.tui.remapping import remap
 from bot_console.tui.settings.layouts import FileLayouts
 from bot_console.tui.settings.settings import Settings, read_settings
 

@@ -6,7 +6,7 @@ from typing import ClassVar, Protocol
 
 from bot_console.tui import keymap
 from bot_console.tui.keymap import TABLE
-from bot_console.tui.keys import key_text
+from bot_console.tui.keys.key import key_text
 from bot_console.tui.layout.tree import Way
 from bot_console.tui.widgets.prompt.line import Prompt, asks
 from bot_console.tui.widgets.prompt.question import Line

@@ -7,7 +7,7 @@ from typing import ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.keymap import TABLE
-from bot_console.tui.keys import Key, key_text
+from bot_console.tui.keys.key import Key, key_text
 from bot_console.tui.screens.overlay import Overlay
 from rich.console import RenderableType
 from rich.table import Table

@@ -15,7 +15,7 @@ from bot_console.tui.layout.named import OVERVIEW, Layout
 from bot_console.tui.layout.perspective import perspective_tree
 from bot_console.tui.layout.tree import Tree
 from bot_console.tui.opening import RQT_PANES
-from bot_console.tui.yaml_faults import UNREADABLE, fault_of
+from bot_console.tui.text.yaml_faults import UNREADABLE, fault_of
 
 HEAD = """\
 # A layout of bot-console. `beside` and `below` hold panes or further splits; `share` says how they share the room.

@@ -9,9 +9,9 @@ from typing import Any, cast
 
 import yaml
 from bot_console.tui.files.folders import config_folder
-from bot_console.tui.remapping import wrong_keys
+from bot_console.tui.keys.remapping import wrong_keys
 from bot_console.tui.settings.names import GLYPHS, THEME_NAMES
-from bot_console.tui.yaml_faults import UNREADABLE, fault_of
+from bot_console.tui.text.yaml_faults import UNREADABLE, fault_of
 
 LARGEST = 100_000
 """Bytes of a settings file; what is larger is none."""

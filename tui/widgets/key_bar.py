@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import TypeAlias
 
 from bot_console.tui.keymap import TABLE
-from bot_console.tui.keys import Key, key_text
+from bot_console.tui.keys.key import Key, key_text
 from rich.style import Style
 from rich.text import Text
 from textual.events import Click

@@ -8,7 +8,7 @@ from typing import ClassVar
 from bot_console.tui import keymap
 from bot_console.tui.console.protocol import Stream
 from bot_console.tui.format import harmless
-from bot_console.tui.keys import key_text
+from bot_console.tui.keys.key import key_text
 from rich.text import Text
 from textual.widgets import Static
 

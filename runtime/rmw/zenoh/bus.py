@@ -20,17 +20,17 @@ from bot_console.runtime.rmw.endpoints import (
     SubscriptionEndpoint,
 )
 from bot_console.runtime.rmw.local import LocalBus
-from bot_console.runtime.rmw.zenoh.attachment import gid_of
 from bot_console.runtime.rmw.zenoh.inlet import Inlet
-from bot_console.runtime.rmw.zenoh.keys import data_key
 from bot_console.runtime.rmw.zenoh.outlet import Outlet
-from bot_console.runtime.rmw.zenoh.qos_text import encode_qos
 from bot_console.runtime.rmw.zenoh.seen import Listener, Watches
 from bot_console.runtime.rmw.zenoh.sender import Sender
 from bot_console.runtime.rmw.zenoh.services import Asking, RemoteClient, Served
 from bot_console.runtime.rmw.zenoh.session import Declared, Session
-from bot_console.runtime.rmw.zenoh.tokens import Kind, Token, TokenNode, entity_token, node_token
 from bot_console.runtime.rmw.zenoh.whole_graph import WholeGraph
+from bot_console.runtime.rmw.zenoh.wire.attachment import gid_of
+from bot_console.runtime.rmw.zenoh.wire.keys import data_key
+from bot_console.runtime.rmw.zenoh.wire.qos_text import encode_qos
+from bot_console.runtime.rmw.zenoh.wire.tokens import Kind, Token, TokenNode, entity_token, node_token
 from bot_console.runtime.rosidl import type_hash
 
 SERVICE_QOS = "::,10:,:,:,,"

@@ -9,11 +9,11 @@ from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
 from bot_console.runtime.rmw.endpoints import Held, Message, SubscriptionEndpoint, depth
 from bot_console.runtime.rmw.qos_matching import INFINITE, incompatible_policy
-from bot_console.runtime.rmw.zenoh.attachment import gid_of, unpack
-from bot_console.runtime.rmw.zenoh.keys import FormatError
 from bot_console.runtime.rmw.zenoh.outlet import mismatch
 from bot_console.runtime.rmw.zenoh.session import Declared, Session
-from bot_console.runtime.rmw.zenoh.tokens import Token
+from bot_console.runtime.rmw.zenoh.wire.attachment import gid_of, unpack
+from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
+from bot_console.runtime.rmw.zenoh.wire.tokens import Token
 from bot_console.runtime.rosidl.cdr import CdrError, deserialize
 
 ALL_KEPT = 1000

@@ -10,10 +10,10 @@ from bot_console.runtime.process.notices import notify
 from bot_console.runtime.rmw.endpoints import SubscriptionEndpoint, depth
 from bot_console.runtime.rmw.local import LocalPublisher
 from bot_console.runtime.rmw.qos_matching import incompatible_policy
-from bot_console.runtime.rmw.zenoh.attachment import pack
 from bot_console.runtime.rmw.zenoh.sender import Sender
 from bot_console.runtime.rmw.zenoh.session import Publisher, Session
-from bot_console.runtime.rmw.zenoh.tokens import Token
+from bot_console.runtime.rmw.zenoh.wire.attachment import pack
+from bot_console.runtime.rmw.zenoh.wire.tokens import Token
 
 ALL_KEPT = 1000
 """How many messages a latching publisher keeps for others where its profile says all."""

@@ -6,9 +6,9 @@ import threading
 from collections.abc import Callable
 from contextlib import suppress
 
-from bot_console.runtime.rmw.zenoh.keys import FormatError
 from bot_console.runtime.rmw.zenoh.session import Declared, Session
-from bot_console.runtime.rmw.zenoh.tokens import Kind, Token, parse_token, tokens_of
+from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
+from bot_console.runtime.rmw.zenoh.wire.tokens import Kind, Token, parse_token, tokens_of
 
 Listener = Callable[[Token, bool], None]
 """Called with a token that came (True) or went; it may append and wake, and nothing else."""

@@ -8,10 +8,10 @@ from typing import Any
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
 from bot_console.runtime.rmw.endpoints import ClientEndpoint, NodeId, ServiceEndpoint
-from bot_console.runtime.rmw.zenoh.attachment import pack, unpack
-from bot_console.runtime.rmw.zenoh.keys import FormatError
 from bot_console.runtime.rmw.zenoh.session import Declared, Querier, Query, Session
-from bot_console.runtime.rmw.zenoh.tokens import Token
+from bot_console.runtime.rmw.zenoh.wire.attachment import pack, unpack
+from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
+from bot_console.runtime.rmw.zenoh.wire.tokens import Token
 from bot_console.runtime.rosidl.cdr import CdrError, deserialize, serialize
 
 TIMEOUT = 600.0

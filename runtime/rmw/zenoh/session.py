@@ -16,7 +16,7 @@ import time
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any, cast
 
-from bot_console.runtime.rmw.zenoh.sockets import Socket
+from bot_console.runtime.rmw.zenoh.domain.sockets import Socket
 
 if TYPE_CHECKING:
     import zenoh

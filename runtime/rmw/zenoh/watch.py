@@ -13,7 +13,7 @@ import time
 from collections.abc import Callable
 from typing import Protocol
 
-from bot_console.runtime.rmw.zenoh.sockets import Socket, is_stopped, live_sockets, sockets
+from bot_console.runtime.rmw.zenoh.domain.sockets import Socket, is_stopped, live_sockets, sockets
 
 PERIOD = 1.0
 """How often the folder is looked at, in s."""

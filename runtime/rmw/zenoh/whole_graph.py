@@ -8,11 +8,11 @@ from collections.abc import Callable, Sequence
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
 from bot_console.runtime.rmw.endpoints import ClientEndpoint, Endpoint, NodeId, ServiceEndpoint
-from bot_console.runtime.rmw.zenoh.attachment import gid_of
-from bot_console.runtime.rmw.zenoh.attendance import await_answers
+from bot_console.runtime.rmw.zenoh.domain.attendance import await_answers
 from bot_console.runtime.rmw.zenoh.seen import SeenTokens
 from bot_console.runtime.rmw.zenoh.session import Session
-from bot_console.runtime.rmw.zenoh.tokens import Kind, Token, TokenNode, all_tokens
+from bot_console.runtime.rmw.zenoh.wire.attachment import gid_of
+from bot_console.runtime.rmw.zenoh.wire.tokens import Kind, Token, TokenNode, all_tokens
 
 Row = NodeId | Endpoint | ServiceEndpoint | ClientEndpoint
 

@@ -17,7 +17,7 @@ import pytest
 if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
 
-from bot_console.runtime.rmw.zenoh.domain_folder import domain_folder
+from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
 from bot_console.tui.console.launch_host.door import doors, knock
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.launch_host.several import SeveralLaunchers

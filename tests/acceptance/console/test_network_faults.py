@@ -12,9 +12,9 @@ from bad_link import BadLink
 from bot_console.runtime.rmw.local import LocalBus, local_bus
 from bot_console.runtime.rmw.middleware import choose_middleware
 from bot_console.runtime.rmw.zenoh.bus import ZenohBus
-from bot_console.runtime.rmw.zenoh.network import Way, open_network_session
-from bot_console.runtime.rmw.zenoh.network_bus import NetworkBuses
-from bot_console.runtime.rmw.zenoh.router import Router
+from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session
+from bot_console.runtime.rmw.zenoh.network.network_bus import NetworkBuses
+from bot_console.runtime.rmw.zenoh.network.router import Router
 from bot_console.runtime.rmw.zenoh.settings import Serving
 from bot_console.tui.cli.attach.network import LinkWords
 from bot_console.tui.console.model import Severity

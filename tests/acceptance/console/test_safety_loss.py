@@ -6,7 +6,7 @@ import threading
 from pathlib import Path
 
 import pytest
-from bot_console.tui.console.connection import RosConsole
+from bot_console.tui.console.connection.ros_console import RosConsole
 from launcher_bench import PATIENCE, Bench
 
 ROOT = Path(__file__).resolve().parents[3]

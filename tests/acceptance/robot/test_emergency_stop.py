@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from bot_console.tui.cli.stop import run
+from bot_console.tui.cli.verbs.stop import run
 from systems import Program, System, system
 
 ROOT = Path(__file__).resolve().parents[3]

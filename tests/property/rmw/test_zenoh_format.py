@@ -3,10 +3,10 @@
 from contextlib import suppress
 
 import pytest
-from bot_console.runtime.rmw.zenoh.attachment import pack, unpack
-from bot_console.runtime.rmw.zenoh.keys import FormatError, ros_type
-from bot_console.runtime.rmw.zenoh.qos_text import decode_qos, encode_qos
-from bot_console.runtime.rmw.zenoh.tokens import SPACE, parse_token
+from bot_console.runtime.rmw.zenoh.wire.attachment import pack, unpack
+from bot_console.runtime.rmw.zenoh.wire.keys import FormatError, ros_type
+from bot_console.runtime.rmw.zenoh.wire.qos_text import decode_qos, encode_qos
+from bot_console.runtime.rmw.zenoh.wire.tokens import SPACE, parse_token
 from bot_console.runtime.rosidl.cdr import CdrError, deserialize
 from hypothesis import given, settings
 from hypothesis import strategies as st

@@ -10,7 +10,7 @@ from bot_console.tui.console.model import Kind, ParameterInfo, Value
 from bot_console.tui.console.parameter_types import ARRAYS
 from bot_console.tui.console.parameters.patch import same
 from bot_console.tui.format import command_of, field_text, guess, parse_number, parse_value, value_text
-from bot_console.tui.yaml_flow import quoted
+from bot_console.tui.text.yaml_flow import quoted
 from hypothesis import example, given
 from hypothesis import strategies as st
 from rclpy.parameter import get_parameter_value, parameter_value_to_python

@@ -7,7 +7,7 @@ import re
 import pytest
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.keymap import TABLE
-from bot_console.tui.keys import Key
+from bot_console.tui.keys.key import Key
 from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.panes.broken import BrokenPane
 from bot_console.tui.screens.arrange import ArrangeScreen

@@ -6,7 +6,7 @@ import sys
 import time
 
 from bot_console.runtime.rmw.zenoh.link_probe import LinkState
-from bot_console.runtime.rmw.zenoh.network_bus import NetworkBuses
+from bot_console.runtime.rmw.zenoh.network.network_bus import NetworkBuses
 from bot_console.runtime.rmw.zenoh.session import SessionError
 from bot_console.tui.cli.attach.options import AttachOptions
 from bot_console.tui.cli.attach.session import AttachedSession
@@ -15,7 +15,7 @@ from bot_console.tui.cli.live.ros2_command_line import Ros2CommandLine
 from bot_console.tui.cli.system.connecting import connect
 from bot_console.tui.cli.system.domain import domain
 from bot_console.tui.cli.system.workspaces import choose
-from bot_console.tui.console.connection import RosConsole
+from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import Capabilities, LinkInfo, Severity
 
 CAPABILITIES = Capabilities(

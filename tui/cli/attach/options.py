@@ -7,8 +7,8 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from bot_console.runtime.rmw.zenoh.network import CONFIG_VARIABLE, Way
-from bot_console.runtime.rmw.zenoh.reach import Tls, place_of
+from bot_console.runtime.rmw.zenoh.network.client import CONFIG_VARIABLE, Way
+from bot_console.runtime.rmw.zenoh.network.reach import Tls, place_of
 from bot_console.tui.cli.arguments import Options, attach_parser, parse_attach
 from bot_console.tui.cli.system.domain import CONNECT_VARIABLE
 

@@ -9,7 +9,7 @@ from bot_console.tui.cli.attach.command_line import MachineCommandLine
 from bot_console.tui.cli.attach.launchers import HostLaunchers
 from bot_console.tui.cli.attach.options import AttachOptions
 from bot_console.tui.cli.attach.session import AttachedSession
-from bot_console.tui.console.connection import RosConsole
+from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import Capabilities, LaunchInfo, Severity
 
 PROFILES = Path(__file__).resolve().parents[3] / "profiles"

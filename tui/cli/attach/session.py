@@ -16,7 +16,7 @@ from bot_console.tui.cli.live.for_panes import for_panes
 from bot_console.tui.cli.live.hangup import hangup_as_signal
 from bot_console.tui.cli.look import look_of
 from bot_console.tui.cli.system.plugins import find_plugins
-from bot_console.tui.console.connection import RosConsole
+from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import Severity
 from bot_console.tui.console.protocol import CommandLine, Launcher
 

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from bot_console.runtime.importer import install
-from bot_console.runtime.rmw.zenoh.network import Way
+from bot_console.runtime.rmw.zenoh.network.client import Way
 from bot_console.tui import __version__
 from bot_console.tui.cli.attach.machine_ros import find_machine_ros
 from bot_console.tui.cli.attach.options import add_network_options, network_way

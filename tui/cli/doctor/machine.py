@@ -65,8 +65,8 @@ def sockets_findings() -> list[Finding]:
     """The programs that meet in the domain's folder, and the sockets of those that are dead or stopped."""
     if os.name == "nt":
         return [Finding(Level.NOTE, "sockets", "programs do not meet on this system, which has no Unix sockets")]
-    from bot_console.runtime.rmw.zenoh.domain_folder import FolderRefusedError, domain_folder
-    from bot_console.runtime.rmw.zenoh.sockets import sockets
+    from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
+    from bot_console.runtime.rmw.zenoh.domain.sockets import sockets
     from bot_console.tui.cli.system.domain import domain
 
     try:

@@ -6,9 +6,9 @@ import json
 import time
 from pathlib import Path
 
-from bot_console.runtime.rmw.zenoh.attendance import await_answers
-from bot_console.runtime.rmw.zenoh.mesh import open_session
-from bot_console.runtime.rmw.zenoh.network import Way, open_network_session, with_environment
+from bot_console.runtime.rmw.zenoh.domain.attendance import await_answers
+from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
+from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session, with_environment
 from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.tui.cli.doctor.finding import Finding, Level
 from bot_console.tui.cli.doctor.nodes import node_findings

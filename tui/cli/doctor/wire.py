@@ -8,10 +8,10 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from bot_console.runtime.rmw.zenoh.attachment import unpack
-from bot_console.runtime.rmw.zenoh.keys import FormatError, data_key
 from bot_console.runtime.rmw.zenoh.session import Declared, Session
-from bot_console.runtime.rmw.zenoh.tokens import (
+from bot_console.runtime.rmw.zenoh.wire.attachment import unpack
+from bot_console.runtime.rmw.zenoh.wire.keys import FormatError, data_key
+from bot_console.runtime.rmw.zenoh.wire.tokens import (
     ENTITY_PARTS,
     Token,
     TokenNode,

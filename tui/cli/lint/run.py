@@ -121,7 +121,7 @@ def _running() -> tuple[str, list[Finding]]:
         return alone, []
     import time
 
-    from bot_console.tui.console.connection import RosConsole
+    from bot_console.tui.console.connection.ros_console import RosConsole
     from bot_console.tui.console.parameters.lint import faults
 
     console = RosConsole()

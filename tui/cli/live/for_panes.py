@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from bot_console.tui.console.connection import RosConsole
+from bot_console.tui.console.connection.read_only import ReadOnlyCommandLine, ReadOnlyConsole, ReadOnlyLauncher
+from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import Severity
 from bot_console.tui.console.protocol import CommandLine, Console, Launcher
-from bot_console.tui.console.read_only import ReadOnlyCommandLine, ReadOnlyConsole, ReadOnlyLauncher
 
 
 def for_panes(

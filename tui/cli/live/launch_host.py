@@ -90,7 +90,7 @@ def main(words: Sequence[str] | None = None) -> int:
 
 def serve(host: LaunchHost, seconds: float | None = None) -> None:
     """Serve further consoles of the user, too, until everything was ended, or for so many seconds at most."""
-    from bot_console.runtime.rmw.zenoh.domain_folder import domain_folder
+    from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
     from bot_console.tui.cli.live.process_news import tell_news
     from bot_console.tui.cli.system.domain import domain
     from bot_console.tui.console.launch_host.door import Door

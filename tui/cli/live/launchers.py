@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Protocol
 
-from bot_console.runtime.rmw.zenoh.domain_folder import domain_folder
+from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
 from bot_console.tui.cli.live.launching import Launching
 from bot_console.tui.cli.live.vitals import find_vitals
 from bot_console.tui.cli.system.domain import domain
@@ -21,7 +21,7 @@ from bot_console.tui.console.protocol import Launcher
 
 if TYPE_CHECKING:
     from bot_console.tui.cli.live.launch_host import Host
-    from bot_console.tui.console.connection import RosConsole
+    from bot_console.tui.console.connection.ros_console import RosConsole
 
 PATIENCE = 20.0
 """Seconds after which other hosts are looked for although the console has not connected."""

@@ -24,7 +24,7 @@ from bot_console.tui.cli.live.ros2_command_line import Ros2CommandLine
 from bot_console.tui.cli.look import look_of
 from bot_console.tui.cli.system.plugins import find_plugins
 from bot_console.tui.cli.system.workspaces import SYSTEM_LAUNCH, config_folders
-from bot_console.tui.console.connection import RosConsole
+from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import LaunchInfo, Severity
 from bot_console.tui.files.folders import config_folder, state_folder
 

@@ -26,8 +26,8 @@ def take_part() -> str:
     if os.name == "nt":
         return NO_SOCKETS
     from bot_console.runtime.child_environment import let_children_meet
-    from bot_console.runtime.rmw.zenoh.domain_bus import share_domains
-    from bot_console.runtime.rmw.zenoh.domain_folder import FolderRefusedError, domain_folder
+    from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
+    from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
 
     try:
         domain_folder(domain())
@@ -51,15 +51,15 @@ def run_apart() -> None:
 
 def is_in_range() -> bool:
     """Whether the environment lets programs of this machine find each other, as it does unless asked not to."""
-    from bot_console.runtime.rmw.zenoh import domain_bus
+    from bot_console.runtime.rmw.zenoh.domain import domain_bus
 
     return domain_bus.is_in_range()
 
 
 def others_take_part() -> bool:
     """Whether another process of this user is in the domain, as far as the folder of their sockets tells."""
-    from bot_console.runtime.rmw.zenoh.domain_folder import FolderRefusedError, domain_folder
-    from bot_console.runtime.rmw.zenoh.sockets import sockets
+    from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
+    from bot_console.runtime.rmw.zenoh.domain.sockets import sockets
 
     try:
         found = sockets(domain_folder(domain())) if os.name != "nt" else []

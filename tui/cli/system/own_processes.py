@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.runtime.rmw.zenoh.domain_bus import is_in_range, share_domains
+from bot_console.runtime.rmw.zenoh.domain.domain_bus import is_in_range, share_domains
 
 SHARE = f"{share_domains.__module__}:{share_domains.__name__}"
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 from bot_console.tui.console.model import Kind, ParameterInfo, Value
-from bot_console.tui.expression import evaluate
 from bot_console.tui.format import parse_value, range_text
-from bot_console.tui.units import factor, split_unit
+from bot_console.tui.text.expression import evaluate
+from bot_console.tui.text.units import factor, split_unit
 
 NUMBERS = (Kind.INTEGER, Kind.DOUBLE)
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from bot_console.tui.console.model import Change
-from bot_console.tui.expression import evaluate
 from bot_console.tui.panes.plot.curves import Array
+from bot_console.tui.text.expression import evaluate
 
 SETS = ("set A", "set B")
 """What changes belong to whose responses are compared."""

@@ -4,9 +4,9 @@ import json
 from pathlib import Path
 
 import pytest
-from bot_console.runtime.rmw.zenoh.attachment import gid_of, pack, unpack
-from bot_console.runtime.rmw.zenoh.qos_text import encode_qos
-from bot_console.runtime.rmw.zenoh.tokens import entity_token, node_token, parse_token
+from bot_console.runtime.rmw.zenoh.wire.attachment import gid_of, pack, unpack
+from bot_console.runtime.rmw.zenoh.wire.qos_text import encode_qos
+from bot_console.runtime.rmw.zenoh.wire.tokens import entity_token, node_token, parse_token
 
 CAPTURES = sorted((Path(__file__).parents[3] / "captures").glob("*.json"))
 

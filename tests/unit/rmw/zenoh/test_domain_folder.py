@@ -8,9 +8,9 @@ import subprocess
 import sys
 
 import pytest
-from bot_console.runtime.rmw.zenoh.domain_folder import FolderRefusedError, base_folder, domain_folder
-from bot_console.runtime.rmw.zenoh.mesh import open_session
-from bot_console.runtime.rmw.zenoh.sockets import LONGEST_PATH, PathTooLongError
+from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, base_folder, domain_folder
+from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
+from bot_console.runtime.rmw.zenoh.domain.sockets import LONGEST_PATH, PathTooLongError
 
 NOBODY = 65534
 
@@ -79,13 +79,13 @@ try:
     socket.socket(socket.AF_UNIX).connect({session.socket.path!r})
 except PermissionError:
     print("denied")
-from bot_console.runtime.rmw.zenoh.domain_folder import FolderRefusedError, domain_folder
+from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
 try:
     domain_folder(0)
 except FolderRefusedError as error:
     print(error)
 """
-    code = "import bot_console.runtime.rmw.zenoh.domain_folder\n" + program
+    code = "import bot_console.runtime.rmw.zenoh.domain.folder\n" + program
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     session.close()
     assert result.stdout.splitlines() == [

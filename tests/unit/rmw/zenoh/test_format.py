@@ -1,10 +1,17 @@
 """The wire format of rmw_zenoh against fixed points: captures of live nodes, and hashes that others publish."""
 
 import pytest
-from bot_console.runtime.rmw.zenoh.attachment import gid_of, pack, unpack
-from bot_console.runtime.rmw.zenoh.keys import FormatError, data_key, ros_type
-from bot_console.runtime.rmw.zenoh.qos_text import Durability, History, Reliability, WireQos, decode_qos, encode_qos
-from bot_console.runtime.rmw.zenoh.tokens import TokenNode, entity_token, node_token, parse_token
+from bot_console.runtime.rmw.zenoh.wire.attachment import gid_of, pack, unpack
+from bot_console.runtime.rmw.zenoh.wire.keys import FormatError, data_key, ros_type
+from bot_console.runtime.rmw.zenoh.wire.qos_text import (
+    Durability,
+    History,
+    Reliability,
+    WireQos,
+    decode_qos,
+    encode_qos,
+)
+from bot_console.runtime.rmw.zenoh.wire.tokens import TokenNode, entity_token, node_token, parse_token
 from bot_console.runtime.rosidl import type_hash
 from example_interfaces.srv import AddTwoInts
 from rclpy.duration import Duration

@@ -5,8 +5,8 @@ from types import SimpleNamespace
 import pytest
 from bot_console.runtime.process import on_notice
 from bot_console.runtime.rmw.endpoints import Endpoint, NodeId, SubscriptionEndpoint, own, queue_for
-from bot_console.runtime.rmw.zenoh.attachment import pack
 from bot_console.runtime.rmw.zenoh.inlet import Inlet
+from bot_console.runtime.rmw.zenoh.wire.attachment import pack
 from rclpy.qos import QoSProfile
 from rclpy.serialization import serialize_message
 from std_msgs.msg import String

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 from bot_console.runtime.rmw.zenoh.link_probe import LinkProbe
-from bot_console.runtime.rmw.zenoh.network import Way, client_settings, open_network_session, with_environment
-from bot_console.runtime.rmw.zenoh.reach import Tls, place_of
-from bot_console.runtime.rmw.zenoh.router import Router
+from bot_console.runtime.rmw.zenoh.network.client import Way, client_settings, open_network_session, with_environment
+from bot_console.runtime.rmw.zenoh.network.reach import Tls, place_of
+from bot_console.runtime.rmw.zenoh.network.router import Router
 from bot_console.runtime.rmw.zenoh.session import SessionError
 from bot_console.runtime.rmw.zenoh.settings import Serving
 from certificates import make_certificates

@@ -2,7 +2,7 @@
 
 import time
 
-from bot_console.runtime.rmw.zenoh.domain_bus import share_domains
+from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node

@@ -4,7 +4,7 @@ import os
 import threading
 
 import pytest
-from bot_console.runtime.rmw.zenoh.mesh import open_session
+from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
 from bot_console.runtime.rmw.zenoh.session import Session
 
 PATIENCE = 20.0

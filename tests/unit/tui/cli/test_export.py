@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.runtime.workspace.exporting import NAME
-from bot_console.tui.cli.export import run
+from bot_console.tui.cli.verbs.export import run
 
 
 def contents(place: Path) -> dict[str, bytes]:

@@ -10,7 +10,8 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
-from bot_console.tui.cli import main, setup
+from bot_console.tui.cli import main
+from bot_console.tui.cli.verbs import setup
 
 SHELLS = [each for each in ("bash", "zsh", "fish") if shutil.which(each)]
 OPTIONS = {"bash": ["--norc", "--noprofile"], "zsh": ["-f"], "fish": ["--no-config"]}

@@ -4,8 +4,8 @@ import itertools
 
 import pytest
 import rclpy
-from bot_console.tui.console import linked_console
-from bot_console.tui.console.connection import RosConsole
+from bot_console.tui.console.connection import linked_console
+from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.graph.watch import GraphWatch
 from rclpy.context import Context
 from rigs import PATIENCE, until

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from bot_console.tui.console.connection.no_console import NoCommandLine
+from bot_console.tui.console.connection.read_only import WHY, ReadOnlyCommandLine, ReadOnlyConsole, ReadOnlyLauncher
 from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.console.no_console import NoCommandLine
 from bot_console.tui.console.protocol import Launcher
-from bot_console.tui.console.read_only import WHY, ReadOnlyCommandLine, ReadOnlyConsole, ReadOnlyLauncher
 from fakes import FakeConsole
 from samples import navigator
 

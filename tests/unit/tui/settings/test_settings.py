@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.tui.keymap import TABLE
-from bot_console.tui.remapping import remap, wrong_keys
+from bot_console.tui.keys.remapping import remap, wrong_keys
 from bot_console.tui.settings.names import THEME_NAMES
 from bot_console.tui.settings.settings import TEMPLATE, Settings, read_settings
 from bot_console.tui.theme import THEMES

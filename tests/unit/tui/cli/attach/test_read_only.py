@@ -6,9 +6,9 @@ import pytest
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.attach.options import parse
 from bot_console.tui.cli.attach.session import AttachedSession
-from bot_console.tui.console.connection import RosConsole
-from bot_console.tui.console.no_console import NoCommandLine
-from bot_console.tui.console.read_only import ReadOnlyConsole, ReadOnlyLauncher
+from bot_console.tui.console.connection.no_console import NoCommandLine
+from bot_console.tui.console.connection.read_only import ReadOnlyConsole, ReadOnlyLauncher
+from bot_console.tui.console.connection.ros_console import RosConsole
 
 
 @pytest.mark.parametrize("words", [[], ["--pane", "logs"]])

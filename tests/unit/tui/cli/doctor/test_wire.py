@@ -4,12 +4,12 @@ import json
 import time
 
 import pytest
-from bot_console.runtime.rmw.zenoh.attachment import gid_of, pack, unpack
-from bot_console.runtime.rmw.zenoh.keys import data_key
-from bot_console.runtime.rmw.zenoh.network import Way, open_network_session
-from bot_console.runtime.rmw.zenoh.router import Router
+from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session
+from bot_console.runtime.rmw.zenoh.network.router import Router
 from bot_console.runtime.rmw.zenoh.settings import Serving
-from bot_console.runtime.rmw.zenoh.tokens import TokenNode, entity_token, node_token, parse_token
+from bot_console.runtime.rmw.zenoh.wire.attachment import gid_of, pack, unpack
+from bot_console.runtime.rmw.zenoh.wire.keys import data_key
+from bot_console.runtime.rmw.zenoh.wire.tokens import TokenNode, entity_token, node_token, parse_token
 from bot_console.tui.cli.doctor.finding import Level
 from bot_console.tui.cli.doctor.wire import captured, watch_wire, wire_findings
 from ports import free_port

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 
 import pytest
 import rclpy
-from bot_console.tui.console import linked_console
-from bot_console.tui.console.connection import RosConsole
+from bot_console.tui.console.connection import linked_console
+from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.topics.offers import offered_qos
 from bot_console.tui.console.traffic import Payload

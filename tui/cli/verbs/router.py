@@ -9,7 +9,7 @@ import threading
 from collections.abc import Sequence
 from types import FrameType
 
-from bot_console.runtime.rmw.zenoh.reach import PORT, Tls, place_of
+from bot_console.runtime.rmw.zenoh.network.reach import PORT, Tls, place_of
 from bot_console.runtime.rmw.zenoh.session import Session, SessionError
 from bot_console.runtime.rmw.zenoh.settings import Serving
 
@@ -83,13 +83,13 @@ def warning_of(serving: Serving) -> str:
 
 def _open(serving: Serving, config: str, *, mesh: bool) -> Session:
     if mesh:
-        from bot_console.runtime.rmw.zenoh.mesh import MeshSession
+        from bot_console.runtime.rmw.zenoh.domain.mesh import MeshSession
         from bot_console.tui.cli.system.domain import domain
 
         session = MeshSession(domain(), serving)
         session.watch()
         return session
-    from bot_console.runtime.rmw.zenoh.router import Router
+    from bot_console.runtime.rmw.zenoh.network.router import Router
 
     return Router(serving, config)
 

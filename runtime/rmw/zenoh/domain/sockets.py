@@ -15,7 +15,7 @@ import sys
 from dataclasses import dataclass
 
 from bot_console.runtime.process.real import getpid
-from bot_console.runtime.rmw.zenoh.domain_folder import BASE_VARIABLE
+from bot_console.runtime.rmw.zenoh.domain.folder import BASE_VARIABLE
 
 LONGEST_PATH = 107 if sys.platform == "linux" else 103
 """The bytes that the path of a Unix socket may have; a longer one fails silently on connecting."""

@@ -6,8 +6,8 @@ import shlex
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 
+from bot_console.tui.console.connection.no_console import NoConsole, done
 from bot_console.tui.console.model import LaunchArgument
-from bot_console.tui.console.no_console import NoConsole, done
 from bot_console.tui.console.protocol import Answer, CommandLine, Console, Stream
 from bot_console.tui.console.topics.reading import ReadingTraffic
 from bot_console.tui.console.traffic import Traffic

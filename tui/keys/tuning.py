@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from bot_console.tui.keys import Key
+from bot_console.tui.keys.key import Key
 
 TUNING: Mapping[str, tuple[Key, ...]] = {
     "parameters": (

@@ -99,7 +99,7 @@ def up(words: Sequence[str]) -> int:
 
 def _serving(words: Sequence[str]) -> tuple[list[str], list[str]]:
     """The words for `bot-console router` where others are to be let in, and the rest."""
-    from bot_console.tui.cli.router import add_serving_options, serving_of, warning_of
+    from bot_console.tui.cli.verbs.router import add_serving_options, serving_of, warning_of
 
     parser = argparse.ArgumentParser("bot-console up", add_help=False)
     parser.add_argument("--serve", action="append", metavar="ENDPOINT", default=[])
@@ -167,7 +167,7 @@ def down(words: Sequence[str]) -> int:
 def _bring_to_rest() -> None:
     """A robot that can be held is, until its system has ended; one without an emergency stop ends with its nodes."""
     from bot_console.runtime.importer import install
-    from bot_console.tui.cli import stop
+    from bot_console.tui.cli.verbs import stop
 
     install()
     stop.ask("stop", "its system is being ended")
@@ -197,7 +197,7 @@ def _no_words(command: str, what: str, words: Sequence[str]) -> None:
 
 def _file() -> Path:
     """Where a system in the background is written down: beside the sockets of its domain."""
-    from bot_console.runtime.rmw.zenoh.domain_folder import domain_folder
+    from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
 
     return Path(domain_folder(domain())) / "background.json"
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Callable, Generator, Sequence
 
-from bot_console.runtime.rmw.zenoh.domain_folder import domain_folder
-from bot_console.runtime.rmw.zenoh.joining import folder_lock
+from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
+from bot_console.runtime.rmw.zenoh.domain.joining import folder_lock
+from bot_console.runtime.rmw.zenoh.domain.sockets import live_sockets, own_socket
 from bot_console.runtime.rmw.zenoh.session import ATTENDANCE, Session, SessionError
 from bot_console.runtime.rmw.zenoh.settings import Serving, session_settings
-from bot_console.runtime.rmw.zenoh.sockets import live_sockets, own_socket
 from bot_console.runtime.rmw.zenoh.watch import Watch
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from bot_console.runtime.rmw.zenoh.keys import FormatError, dds_type, demangled, mangled, ros_type
-from bot_console.runtime.rmw.zenoh.qos_text import WireQos, decode_qos
+from bot_console.runtime.rmw.zenoh.wire.keys import FormatError, dds_type, demangled, mangled, ros_type
+from bot_console.runtime.rmw.zenoh.wire.qos_text import WireQos, decode_qos
 
 Kind = Literal["NN", "MP", "MS", "SS", "SC"]
 """Node, publisher, subscription, service server, service client."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from bot_console.runtime.rmw.zenoh.link_probe import LinkProbe, LinkState
-from bot_console.runtime.rmw.zenoh.reach import Tls, why_unreachable
+from bot_console.runtime.rmw.zenoh.network.reach import Tls, why_unreachable
 from bot_console.runtime.rmw.zenoh.session import ATTENDANCE, Session, SessionError, SettingsError
 
 CONFIG_VARIABLE = "ZENOH_SESSION_CONFIG_URI"

@@ -16,6 +16,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from bot_console.tui.console.connection.no_console import CLOSED, STARTING, NoConsole, NothingKnown
 from bot_console.tui.console.model import (
     Capabilities,
     Change,
@@ -30,7 +31,6 @@ from bot_console.tui.console.model import (
     Severity,
     Value,
 )
-from bot_console.tui.console.no_console import CLOSED, STARTING, NoConsole, NothingKnown
 from bot_console.tui.console.parameters.provenance import Learn, Provenance
 from bot_console.tui.console.protocol import Answer, Console, LogView, Samples
 from bot_console.tui.console.traffic import Traffic
@@ -103,7 +103,7 @@ class RosConsole:
     def _serve(self) -> None:
         node: ConsoleNode | None = None
         try:
-            from bot_console.tui.console.linked_console import LinkedConsole
+            from bot_console.tui.console.connection.linked_console import LinkedConsole
             from bot_console.tui.console.logs.store import LogStore
             from bot_console.tui.console.logs.view import LogViews
             from bot_console.tui.console.node import ConsoleNode

@@ -6,8 +6,8 @@ import os
 import threading
 import time
 
+from bot_console.runtime.rmw.zenoh.domain.sockets import Socket
 from bot_console.runtime.rmw.zenoh.session import Session
-from bot_console.runtime.rmw.zenoh.sockets import Socket
 
 PATIENCE = 0.3
 """How long the others have to answer, in s; a running one takes 5 ms."""

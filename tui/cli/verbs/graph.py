@@ -10,7 +10,7 @@ from pathlib import Path
 
 from bot_console.runtime.importer import install
 from bot_console.tui.cli.system.domain import take_part
-from bot_console.tui.console.connection import RosConsole
+from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.graph.expected import Expected, differences, read, written
 from bot_console.tui.console.graph.findings import findings
 from bot_console.tui.console.model import GraphInfo

@@ -8,7 +8,7 @@ from bot_console.runtime.rmw.bus import Bus
 from bot_console.runtime.rmw.local import LocalBus
 from bot_console.runtime.rmw.zenoh.bus import ZenohBus
 from bot_console.runtime.rmw.zenoh.link_probe import LinkState
-from bot_console.runtime.rmw.zenoh.network import NetworkSession, Way, open_network_session
+from bot_console.runtime.rmw.zenoh.network.client import NetworkSession, Way, open_network_session
 
 
 class NetworkBuses:

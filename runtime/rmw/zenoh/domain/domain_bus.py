@@ -10,7 +10,7 @@ from bot_console.runtime.rmw.bus import Bus
 from bot_console.runtime.rmw.local import local_bus
 from bot_console.runtime.rmw.middleware import choose_middleware, is_chosen
 from bot_console.runtime.rmw.zenoh.bus import ZenohBus
-from bot_console.runtime.rmw.zenoh.mesh import open_session
+from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
 
 RANGE_VARIABLE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
 

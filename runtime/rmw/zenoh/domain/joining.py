@@ -8,7 +8,7 @@ import os
 import time
 from collections.abc import Generator
 
-from bot_console.runtime.rmw.zenoh.sockets import is_stopped
+from bot_console.runtime.rmw.zenoh.domain.sockets import is_stopped
 
 PATIENCE = 0.2
 """How long one try for the lock lasts, in s; then it is looked at who holds it."""

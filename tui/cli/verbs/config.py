@@ -69,7 +69,7 @@ def _edit() -> int:
 
 def _keys() -> int:
     from bot_console.tui.keymap import TABLE
-    from bot_console.tui.remapping import remap
+    from bot_console.tui.keys.remapping import remap
 
     remap(read_settings().keys)
     for table in TABLE.values():

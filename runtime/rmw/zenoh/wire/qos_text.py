@@ -8,7 +8,7 @@ from typing import TypeVar
 
 from bot_console.runtime.rmw.qos import Period, Profile
 from bot_console.runtime.rmw.qos_matching import INFINITE
-from bot_console.runtime.rmw.zenoh.keys import FormatError
+from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
 
 DEFAULT_DEPTH = 42
 ENDLESS = 2**63 - 1

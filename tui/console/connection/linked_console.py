@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import Future
 from threading import Event
 
+from bot_console.tui.console.connection.no_console import CLOSED, refused_profile
 from bot_console.tui.console.logs.search import matching
 from bot_console.tui.console.logs.store import LogStore
 from bot_console.tui.console.logs.view import LogViews
@@ -22,7 +23,6 @@ from bot_console.tui.console.model import (
     Severity,
     Value,
 )
-from bot_console.tui.console.no_console import CLOSED, refused_profile
 from bot_console.tui.console.node import ConsoleNode
 from bot_console.tui.console.parameters.shelf import Shelf
 from bot_console.tui.console.protocol import Answer, LogView, Samples

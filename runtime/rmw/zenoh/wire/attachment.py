@@ -5,7 +5,7 @@ from __future__ import annotations
 import struct
 from typing import NamedTuple
 
-from bot_console.runtime.rmw.zenoh.keys import FormatError
+from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
 
 GID_SIZE = 16
 _LAYOUT = struct.Struct("<qqB16s")
