@@ -8,6 +8,7 @@ from bot_console_robot.latch import RELEASE, STOP, Latch, Lock, Request
 from bot_console_robot.stop_messages import lock_of, request_message, request_of, state_message
 from diagnostic_msgs.msg import DiagnosticStatus
 from rclpy.clock import Clock
+from rclpy.event_handler import QoSSubscriptionMatchedInfo, SubscriptionEventCallbacks
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_srvs.srv import Trigger
@@ -39,12 +40,13 @@ class EmergencyStop:
         self._instance = str(steady.now().nanoseconds)
         self._other = other
         self._other_instance = ""
-        self._gone = 0
+        self._others = self._gone = 0
         self._told = self._latch.lock.stops
         self._states = node.create_publisher(DiagnosticStatus, own, LATCHED)
         self._requests = node.create_publisher(DiagnosticStatus, REQUESTS, 10)
         node.create_subscription(DiagnosticStatus, REQUESTS, self._on_request, 10)
-        node.create_subscription(DiagnosticStatus, other, self._on_state, LATCHED)
+        events = SubscriptionEventCallbacks(matched=self._on_matched)
+        node.create_subscription(DiagnosticStatus, other, self._on_state, LATCHED, event_callbacks=events)
         node.create_service(Trigger, "~/stop", self._on_stop)
         node.create_service(Trigger, "~/release", self._on_release)
         node.create_service(Trigger, "~/release_all", self._on_release_all)
@@ -79,6 +81,10 @@ class EmergencyStop:
             self.stop(self._node.get_name(), "the safety monitor was started again while the robot ran")
         self._note(self._latch.follow(lock))
 
+    def _on_matched(self, matched: QoSSubscriptionMatchedInfo) -> None:
+        # To ask the graph for it would make this process follow all of the graph, in which there may be much going on.
+        self._others = matched.current_count
+
     def _on_stop(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         response.message = "locked"
         return self._asked(Request(STOP, self._caller("stop"), "asked for by a service call", SERVICE), response)
@@ -106,7 +112,7 @@ class EmergencyStop:
     def _watch(self) -> None:
         self._note(self._latch.watch(self._now()))
         if self._other == ARBITER and self._other_instance:
-            self._gone = 0 if self._node.count_publishers(ARBITER) else self._gone + 1
+            self._gone = 0 if self._others else self._gone + 1
             if self._gone == GONE:
                 self.stop(self._node.get_name(), "the safety monitor has gone")
 

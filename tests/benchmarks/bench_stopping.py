@@ -99,6 +99,8 @@ LOADS: dict[str, tuple[str, list[str]]] = {
 PATIENCE = 60.0
 BETWEEN = 0.15
 """Seconds between two presses."""
+MORE = 5
+"""How often a release is pressed again."""
 
 
 class Base:
@@ -155,28 +157,44 @@ def wait(true: Callable[[], Any], patience: float = PATIENCE) -> Any:
 def presses(robot: LiveRobot, base: Base, load: str, count: int) -> dict[str, Any]:
     """Press `!` again and again beside a load."""
     program, keys = LOADS[load]
-    times: list[float] = []
-    lost = 0
+    stops: list[float] = []
+    releases: list[float] = []
+    lost = {"stop": 0, "release": 0}
+    again = 0
     with console(robot) as terminal:
         loading = robot.program(program) if program else None
         for each in keys:
             time.sleep(0.5)
             terminal.type(each)
         for _ in range(count):
-            for locked in (True, False):
-                began = time.monotonic()
-                terminal.type("!")
-                answered = wait(lambda: base.says(locked, began), 10.0)  # noqa: B023 # called in this round alone
-                if answered is None:
-                    lost += 1
-                elif locked:
-                    times.append((answered - began) * 1000)
+            for times, locked in ((stops, True), (releases, False)):
+                taken, extra = press(terminal, base, locked)
+                again += extra
+                if taken is None:
+                    lost["stop" if locked else "release"] += 1
+                else:
+                    times.append(taken)
                 time.sleep(BETWEEN)
         if loading is not None:
             loading.kill()
             loading.wait()
     robot.typed("release", "--all")
-    return summary(times) | {"lost": lost}
+    return summary(stops) | {"release": summary(releases), "lost": lost, "pressed again": again}
+
+
+def press(terminal: Terminal, base: Base, locked: bool) -> tuple[float | None, int]:
+    """Press `!` until the base is as wanted: ms from the last press, None where that did not come; presses in between.
+
+    A console that has not heard of a stop's acknowledgement sends the stop again instead of releasing, so a release
+    may take a second press. A stop may not.
+    """
+    for extra in range(1 if locked else 1 + MORE):
+        began = time.monotonic()
+        terminal.type("!")
+        answered = wait(lambda: base.says(locked, began), 10.0 if locked else 2.0)  # noqa: B023 # called here alone
+        if answered is not None:
+            return (answered - began) * 1000, extra
+    return None, extra
 
 
 def first_key_and_quit(robot: LiveRobot, count: int) -> dict[str, Any]:

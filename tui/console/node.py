@@ -35,7 +35,7 @@ from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.console.parameters.setter import ParameterSetter
 from bot_console.tui.console.plot.watch import PlotWatch
 from bot_console.tui.console.protocol import Answer
-from bot_console.tui.console.robot.drive_link import DriveLink
+from bot_console.tui.console.robot.drive_node import DriveNode
 from bot_console.tui.console.robot.world_watch import WorldWatch
 from bot_console.tui.console.topics.room import NodeTraffic
 from bot_console.tui.files.save_file import NotSaved, typed_path
@@ -85,7 +85,8 @@ class ConsoleNode:
         self.calls = Calls(self.node, self.executor)
         self.plots = PlotWatch(self.node)
         self.world = WorldWatch(self.node)
-        self.drive = DriveLink(self.node)
+        self._drive_node = DriveNode(self.context)
+        self.drive = self._drive_node.link
         self.provenance = provenance or Provenance()
         self.parameters = ParameterMirror(self.node, self.calls, self._parameter_changed, self.provenance)
         self._compared: tuple[Profile | None, object, int] = (None, None, 0)
@@ -98,6 +99,7 @@ class ConsoleNode:
 
     def spin(self) -> None:
         """Serve until `close`; in the console's own thread."""
+        self._drive_node.start()
         self.graph.look()
         with contextlib.suppress(ExternalShutdownException):
             self.executor.spin()
@@ -108,6 +110,7 @@ class ConsoleNode:
         self.traffic.close()
         self.calls.close(why)
         self.executor.shutdown(timeout_sec=1.0)
+        self._drive_node.close()
         self.node.destroy_node()
         self.context.try_shutdown()
         self.journal.close()
@@ -116,7 +119,7 @@ class ConsoleNode:
         self._rosout.follow()
         self.parameters.follow(graph)
         self.world.follow(graph)
-        self.drive.follow(graph)
+        self._drive_node.follow(graph)
         self.traffic.follow(graph)
 
     def _parameter_changed(self, node: str, name: str, old: Value, new: Value) -> ChangeSource:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -52,6 +52,32 @@ class Verdict:
     limited: Velocity | None = None
 
 
+@dataclass(frozen=True)
+class Surroundings:
+    """What a graph has of robots."""
+
+    types: Mapping[str, str]
+    """The type of each topic of velocities."""
+    robots: tuple[CommandTopics, ...]
+    locks: frozenset[str]
+    """Topics of the type in which locks tell of themselves."""
+    verdicts: frozenset[str]
+    """Topics of the type in which arbiters tell of their decisions."""
+    simulated: bool
+
+    @classmethod
+    def of(cls, graph: GraphInfo) -> Surroundings:
+        """Look for them."""
+        published = [each for node in graph.nodes for each in node.publishers]
+        return cls(
+            types_of(graph),
+            robots_of(graph),
+            frozenset(each.name for each in published if STATUS in each.types),
+            frozenset(each.name for each in published if DIAGNOSTICS in each.types),
+            any(each.name == CLOCK for each in graph.topics),
+        )
+
+
 class DriveLink:
     """Publishes Twists where the robot listens for a person, and watches the command chain.
 
@@ -71,7 +97,7 @@ class DriveLink:
         self._robots: tuple[CommandTopics, ...] = ()
         self._robot = NOBODY
         self._chosen = ""
-        self._types: dict[str, str] = {}
+        self._types: Mapping[str, str] = {}
         self._simulated = False
         self._acted = False
         self._arbitrated = False
@@ -79,12 +105,14 @@ class DriveLink:
 
     def follow(self, graph: GraphInfo) -> None:
         """Find the robots' command topics, and what goes on on those of the one that is steered."""
-        self._types, self._robots = types_of(graph), robots_of(graph)
-        self._simulated = any(each.name == CLOCK for each in graph.topics)
+        self.take(Surroundings.of(graph))
+
+    def take(self, found: Surroundings) -> None:
+        """Take over what was found in a graph; in the thread that serves the node."""
+        self._types, self._robots, self._simulated = found.types, found.robots, found.simulated
         self._follow_robot()
-        self._stop.follow(each.name for node in graph.nodes for each in node.publishers if STATUS in each.types)
-        told = {each.name for node in graph.nodes for each in node.publishers if DIAGNOSTICS in each.types}
-        self._watch(VERDICT, _topic(told, VERDICT))
+        self._stop.follow(found.locks)
+        self._watch(VERDICT, _topic(found.verdicts, VERDICT))
 
     def _follow_robot(self) -> None:
         usual = (each for each in self._robots if each.standard)
@@ -268,7 +296,7 @@ class DriveLink:
         return self._info
 
 
-def _topic(names: set[str], token: str) -> str:
+def _topic(names: Set[str], token: str) -> str:
     """The shortest topic that ends in a token; empty when there is none."""
     fitting = [name for name in names if name.rsplit("/", 1)[-1] == token]
     return min(fitting, key=lambda name: (len(name), name), default="")

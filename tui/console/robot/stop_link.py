@@ -9,6 +9,7 @@ import getpass
 import json
 import os
 import platform
+import threading
 import time
 import uuid
 from collections.abc import Iterable, Mapping, Sequence
@@ -70,6 +71,7 @@ class StopLink:
         self._steered = 0.0
         self.steering = False
         """Whether this console holds the steering."""
+        self._telling = threading.Lock()
         self.info = StopInfo()
 
     def follow(self, topics: Iterable[str]) -> None:
@@ -92,6 +94,10 @@ class StopLink:
         self._update()
 
     def _update(self) -> None:
+        with self._telling:  # else what was known before could be told after what is known since
+            self._tell()
+
+    def _tell(self) -> None:
         states = [self._states.get(each, {}) for each in list(self._watching)]
         held = [each for each in states if each.get("locked") == "true"]
         confirmed = bool(states) and len(held) == len(states)

@@ -12,7 +12,7 @@ from bot_console.tui.console.query import Query
 from bot_console.tui.console.traffic import Payload
 
 OWN = "/_bot_console"
-"""The console's node, which listens so that something can be shown, and is none of the system."""
+"""How the names of the console's nodes begin, which listen so that something can be shown: none of the system."""
 
 BUILT_IN = (
     "/describe_parameters", "/get_parameter_types", "/get_parameters", "/list_parameters", "/set_parameters",
@@ -81,7 +81,7 @@ def rows(info: GraphInfo, kind: Kind, *, hidden: bool) -> list[Row]:
 
 
 def _take(found: _Found, node: str, end: Endpoint, giving: bool) -> None:
-    if node == OWN:
+    if node.startswith(OWN):
         found.own = True
         return
     found.types.update(dict.fromkeys(end.types))

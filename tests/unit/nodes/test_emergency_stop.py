@@ -1,0 +1,75 @@
+"""The emergency stop of a node on the graph: what it watches, and what it leaves alone."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+
+import pytest
+from bot_console_robot.emergency_stop import ARBITER, BASE, GONE, EmergencyStop
+from rclpy.clock import Clock, ClockType
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.node_parts.graph import NodeGraph
+
+_domains = itertools.count(3500)
+
+
+class Rig:
+    """A base and its safety monitor."""
+
+    def __init__(self) -> None:
+        self.context = Context()
+        self.context.init(["test"], domain_id=next(_domains))
+        self.executor = SingleThreadedExecutor(context=self.context)
+        self.monitor = self.node("safety_monitor")
+        self.stops = [self.stop(self.node("simulator"), BASE, ARBITER), self.stop(self.monitor, ARBITER, BASE)]
+
+    def node(self, name: str) -> Node:
+        made = Node(name, context=self.context)
+        self.executor.add_node(made)
+        return made
+
+    def stop(self, node: Node, own: str, other: str) -> EmergencyStop:
+        return EmergencyStop(node, Clock(clock_type=ClockType.STEADY_TIME), own, other, lambda: None)
+
+    def settle(self, looks: int = 0) -> EmergencyStop:
+        """The base, after so many of its looks at who is there."""
+        for _ in range(looks):
+            self.stops[0]._watch()
+        for _ in range(30):
+            self.executor.spin_once(timeout_sec=0)
+        return self.stops[0]
+
+
+@pytest.fixture
+def rig() -> Iterator[Rig]:
+    made = Rig()
+    yield made
+    for each in made.executor.get_nodes():
+        each.destroy_node()
+    made.context.try_shutdown()
+
+
+def test_a_base_whose_monitor_has_gone_locks_after_some_looks(rig: Rig) -> None:
+    assert not rig.settle().lock.held
+    assert not rig.settle(looks=2 * GONE).lock.held
+    rig.executor.remove_node(rig.monitor)
+    rig.monitor.destroy_node()
+    assert not rig.settle(looks=GONE - 1).lock.held
+    rig.settle(looks=GONE)
+    assert rig.stops[0].lock.reason == "the safety monitor has gone"
+
+
+def test_it_does_not_follow_the_graph_in_which_others_may_make_hundreds_of_nodes(
+    rig: Rig, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def never(self: NodeGraph) -> None:
+        raise AssertionError("the graph was asked for")
+
+    rig.settle()
+    monkeypatch.setattr(NodeGraph, "_ros_tables", never)
+    rig.settle(looks=GONE)
+    rig.stops[0].stop("somebody", "a test")
+    assert rig.settle(looks=GONE).lock.held

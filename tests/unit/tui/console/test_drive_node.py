@@ -1,0 +1,67 @@
+"""What the robot says of its lock is heard while the console's own thread is busy."""
+
+from __future__ import annotations
+
+import itertools
+import threading
+from collections.abc import Iterator
+
+import pytest
+from bot_console.tui.console.connection import linked_console
+from bot_console.tui.console.connection.ros_console import RosConsole
+from bot_console.tui.console.graph.watch import GraphWatch
+from bot_console_robot.emergency_stop import ARBITER, BASE, EmergencyStop
+from rclpy.clock import Clock, ClockType
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rigs import PATIENCE, until
+
+_domains = itertools.count(8200)
+
+
+@pytest.fixture
+def console(monkeypatch: pytest.MonkeyPatch) -> Iterator[RosConsole]:
+    """Linked to a base with its lock."""
+    domain = next(_domains)
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
+    monkeypatch.setattr(linked_console, "LAST_WORD", 0.0)
+    context = Context()
+    context.init(["test"], domain_id=domain)
+    node = Node("simulator", context=context)
+    EmergencyStop(node, Clock(clock_type=ClockType.STEADY_TIME), BASE, ARBITER, lambda: None)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    spinning = threading.Thread(target=executor.spin, daemon=True)
+    spinning.start()
+    made = RosConsole()
+    made.start()
+    assert made.wait_ready(PATIENCE)
+    yield made
+    made.close()
+    executor.shutdown()
+    spinning.join(PATIENCE)
+    node.destroy_node()
+    context.try_shutdown()
+
+
+def test_a_stop_and_its_release_are_acknowledged_while_a_look_at_the_graph_takes_long(
+    console: RosConsole, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    until(lambda: console.snapshot().drive.lockable, "the lock")
+    looking, over = threading.Event(), threading.Event()
+
+    def look(self: GraphWatch) -> None:
+        looking.set()
+        over.wait(PATIENCE)
+
+    monkeypatch.setattr(GraphWatch, "look", look)
+    assert looking.wait(PATIENCE)
+    try:
+        console.all_stop()
+        until(lambda: console.snapshot().drive.stop_confirmed, "the acknowledgement")
+        console.all_stop(False)
+        until(lambda: not console.snapshot().drive.stopped, "the release")
+        assert not over.is_set()
+    finally:
+        over.set()

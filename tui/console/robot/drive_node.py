@@ -1,0 +1,47 @@
+"""The link to the robot in a node and thread of its own, so that a stop waits for nothing else the console does."""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+
+import rclpy
+from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.console.robot.drive_link import DriveLink, Surroundings
+from rclpy.context import Context
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+
+NAME = "_bot_console_drive"
+
+
+class DriveNode:
+    """Serves a `DriveLink`: the robot's word of its lock is heard while graph and parameters are read.
+
+    Beside 500 nodes that come at once the console's own thread is busy for seconds.
+    """
+
+    def __init__(self, context: Context) -> None:
+        self._node = rclpy.create_node(
+            NAME, context=context, use_global_arguments=False, enable_rosout=False, start_parameter_services=False
+        )
+        self._executor = SingleThreadedExecutor(context=context)
+        self._executor.add_node(self._node)
+        self.link = DriveLink(self._node)
+        self._thread = threading.Thread(target=self._spin, name="bot-console-drive", daemon=True)
+
+    def start(self) -> None:
+        """Serve until `close`."""
+        self._thread.start()
+
+    def _spin(self) -> None:
+        with contextlib.suppress(ExternalShutdownException):
+            self._executor.spin()
+
+    def follow(self, graph: GraphInfo) -> None:
+        """Find the robots of a graph; searched here and now, taken over in the thread that serves the link."""
+        self._executor.create_task(self.link.take, Surroundings.of(graph))
+
+    def close(self) -> None:
+        """Serve no more, and leave the graph."""
+        self._executor.shutdown(timeout_sec=1.0)
+        self._node.destroy_node()
