@@ -104,6 +104,8 @@ def _curves(word: str) -> list[str]:
 
 
 def matching(wanted: str, known: Sequence[str]) -> list[str]:
-    """The paths that a word of `rqt_plot` means: itself, or every number of the topic that it names."""
+    """The paths that a word of `rqt_plot` means: itself, or every number of its topic, arrays left out."""
     path = wanted if wanted.startswith("/") else f"/{wanted}"
-    return [path] if path in known else [each for each in known if each.startswith(f"{path}/")]
+    if path in known:
+        return [path]
+    return [each for each in known if each.startswith(f"{path}/") and not each.endswith(("]", "()"))]

@@ -50,6 +50,15 @@ VERBS = (
     "launch p f.launch.py a:=1",
     "topic pub --qos-depth 3 /a b c --once",
 )
+EXPRESSIONS = (
+    "0.5*2 - sqrt(x)/4",
+    "/a/x - /b/x.y[0] ** 2",
+    "deg(/odom/pose.pose.orientation.yaw())",
+    "mean(/scan/ranges[0:10].min(), 500 ms) % 3",
+    "hypot(/a/x, derivative(/a/y)) // -/n:p.q",
+    "min(/scan/ranges) + max(/a, /b, pi)",
+    "0x1f + 1_000e-3 * wrap(atan2(/a, /b))",
+)
 LINES = (
     "ros2 topic echo /odom --once",
     "rqt_plot /odom/twist/x:y /a/b",

@@ -32,7 +32,7 @@ def targets() -> list[Target]:
     from bot_console.runtime.rmw.parameter_overrides import ParameterYamlError
     from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
     from bot_console.runtime.rosidl.parse import DefinitionError
-    from bot_console.tui.console.plot.series import NotPlottable
+    from bot_console.tui.console.plot.arrays import NotPlottable
     from bot_console.tui.files.save_file import NotSaved
     from bot_console.tui.layout.form import NoLayout
     from bot_console_robot.simulation.world import WorldError
@@ -80,10 +80,11 @@ def targets() -> list[Target]:
         ),
         Target(
             "plot path",
-            seeds.texts("pose.pose/position.x", "ranges[0]", "pose.covariance[35]", "header.stamp.sec"),
+            seeds.texts("pose.pose/position.x", "ranges[0]", "ranges[1:9].min()", "pose.pose.orientation.yaw()"),
             typed.plot,
             (NotPlottable,),
         ),
+        Target("expression", seeds.texts(*seeds.EXPRESSIONS), typed.expression, (ValueError,)),
         Target(
             "definition msg",
             seeds.files(

@@ -101,14 +101,29 @@ def log() -> Any:
 
 
 def plot(text: str) -> None:
-    from bot_console.tui.console.plot.series import NotPlottable, parse_steps, reader
+    from bot_console.tui.console.plot.series import NotPlottable, parse_path, reader
     from geometry_msgs.msg import PoseWithCovarianceStamped
     from sensor_msgs.msg import LaserScan
 
-    read = reader(parse_steps(text))
+    read = reader(*parse_path(text))
     for message in (LaserScan(ranges=[1.0]), PoseWithCovarianceStamped()):
         with contextlib.suppress(NotPlottable):
             read(message)
+
+
+def expression(text: str) -> None:
+    import numpy as np
+    from bot_console.tui.panes.plot.formula import Held, read, split
+    from bot_console.tui.text.expression.numbers import evaluate
+
+    with contextlib.suppress(ValueError):
+        evaluate(text, {"x": 2.0})
+    split(text)
+    found = read(text)
+    if not isinstance(found, str):
+        held = Held(np.arange(50.0), np.linspace(-1.0, 1.0, 50))
+        times, values = found.values(dict.fromkeys(found.paths, held))
+        assert len(times) == len(values) == 50
 
 
 def typed_value(text: str) -> None:

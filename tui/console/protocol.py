@@ -38,6 +38,8 @@ class Samples:
     """Give this back to receive only what came after."""
     problem: str = ""
     """Why no samples come, for instance that an array is empty; empty when all is well."""
+    headers: Sequence[float] = ()
+    """The times in the headers of the messages, on the same axis, NaN where there is none; empty: nowhere."""
 
 
 class LogNumbers(Protocol):
@@ -170,7 +172,11 @@ class Console(ConsoleReading, Protocol):
         ...
 
     def watch(self, path: str) -> Answer:
-        """Collect a series: `/topic/field.sub[2]` or `/node:parameter`; says in words why it cannot be plotted."""
+        """Collect a series; says in words why it cannot be plotted.
+
+        `/topic/field.sub[2]`, `/topic/array[2:8].mean()` (or min, max, sum, std, len; yaw of a quaternion), or
+        `/node:parameter`.
+        """
         ...
 
     def unwatch(self, path: str) -> None:

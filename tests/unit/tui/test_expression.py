@@ -7,7 +7,7 @@ import math
 import pytest
 from bot_console.tui.console.model import Kind, ParameterInfo, Range, Value
 from bot_console.tui.panes.parameters.editing import at_share, stepped, typed_value
-from bot_console.tui.text.expression import evaluate
+from bot_console.tui.text.expression.numbers import evaluate
 
 
 @pytest.mark.parametrize(

@@ -2,66 +2,89 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, cast
+from typing import Any, TypeAlias, cast
 
 import numpy as np
+from bot_console.tui.console.plot.arrays import NotPlottable, make
 from bot_console.tui.console.protocol import Samples
+from bot_console.tui.text.expression.tree import OF_ARRAYS
 
-STEP = re.compile(r"([A-Za-z_]\w*)|\[(-?\d+)\]")
+STEP = re.compile(r"([A-Za-z_]\w*)|\[(-?\d+)\]|\[(-?\d*):(-?\d*)\]")
+Step: TypeAlias = "str | int | slice[int | None]"
 
 
 class Series:
     """A ring of samples; times in s, one cursor step for each sample."""
 
     def __init__(self, capacity: int = 20_000) -> None:
-        self._times = np.zeros(capacity)
-        self._values = np.zeros(capacity)
+        self._samples = np.zeros((3, capacity))
         self._capacity = capacity
         self._end = 0
 
-    def add(self, time: float, value: float) -> None:
-        """Append one sample; the oldest falls out of a full ring."""
-        at = self._end % self._capacity
-        self._times[at] = time
-        self._values[at] = value
+    def add(self, time: float, value: float, header: float = math.nan) -> None:
+        """Append one sample, with the time in its message's header; the oldest falls out of a full ring."""
+        self._samples[:, self._end % self._capacity] = (time, value, header)
         self._end += 1
 
     def after(self, cursor: int) -> Samples:
         """Samples from the cursor on, oldest first."""
         end = self._end
         begin = max(cursor, end - self._capacity, 0)
-        where = np.arange(begin, end) % self._capacity
-        return Samples(self._times[where], self._values[where], end)  # type: ignore[arg-type] -- numpy numbers count as numbers
+        times, values, headers = self._samples[:, np.arange(begin, end) % self._capacity]
+        return Samples(times, values, end, headers=headers)  # type: ignore[arg-type] -- numpy numbers count as numbers
 
 
-class NotPlottable(Exception):
-    """A path that cannot be plotted; the text says why."""
+def parse_path(text: str) -> tuple[tuple[Step, ...], str]:
+    """The steps of a field path and what is made of the array there, if anything; raises `NotPlottable`.
+
+    `linear.x`, `pose/position.x`, `ranges[3]`, `ranges[10:20].min()`.
+    """
+    path, dot, made = text.rpartition(".")
+    if not (dot and made.endswith("()")):
+        return parse_steps(text), ""
+    if made[:-2] not in OF_ARRAYS:
+        raise NotPlottable(f"of an array there are {', '.join(OF_ARRAYS)}, not {made[:-2] or 'nothing'}")
+    return parse_steps(path), made[:-2]
 
 
-def parse_steps(text: str) -> tuple[str | int, ...]:
-    """The steps of a field path such as `linear.x`, `pose/position.x` or `ranges[3]`; raises `NotPlottable`."""
-    steps: list[str | int] = []
+def parse_steps(text: str) -> tuple[Step, ...]:
+    """The steps of a field path; raises `NotPlottable`."""
+    steps: list[Step] = []
     for part in re.split(r"[./]", text):
         whole = 0
         for match in STEP.finditer(part):
             if match.start() != whole:
                 break
             whole = match.end()
-            steps.append(match[1] if match[1] else int(match[2]))
+            steps.append(_step(match))
         if whole != len(part) or not part:
             raise NotPlottable(f"'{text}' is not a field path; write for instance linear.x or ranges[0]")
     return tuple(steps)
 
 
-def reader(steps: Sequence[str | int]) -> Callable[[Any], float]:
+def _step(match: re.Match[str]) -> Step:
+    if match[1]:
+        return match[1]
+    try:
+        if match[2]:
+            return int(match[2])
+        return slice(*(int(each) if each.strip("-") else None for each in (match[3], match[4])))
+    except ValueError:
+        raise NotPlottable(f"{match[0][:20]} is too large a number") from None
+
+
+def reader(steps: Sequence[Step], made: str = "") -> Callable[[Any], float]:
     """A function that takes a message to the number at the path; it raises `NotPlottable` where there is none."""
 
     def read(message: Any) -> float:
         value = message
         for step in steps:
             value = _follow(value, step)
+        if made:
+            return make(value, made, _name(steps))
         if isinstance(value, (bool, int, float, np.number)):
             return float(cast("float", value))
         if isinstance(value, bytes) and len(value) == 1:
@@ -71,8 +94,8 @@ def reader(steps: Sequence[str | int]) -> Callable[[Any], float]:
     return read
 
 
-def _follow(value: Any, step: str | int) -> Any:
-    if isinstance(step, int):
+def _follow(value: Any, step: Step) -> Any:
+    if not isinstance(step, str):
         try:
             return value[step]
         except (IndexError, TypeError, KeyError):
@@ -89,8 +112,12 @@ def _kind(value: Any) -> str:
         return "a message with the fields " + ", ".join(value.get_fields_and_field_types())
     if isinstance(value, str):
         return "text"
-    return "an array; add [0] for its first element" if hasattr(value, "__len__") else f"of type {type(value).__name__}"
+    return (
+        "an array; add [0] for its first element, or .mean() or .min()"
+        if hasattr(value, "__len__")
+        else f"of type {type(value).__name__}"
+    )
 
 
-def _name(steps: Sequence[str | int]) -> str:
-    return "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in steps).lstrip(".") or "the message"
+def _name(steps: Sequence[Step]) -> str:
+    return "".join(f".{step}" if isinstance(step, str) else "[…]" for step in steps).lstrip(".") or "the message"

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
-import importlib
+import math
 import time
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from bot_console.tui.console.model import GraphInfo, Kind, ParameterTree, Value
-from bot_console.tui.console.plot.series import NotPlottable, Series, parse_steps, reader
+from bot_console.tui.console.plot.arrays import NotPlottable
+from bot_console.tui.console.plot.paths import example, message_class, number_paths
+from bot_console.tui.console.plot.series import Series, parse_path, reader
 from bot_console.tui.console.protocol import Answer, Samples
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 
 PLOT_QOS = QoSProfile(depth=50, reliability=ReliabilityPolicy.BEST_EFFORT)
+OTHER_CLOCK = 3600.0
+"""A header's time that is so far (s) from when its message came is a simulator's."""
 NUMBERS = (Kind.BOOL, Kind.INTEGER, Kind.DOUBLE)
 
 
@@ -34,6 +39,8 @@ class PlotWatch:
         self._start = time.monotonic()
         self._started_at = time.time_ns()
         self._watched: dict[str, _Watched] = {}
+        self._other_clock: float | None = None
+        """What is added to the times of a simulator's clock, so that its messages are seen beside others."""
 
     def now(self) -> float:
         """Seconds since the console's start, the time axis of all series."""
@@ -70,10 +77,11 @@ class PlotWatch:
     def _watch_topic(self, path: str, graph: GraphInfo) -> None:
         topic, types, rest = _split(path, graph)
         if not rest:
-            raise NotPlottable(f"name a field of {topic} as well, for instance {topic}/{_example(types[0])}")
-        read = reader(parse_steps(rest))
+            raise NotPlottable(f"name a field of {topic} as well, for instance {topic}/{example(types[0])}")
+        steps, made = parse_path(rest)
+        read = reader(steps, made)
         kind = message_class(types[0])
-        if not _has_elements(rest):
+        if "[" not in rest:
             read(kind())
         watched = self._watched[path] = _Watched()
         watched.subscription = self._node.create_subscription(kind, topic, self._collector(watched, read), PLOT_QOS)
@@ -81,12 +89,24 @@ class PlotWatch:
     def _collector(self, watched: _Watched, read: Callable[[Any], float]) -> Callable[[Any], None]:
         def collect(message: Any) -> None:
             try:
-                watched.series.add(self.now(), read(message))
+                watched.series.add(self.now(), read(message), self._header_time(message))
                 watched.problem = ""
             except NotPlottable as error:
                 watched.problem = str(error)
 
         return collect
+
+    def _header_time(self, message: Any) -> float:
+        """The time in a message's header on the axis; NaN where there is none."""
+        stamp = getattr(getattr(message, "header", None), "stamp", None)
+        if stamp is None or not (stamp.sec or stamp.nanosec):
+            return math.nan
+        time = self.axis_time(stamp.sec * 1_000_000_000 + stamp.nanosec)
+        if abs(time - self.now()) < OTHER_CLOCK:
+            return time
+        if self._other_clock is None:
+            self._other_clock = self.now() - time
+        return time + self._other_clock
 
     def parameter_is(self, node: str, name: str, value: Value) -> None:
         """A parameter has this value from now on."""
@@ -106,26 +126,17 @@ class PlotWatch:
         if watched is None:
             return Samples((), (), after)
         new = watched.series.after(after)
-        return Samples(new.times, new.values, new.cursor, watched.problem)
+        return replace(new, problem=watched.problem)
 
     def plottable(self, graph: GraphInfo, trees: Mapping[str, ParameterTree]) -> Sequence[str]:
-        """Every path to a number: fields of the graph's topics, and parameters."""
+        """Paths to numbers: fields of the graph's topics and parameters, then elements and what is made of arrays."""
         paths = [
-            f"{topic.name}/{field}" for topic in graph.topics for field in _number_fields(topic.types[0]) if topic.types
+            f"{topic.name}/{field}" for topic in graph.topics if topic.types for field in number_paths(topic.types[0])
         ]
         paths += [
             f"{tree.node}:{each.name}" for tree in trees.values() for each in tree.parameters if each.kind in NUMBERS
         ]
-        return sorted(paths)
-
-
-def message_class(type_name: str) -> Any:
-    """The class of a type such as `std_msgs/msg/String`; raises `NotPlottable` when it is not installed."""
-    package, _, rest = type_name.partition("/")
-    try:
-        return getattr(importlib.import_module(f"{package}.msg"), rest.rsplit("/", 1)[-1])
-    except (ImportError, AttributeError):
-        raise NotPlottable(f"the message type {type_name} is not known here") from None
+        return sorted(paths, key=lambda path: (path.endswith("()"), path.endswith("]"), path))
 
 
 def _split(path: str, graph: GraphInfo) -> tuple[str, tuple[str, ...], str]:
@@ -138,31 +149,3 @@ def _split(path: str, graph: GraphInfo) -> tuple[str, tuple[str, ...], str]:
         raise NotPlottable(f"no topic of that name; '{path}' should begin with one of the topics of this system")
     topic = max(fitting, key=lambda each: len(each.name))
     return topic.name, topic.types, path[len(topic.name) + 1 :]
-
-
-def _has_elements(rest: str) -> bool:
-    return "[" in rest
-
-
-def _number_fields(type_name: str, depth: int = 4) -> list[str]:
-    """Paths of the numbers in a message type, nested ones too; arrays are left out."""
-    if depth == 0:
-        return []
-    try:
-        fields = message_class(type_name).get_fields_and_field_types()
-    except NotPlottable:
-        return []
-    found: list[str] = []
-    for name, kind in fields.items():
-        if kind in ("boolean", "float", "double", "octet") or (
-            kind.startswith(("int", "uint")) and "[" not in kind and "<" not in kind
-        ):
-            found.append(name)
-        elif "/" in kind and "[" not in kind and "<" not in kind:
-            package, _, short = kind.partition("/")
-            found += [f"{name}.{rest}" for rest in _number_fields(f"{package}/msg/{short}", depth - 1)]
-    return found
-
-
-def _example(type_name: str) -> str:
-    return next(iter(_number_fields(type_name)), "data")

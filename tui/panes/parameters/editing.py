@@ -6,7 +6,7 @@ import math
 
 from bot_console.tui.console.model import Kind, ParameterInfo, Value
 from bot_console.tui.format import parse_value, range_text
-from bot_console.tui.text.expression import evaluate
+from bot_console.tui.text.expression.numbers import evaluate
 from bot_console.tui.text.units import factor, split_unit
 
 NUMBERS = (Kind.INTEGER, Kind.DOUBLE)

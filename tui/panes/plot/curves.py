@@ -27,6 +27,10 @@ class Curve:
     values: Array = field(default_factory=_empty)
     cursor: int = 0
     problem: str = ""
+    headers: Array = field(default_factory=_empty)
+    """The times in the headers of the messages; NaN where a message has none."""
+    by_header: bool = False
+    """Whether samples lie where their headers say, instead of where they came."""
 
     @property
     def steps(self) -> bool:
@@ -38,33 +42,58 @@ class Curve:
         """The newest value."""
         return float(self.values[-1]) if len(self.values) else None
 
+    @property
+    def end(self) -> float | None:
+        """The time of the newest sample."""
+        times = self.samples()[0]
+        return float(times[-1]) if len(times) else None
+
+    def samples(self) -> tuple[Array, Array]:
+        """All times, rising, and values."""
+        if not self.by_header or len(self.headers) != len(self.times):
+            return self.times, self.values
+        times = np.where(np.isfinite(self.headers), self.headers, self.times)
+        if np.all(times[1:] >= times[:-1]):
+            return times, self.values
+        order = np.argsort(times, kind="stable")
+        return times[order], self.values[order]
+
+    def at(self, time: float) -> float | None:
+        """The value that was the newest one at a time; None before the first."""
+        times, values = self.samples()
+        place = int(np.searchsorted(times, time, side="right")) - 1
+        return float(values[place]) if place >= 0 else None
+
     def take_in(self, console: Console) -> bool:
         """Fetch new samples; whether there were any."""
         samples = console.samples(self.path, self.cursor)
         changed = self.problem != samples.problem or samples.cursor != self.cursor
         self.cursor, self.problem = samples.cursor, samples.problem
         if len(samples.times):
-            self.times = np.concatenate([self.times, np.asarray(samples.times, float)])[-MOST:]
+            new = np.asarray(samples.times, float)
+            headers = np.asarray(samples.headers, float) if len(samples.headers) else np.full(len(new), np.nan)
+            self.times = np.concatenate([self.times, new])[-MOST:]
             self.values = np.concatenate([self.values, np.asarray(samples.values, float)])[-MOST:]
+            self.headers = np.concatenate([self.headers, headers])[-MOST:]
         return changed
 
     def clear(self) -> None:
         """Forget the samples, but for the newest value of a parameter, which still holds."""
-        keep = 1 if self.steps else 0
-        self.times = self.times[len(self.times) - min(keep, len(self.times)) :]
-        self.values = self.values[len(self.values) - min(keep, len(self.values)) :]
+        first = len(self.times) - min(1 if self.steps else 0, len(self.times))
+        self.times, self.values, self.headers = self.times[first:], self.values[first:], self.headers[first:]
 
     def between(self, start: float, end: float) -> tuple[Array, Array]:
         """The polyline from `start` to `end` (s): samples inside, one more on either side; NaN breaks it."""
-        times, values = self.times, np.where(np.isfinite(self.values), self.values, np.nan)
+        times, values = self.samples()
+        values = np.where(np.isfinite(values), values, np.nan)
         if self.steps and len(times):
-            times, values = _held(times, values, end)
+            times, values = stepped(times, values, end)
         first = max(0, int(np.searchsorted(times, start)) - 1)
         last = int(np.searchsorted(times, end, side="right")) + 1
         return times[first:last], values[first:last]
 
 
-def _held(times: Array, values: Array, end: float) -> tuple[Array, Array]:
+def stepped(times: Array, values: Array, end: float) -> tuple[Array, Array]:
     """Steps: each value holds until the next one, the last one until the end."""
     moments = np.repeat(times, 2)[1:]
     held = np.repeat(values, 2)[:-1]

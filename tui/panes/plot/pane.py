@@ -89,7 +89,7 @@ class PlotPane(Pane):
         known = self.console.plottable()
         for wanted in DEFAULTS:
             path = next((each for each in known if each.endswith(wanted)), None)
-            if path is not None and path not in self.paths and self.console.watch(path).ok:
+            if path is not None and path not in self.paths:
                 self._timeline.add(path)
 
     def expect(self, wanted: Sequence[str]) -> None:
@@ -229,7 +229,9 @@ class PlotPane(Pane):
         self.ask(Asked("plot", self._add_all, text="/", suggestions=known))
 
     def _add_all(self, paths: str) -> None:
-        for path in paths.split(","):
+        from bot_console.tui.panes.plot.formula import split
+
+        for path in split(paths):
             self.add(path)
 
     def add(self, path: str) -> None:
@@ -238,9 +240,8 @@ class PlotPane(Pane):
         path = path.strip()
         if not path or path in self.paths:
             return
-        answer = self.console.watch(path)
+        answer = self._timeline.add(path)
         if answer.ok:
-            self._timeline.add(path)
             self._chosen = len(self.paths) - 1
         else:
             self.notify(answer.text, title="Not plotted", severity="warning", markup=False)
@@ -255,7 +256,6 @@ class PlotPane(Pane):
         self.draw()
 
     def _drop(self, at: int) -> None:
-        self.console.unwatch(self.paths[at])
         self._timeline.remove(at)
 
     def action_remove_all(self) -> None:

@@ -7,11 +7,12 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from bot_console.tui.console.model import Change
-from bot_console.tui.console.protocol import Console
+from bot_console.tui.console.protocol import Answer, Console
 from bot_console.tui.format import value_text
 
 if TYPE_CHECKING:
     from bot_console.tui.panes.plot.curves import Curve
+    from bot_console.tui.panes.plot.formula import Formula
     from bot_console.tui.panes.plot.view import Axes, Mark
 
 WINDOWS = (1.0, 2.0, 5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0)
@@ -35,6 +36,11 @@ class Timeline:
     def __init__(self, console: Console) -> None:
         self._console = console
         self.curves: list[Curve] = []
+        self.by_header = False
+        """Whether samples lie where the headers of their messages say."""
+        self._sources: dict[str, Curve] = {}
+        self._uses: dict[str, tuple[str, ...]] = {}
+        """The paths that each curve needs."""
         self.marks: list[Mark] = []
         self.window = 30.0
         self.limits: tuple[float, float] | None = None
@@ -43,30 +49,79 @@ class Timeline:
         self.cursor: float | None = None
         """The moment that is looked at, s."""
 
-    def add(self, path: str) -> None:
-        """One more curve, in the first free colour."""
-        from bot_console.tui.panes.plot.curves import Curve
+    def add(self, text: str) -> Answer:
+        """One more curve, of a path or an expression, in the first free colour; says why not."""
+        from bot_console.tui.panes.plot.computed import Computed
+        from bot_console.tui.panes.plot.formula import read
 
+        found: Formula | str = text
+        if text not in self._console.plottable():
+            try:
+                found = read(text)
+            except ValueError as error:
+                if any(each in "()*+-% " for each in text):
+                    return Answer(False, f"{text}: {error}")
+        if any(each.path == (found if isinstance(found, str) else text) for each in self.curves):
+            return Answer(True, text)
+        paths = (found,) if isinstance(found, str) else found.paths
+        for at, path in enumerate(paths):
+            answer = self._console.watch(path) if path not in self._sources else Answer(True)
+            if not answer.ok:
+                self._forget(paths[:at])
+                return answer
+        sources = {path: self._source(path) for path in paths}
         used = {each.colour for each in self.curves}
         colour = next((each for each in range(COLOURS) if each not in used), len(self.curves) % COLOURS)
-        self.curves.append(Curve(path, colour))
+        if isinstance(found, str):
+            curve = sources[found]
+            curve.colour = colour
+        else:
+            curve = Computed(found, colour, sources)
+        self.curves.append(curve)
+        self._uses[curve.path] = paths
+        return Answer(True, text)
+
+    def _source(self, path: str) -> Curve:
+        from bot_console.tui.panes.plot.curves import Curve
+
+        found = self._sources.get(path)
+        if found is None:
+            found = self._sources[path] = Curve(path, by_header=self.by_header)
+        return found
 
     def remove(self, at: int) -> None:
-        """Forget a curve."""
-        del self.curves[at]
+        """Forget a curve, and its samples where no other one needs them."""
+        paths = self._uses.pop(self.curves.pop(at).path)
+        self._forget(paths)
+
+    def _forget(self, paths: Sequence[str]) -> None:
+        needed = {path for paths in self._uses.values() for path in paths}
+        for path in paths:
+            if path not in needed:
+                self._sources.pop(path, None)
+                self._console.unwatch(path)
+
+    def time_of(self, by_header: bool) -> None:
+        """Place samples by the headers of messages, or by when these came."""
+        self.by_header = by_header
+        for each in self._sources.values():
+            each.by_header = by_header
 
     def clear(self) -> None:
         """Forget all samples and marks."""
-        for each in self.curves:
+        for each in self._sources.values():
             each.clear()
         self.marks.clear()
 
     def take_in(self) -> bool:
         """Fetch new samples; whether anything has to be drawn."""
-        before = sum(each.cursor for each in self.curves)
-        changed = any([each.take_in(self._console) for each in self.curves])
+        before = sum(each.cursor for each in self._sources.values())
+        changed = any([each.take_in(self._console) for each in self._sources.values()])
+        for each in self.curves:
+            if each.path not in self._sources:
+                each.take_in(self._console)
         if self.paused_at is not None:
-            self.new_samples += sum(each.cursor for each in self.curves) - before
+            self.new_samples += sum(each.cursor for each in self._sources.values()) - before
         return changed
 
     def marks_of(self, changes: Sequence[Change]) -> None:
@@ -113,7 +168,7 @@ class Timeline:
 
     def newest(self) -> float:
         """The time of the newest sample of a topic; with parameters alone, now."""
-        streams = [float(each.times[-1]) for each in self.curves if len(each.times) and not each.steps]
+        streams = [end for each in self.curves if not each.steps and (end := each.end) is not None]
         return max(streams) if streams else self._console.plot_time()
 
     def axes(self, across: int) -> Axes:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from bot_console.tui.console.model import Change
 from bot_console.tui.panes.plot.curves import Array
-from bot_console.tui.text.expression import evaluate
+from bot_console.tui.text.expression.numbers import evaluate
 
 SETS = ("set A", "set B")
 """What changes belong to whose responses are compared."""

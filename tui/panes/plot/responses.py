@@ -44,7 +44,7 @@ class Responses:
         for name, start in sorted(starts.items()):
             later = [each for each in starts.values() if each > start]
             end = min([start + window, *later])
-            one = response(name, curve.times, curve.values, start, end)
+            one = response(name, *curve.samples(), start, end)
             if one is not None:
                 found.append(one)
         return found
@@ -73,8 +73,7 @@ class Responses:
         if curve is None:
             return None
         end = self.console.plot_time(self._moments[of.name]) + float(of.times[-1])
-        before = curve.values[curve.times <= end]
-        return float(before[-1]) if len(before) else None
+        return curve.at(end)
 
     def caption(self, curves: Sequence[Curve], chosen: int) -> str:
         """What is compared with what."""

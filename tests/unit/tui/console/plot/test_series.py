@@ -1,7 +1,11 @@
 """Series and paths into messages."""
 
+import math
+
 import pytest
-from bot_console.tui.console.plot.series import NotPlottable, Series, parse_steps, reader
+from bot_console.tui.console.plot.arrays import NotPlottable
+from bot_console.tui.console.plot.paths import number_paths
+from bot_console.tui.console.plot.series import Series, parse_path, parse_steps, reader
 
 
 def test_samples_are_read_by_cursor_and_the_oldest_fall_out() -> None:
@@ -47,3 +51,36 @@ def test_reading_a_message() -> None:
         reader(("data",))(String())
     with pytest.raises(NotPlottable, match=r"no element \[9\]"):
         reader(("ranges", 9))(LaserScan())
+
+
+def test_an_array_becomes_one_number_and_what_hits_nothing_counts_for_nothing():
+    from geometry_msgs.msg import Quaternion
+    from sensor_msgs.msg import LaserScan
+
+    scan = LaserScan(ranges=[4.0, float("inf"), 1.0, 2.0])
+    made = {
+        name: reader(*parse_path(f"ranges{where}.{name}()"))(scan)
+        for name, where in {"min": "", "max": "[1:3]", "mean": "[2:]", "sum": "[:1]", "len": "", "std": "[-1:]"}.items()
+    }
+    assert made == {"min": 1.0, "max": 1.0, "mean": 1.5, "sum": 4.0, "len": 4.0, "std": 0.0}
+    assert math.isnan(reader(*parse_path("ranges[1:2].min()"))(scan)), "nothing finite is a gap"
+    turned = Quaternion(z=0.5**0.5, w=0.5**0.5)
+    from geometry_msgs.msg import Pose
+
+    assert reader(*parse_path("orientation.yaw()"))(Pose(orientation=turned)) == pytest.approx(1.5707963)
+    for path, why in (
+        ("angle_min.mean()", "no array"), ("header.frame_id.len()", "no array"), ("ranges.yaw()", "no quaternion"),
+        ("ranges[0:2]", "not a number"), ("header.min()", "no array"),
+    ):  # fmt: skip
+        with pytest.raises(NotPlottable, match=why):
+            reader(*parse_path(path))(scan)
+    with pytest.raises(NotPlottable, match="there are min, max, mean"):
+        parse_path("ranges.median()")
+
+
+def test_suggested_paths_name_fields_then_elements_then_what_is_made_of_arrays():
+    paths = number_paths("sensor_msgs/msg/LaserScan")
+    assert paths[0] == "header.stamp.sec" and paths.index("range_max") < paths.index("ranges[0]")
+    assert paths[-3:] == ("intensities.min()", "intensities.max()", "intensities.mean()")
+    assert "pose.pose.orientation.yaw()" in number_paths("nav_msgs/msg/Odometry")
+    assert number_paths("no_such/msg/Thing") == ()

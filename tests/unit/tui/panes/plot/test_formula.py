@@ -1,0 +1,106 @@
+"""Expressions over paths: what is understood, what is refused in words, and which samples they need."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from bot_console.tui.panes.plot.formula import Formula, Held, read, split
+from bot_console.tui.panes.plot.parts import Timeline
+from fakes import FakeConsole
+
+A, B = "/a/x", "/b/pose.position.y[0]"
+
+
+def values(text: str) -> list[float]:
+    formula = read(text)
+    assert isinstance(formula, Formula)
+    times = np.arange(4.0)
+    held = {A: Held(times, np.array([1.0, 2.0, 4.0, 8.0])), B: Held(times, np.array([3.0, 3.0, 3.0, 4.0]))}
+    return formula.values({**held, "/n:gain.k": Held(np.array([1.5]), np.array([10.0]), steps=True)})[1].tolist()
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        (f"{A} - {B}", [-2, -1, 1, 4]),
+        (f"{A}-{B}*2", [-5, -4, -2, 0]),
+        (f"-{A}**2", [-1, -4, -16, -64]),
+        (f"2 / {A} / 2", [1, 0.5, 0.25, 0.125]),
+        (f"{A} // 3 + {A} % 3", [1, 2, 2, 4]),
+        (f"derivative({A})", [np.nan, 1, 2, 4]),
+        (f"mean({A}, 2 s)", [1, 1.5, 3, 6]),
+        (f"max({B}, 1500 ms) - min({A}, 0.1 min)", [2, 2, 2, 3]),
+        (f"{A} * /n:gain.k", [np.nan, np.nan, 40, 80]),
+        (f"hypot({A}, 0) + max({A}, {B}, 5)", [6, 7, 9, 16]),
+        (f"std({A}, 1.5 s)", [0, 0.5, 1, 2]),
+        (f"round(wrap(rad({A} * 100)) * 100)", [175, -279, 70, 140]),
+    ],
+)
+def test_what_is_worked_out(text: str, wanted: list[float]) -> None:
+    assert values(text) == pytest.approx(wanted, nan_ok=True)
+
+
+@pytest.mark.parametrize(
+    ("text", "path"),
+    [
+        ("min(/scan/ranges)", "/scan/ranges.min()"),
+        ("/scan/ranges[10:20].mean()", "/scan/ranges[10:20].mean()"),
+        (" yaw(/odom/pose.pose.orientation) ", "/odom/pose.pose.orientation.yaw()"),
+        ("/n:a.b", "/n:a.b"),
+    ],
+)
+def test_what_is_made_of_each_message_is_a_path(text: str, path: str) -> None:
+    assert read(text) == path
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("2 + 3", "name a path"), ("/a/x +", "at the end"), ("/a/x 2", "operator"), ("(/a/x", "bracket is missing"),
+        ("speed + /a/x", "no path; paths begin with /"), ("sine(/a/x)", "none of derivative, abs"),
+        ("mean(/a/x + 1)", r"write mean\(a path, 1 s\)"), ("mean(1 s, /a/x)", "stands last"),
+        ("atan2(/a/x)", "takes 2"),
+        ("/a/x + 1 s", "only at the end"), ("derivative(/a/x, 1 s)", "over a length of time"),
+        ("mean(/a/x, 0 s)", "more than 0"), ("__import__('os')", "at ''os'"), ("/a/x.__class__()", "operator"),
+        ("(" * 50 + "/a/x", "within each other"), ("/a/x+" * 90 + "1", "400 letters"), ("", "nothing was typed"),
+        ("/a/x ^ 2", "operator"), ("lambda: /a/x", "operator"), ("hypot(/a/x,", "at the end"),
+        ("/a/x + abs()", "takes 1"),
+    ],
+)  # fmt: skip
+def test_what_is_refused_in_words(text: str, why: str) -> None:
+    with pytest.raises(ValueError, match=why):
+        read(text)
+
+
+def test_commas_in_brackets_part_nothing() -> None:
+    assert split("/a/x, max(/a/x, /b/y) , /s/r[1:2],") == ["/a/x", "max(/a/x, /b/y)", "/s/r[1:2]"]
+
+
+def test_curves_share_what_they_need_and_let_it_go_with_the_last_of_them() -> None:
+    console = FakeConsole()
+    console.series |= {A: ([1.0, 2.0], [1.0, 2.0]), "/c/y": ([0.5, 1.5], [10.0, 20.0])}
+    timeline = Timeline(console)
+    assert timeline.add(f"{A} + /c/y").ok and timeline.add(A).ok
+    assert [each[1] for each in console.asked] == [A, "/c/y"], "each is watched once"
+    assert timeline.take_in()
+    assert timeline.curves[0].latest == 22.0 and timeline.curves[1].latest == 2.0
+    assert not timeline.take_in()
+    refused = timeline.add(f"{A} - /no/topic")
+    assert not refused.ok and "/no/topic" in refused.text and len(timeline.curves) == 2
+    timeline.remove(0)
+    assert console.asked[-1] == ("unwatch", "/c/y")
+    timeline.remove(0)
+    assert console.asked[-1] == ("unwatch", A)
+    wrong = timeline.add("sine(/a/x)")
+    assert not wrong.ok and "none of" in wrong.text
+
+
+def test_samples_lie_where_their_headers_say_if_one_wants() -> None:
+    from bot_console.tui.panes.plot.curves import Curve
+
+    curve = Curve("/a/x", 0, np.array([1.0, 2.0, 3.0]), np.array([7.0, 8.0, 9.0]))
+    curve.headers = np.array([0.9, np.nan, 0.4])
+    assert curve.samples()[0].tolist() == [1.0, 2.0, 3.0]
+    curve.by_header = True
+    assert [each.tolist() for each in curve.samples()] == [[0.4, 0.9, 2.0], [9.0, 7.0, 8.0]]
+    assert curve.at(1.0) == 7.0 and curve.at(0.1) is None and curve.end == 2.0

@@ -1,0 +1,48 @@
+"""One number of a whole array, or of a quaternion: what `min(/scan/ranges)` makes of each message."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+
+class NotPlottable(Exception):
+    """A path that cannot be plotted; the text says why."""
+
+
+_MADE: Mapping[str, Callable[[npt.NDArray[np.float64]], float]] = {
+    "min": lambda values: float(values.min()),
+    "max": lambda values: float(values.max()),
+    "mean": lambda values: float(values.mean()),
+    "sum": lambda values: float(values.sum()),
+    "std": lambda values: float(values.std()),
+}
+
+
+def make(value: Any, made: str, name: str) -> float:
+    """The number; what is not finite (a beam that hits nothing) counts for nothing. Raises `NotPlottable`."""
+    if made == "yaw":
+        return _yaw(value, name)
+    if isinstance(value, (str, bool, int, float, np.number)) or not hasattr(value, "__len__"):
+        raise NotPlottable(f"{name} is no array, of which there would be a {made}")
+    if made == "len":
+        return float(len(value))
+    try:
+        values = np.asarray(value, np.float64)
+    except (TypeError, ValueError):
+        raise NotPlottable(f"{name} is an array of other things than numbers") from None
+    fine = values[np.isfinite(values)]
+    return _MADE[made](fine) if len(fine) else math.nan
+
+
+def _yaw(value: Any, name: str) -> float:
+    """The turn about the vertical axis, rad."""
+    try:
+        w, x, y, z = (float(getattr(value, each)) for each in "wxyz")
+    except (AttributeError, TypeError):
+        raise NotPlottable(f"{name} is no quaternion, of which there would be a yaw") from None
+    return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))

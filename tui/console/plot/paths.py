@@ -1,0 +1,69 @@
+"""What of a message type can be plotted: the paths to its numbers, its arrays and its quaternions."""
+
+from __future__ import annotations
+
+import importlib
+import re
+from collections.abc import Iterator
+from typing import Any
+
+from bot_console.tui.console.plot.arrays import NotPlottable
+
+DEEPEST = 4
+"""Messages within each other that are looked into."""
+ARRAY = re.compile(r"sequence<([^,>]+).*>|(.+?)\[\d+\]")
+WHOLE = ("min", "max", "mean")
+"""What is suggested of an array beside its first element."""
+
+
+def message_class(type_name: str) -> Any:
+    """The class of a type such as `std_msgs/msg/String`; raises `NotPlottable` when it is not installed."""
+    package, _, rest = type_name.partition("/")
+    try:
+        return getattr(importlib.import_module(f"{package}.msg"), rest.rsplit("/", 1)[-1])
+    except (ImportError, AttributeError):
+        raise NotPlottable(f"the message type {type_name} is not known here") from None
+
+
+def number_paths(type_name: str) -> tuple[str, ...]:
+    """The paths to the numbers of a type: fields first, then elements of arrays, then what is made of whole arrays."""
+    fields: list[str] = []
+    elements: list[str] = []
+    made: list[str] = []
+    for path, kind in _leaves(type_name, DEEPEST):
+        array = ARRAY.fullmatch(kind)
+        if kind.endswith("/Quaternion"):
+            made.append(f"{path}.yaw()")
+        elif array is None:
+            fields.append(path)
+        else:
+            elements.append(f"{path}[0]")
+            made += [f"{path}.{each}()" for each in WHOLE]
+    return (*fields, *elements, *made)
+
+
+def example(type_name: str) -> str:
+    """A path that could be plotted."""
+    return next(iter(number_paths(type_name)), "data")
+
+
+def _leaves(type_name: str, depth: int) -> Iterator[tuple[str, str]]:
+    """Paths and types of numbers, arrays of numbers and quaternions."""
+    try:
+        fields: dict[str, str] = message_class(type_name).get_fields_and_field_types()
+    except NotPlottable:
+        return
+    for name, kind in fields.items():
+        array = ARRAY.fullmatch(kind)
+        if _is_number((array[1] or array[2]) if array else kind):
+            yield name, kind
+        elif array is None and "/" in kind and depth > 1:
+            package, _, short = kind.partition("/")
+            if short == "Quaternion":
+                yield name, kind
+            for path, below in _leaves(f"{package}/msg/{short}", depth - 1):
+                yield f"{name}.{path}", below
+
+
+def _is_number(kind: str) -> bool:
+    return kind in ("boolean", "float", "double", "octet") or re.fullmatch(r"u?int(8|16|32|64)", kind) is not None

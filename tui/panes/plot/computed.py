@@ -1,0 +1,67 @@
+"""A curve that is worked out of others by an expression."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from bot_console.tui.console.protocol import Console
+from bot_console.tui.panes.plot.curves import Array, Curve, stepped
+from bot_console.tui.panes.plot.formula import Formula, Held
+
+
+class Computed(Curve):
+    """An expression over curves. It keeps no samples: what is seen is worked out of what they have."""
+
+    def __init__(self, formula: Formula, colour: int, parts: Mapping[str, Curve]) -> None:
+        super().__init__(formula.text, colour)
+        self._formula = formula
+        self._parts = parts
+
+    @property
+    def steps(self) -> bool:
+        """Whether all of it are parameters."""
+        return not self._formula.lead
+
+    @property
+    def latest(self) -> float | None:
+        """The newest value."""
+        end = self.end
+        return None if end is None else self.at(end)
+
+    @property
+    def end(self) -> float | None:
+        """The time of the newest sample."""
+        leads = [self._formula.lead] if self._formula.lead else self._formula.paths
+        ends = [end for each in leads if (end := self._parts[each].end) is not None]
+        return max(ends, default=None)
+
+    def take_in(self, console: Console) -> bool:
+        """Nothing is fetched, the parts are; whether they have changed."""
+        cursor = sum(each.cursor for each in self._parts.values())
+        problem = next((each.problem for each in self._parts.values() if each.problem), "")
+        changed = (cursor, problem) != (self.cursor, self.problem)
+        self.cursor, self.problem = cursor, problem
+        return changed
+
+    def samples(self) -> tuple[Array, Array]:
+        """All times and values."""
+        return self._formula.values(self._known())
+
+    def at(self, time: float) -> float | None:
+        """The value that was the newest one at a time."""
+        times, values = self._formula.values(self._known(), time, time)
+        place = int(np.searchsorted(times, time, side="right")) - 1
+        return float(values[place]) if place >= 0 else None
+
+    def clear(self) -> None:
+        """Nothing is kept here."""
+
+    def between(self, start: float, end: float) -> tuple[Array, Array]:
+        """The polyline from `start` to `end` (s)."""
+        times, values = self._formula.values(self._known(), start, end)
+        values = np.where(np.isfinite(values), values, np.nan)
+        return stepped(times, values, end) if self.steps and len(times) else (times, values)
+
+    def _known(self) -> Mapping[str, Held]:
+        return {path: Held(*each.samples(), each.steps) for path, each in self._parts.items()}

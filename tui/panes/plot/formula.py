@@ -1,0 +1,174 @@
+"""Expressions over curves: `/a/x - /b/x`, `deg(/yaw/data)`, `mean(/odom/..., 1 s)`; parsed, and worked out in NumPy.
+
+The value is told at each sample of the topic that is named first; every other path has there the value it had last.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from bot_console.tui.panes.plot.functions import OPERATORS, OVER_TIME, PLAIN, derivative
+from bot_console.tui.text.expression.numbers import CONSTANTS
+from bot_console.tui.text.expression.parse import parse
+from bot_console.tui.text.expression.tree import (
+    Call,
+    Minus,
+    Name,
+    Number,
+    Path,
+    Span,
+    Tree,
+    Two,
+    children,
+    paths_of,
+    walk,
+)
+
+Array = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Held:
+    """What a path was over time: each value holds until the next one."""
+
+    times: Array
+    values: Array
+    steps: bool = False
+    """Whether it is a parameter's, which has no rhythm of its own."""
+
+
+@dataclass(frozen=True)
+class Formula:
+    """An expression over paths, read and found sound."""
+
+    text: str
+    tree: Tree
+    paths: tuple[str, ...]
+
+    @property
+    def lead(self) -> str:
+        """The path at whose samples values are told: the first topic; empty where there are parameters alone."""
+        return next((each for each in self.paths if ":" not in each), "")
+
+    def values(self, known: Mapping[str, Held], start: float = -np.inf, end: float = np.inf) -> tuple[Array, Array]:
+        """Times (s) and values from `start` to `end`, and one more on either side."""
+        times = self._times(known)
+        back, before = _reach_back(self.tree)
+        first = max(0, int(np.searchsorted(times, start - back)) - 1 - before)
+        last = int(np.searchsorted(times, end, side="right")) + 1
+        times = times[first:last]
+        with np.errstate(all="ignore"):
+            values = _worked_out(self.tree, times, known)
+        shown = max(0, int(np.searchsorted(times, start)) - 1)
+        return times[shown:], values[shown:]
+
+    def _times(self, known: Mapping[str, Held]) -> Array:
+        if self.lead:
+            return known[self.lead].times
+        return np.unique(np.concatenate([known[each].times for each in self.paths]))
+
+
+def read(text: str) -> Formula | str:
+    """A formula, or the path where there is nothing else; raises `ValueError` with what is wrong."""
+    tree = parse(text, paths=True)
+    if isinstance(tree, Path):
+        return tree.text
+    paths = paths_of(tree)
+    if not paths:
+        raise ValueError("name a path in it, such as /odom/twist.twist.linear.x")
+    for each in walk(tree):
+        if isinstance(each, Call):
+            _check_call(each)
+        elif isinstance(each, Name) and each.text not in CONSTANTS:
+            raise ValueError(f"'{each.text}' is no path; paths begin with /")
+        elif any(isinstance(part, Span) for part in children(each)):
+            raise ValueError("a length of time stands only at the end of mean, min, max or std")
+    return Formula(text.strip(), tree, paths)
+
+
+def split(text: str) -> list[str]:
+    """Several expressions, apart by commas outside of brackets."""
+    parts: list[str] = []
+    depth = begin = 0
+    for at, letter in enumerate(text):
+        depth += (letter in "([") - (letter in ")]")
+        if letter == "," and depth == 0:
+            parts.append(text[begin:at])
+            begin = at + 1
+    return [each.strip() for each in (*parts, text[begin:]) if each.strip()]
+
+
+def _check_call(call: Call) -> None:
+    given, name = call.arguments, call.function
+    if given and isinstance(given[-1], Span):
+        if name not in OVER_TIME:
+            raise ValueError(f"over a length of time there are {', '.join(OVER_TIME)}, not {name}")
+        if len(given) != 2 or isinstance(given[0], Span):
+            raise ValueError(f"write {name}(a path, 1 s)")
+        if given[-1].seconds <= 0:
+            raise ValueError("a length of time is more than 0 s")
+        return
+    if any(isinstance(each, Span) for each in given):
+        raise ValueError(f"the length of time stands last: {name}(a path, 1 s)")
+    if name == "derivative":
+        if len(given) != 1:
+            raise ValueError("write derivative(a path)")
+        return
+    if name not in PLAIN:
+        if name in OVER_TIME:
+            raise ValueError(f"write {name}(a path, 1 s), or {name} of an array such as {name}(/scan/ranges)")
+        raise ValueError(f"'{name}' is none of derivative, {', '.join((*PLAIN, *OVER_TIME))}")
+    least, most, _ = PLAIN[name]
+    if not least <= len(given) <= most:
+        raise ValueError(f"{name} takes {least if least == most else f'{least} or more'}, not {len(given)}")
+
+
+def _reach_back(tree: Tree) -> tuple[float, int]:
+    """How far back a value looks: the seconds, and the samples, before its own."""
+    parts = [_reach_back(each) for each in children(tree)]
+    seconds, samples = max((each[0] for each in parts), default=0.0), max((each[1] for each in parts), default=0)
+    if isinstance(tree, Call):
+        if tree.function == "derivative":
+            samples += 1
+        elif tree.arguments and isinstance(span := tree.arguments[-1], Span):
+            seconds += span.seconds
+    return seconds, samples
+
+
+def _worked_out(tree: Tree, times: Array, known: Mapping[str, Held]) -> Array:
+    if isinstance(tree, Number):
+        return np.full(len(times), float(tree.value))
+    if isinstance(tree, Name):
+        return np.full(len(times), float(CONSTANTS[tree.text]))
+    if isinstance(tree, Path):
+        return held(known[tree.text], times)
+    if isinstance(tree, Minus):
+        return -_worked_out(tree.of, times, known)
+    if isinstance(tree, Two):
+        both = (_worked_out(tree.left, times, known), _worked_out(tree.right, times, known))
+        return OPERATORS[tree.operator](*both)
+    if isinstance(tree, Call):
+        return _called(tree, times, known)
+    raise TypeError(f"{tree} has no value")  # a span, which `read` refuses
+
+
+def _called(call: Call, times: Array, known: Mapping[str, Held]) -> Array:
+    given = call.arguments
+    if isinstance(span := given[-1], Span):
+        return OVER_TIME[call.function](times, _worked_out(given[0], times, known), span.seconds)
+    parts: Sequence[Array] = [_worked_out(each, times, known) for each in given]
+    if call.function == "derivative":
+        return derivative(times, parts[0])
+    function: Callable[..., Array] = PLAIN[call.function][2]
+    return function(*parts)
+
+
+def held(path: Held, times: Array) -> Array:
+    """The value that a path had last at each of some times; NaN before its first."""
+    at = np.searchsorted(path.times, times, side="right") - 1
+    if not len(path.values):
+        return np.full(len(times), np.nan)
+    return np.where(at >= 0, path.values[np.maximum(at, 0)], np.nan)

@@ -1,0 +1,112 @@
+"""What expressions over curves can do: functions of values, and functions of the values of some time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import reduce
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
+OverTime: TypeAlias = "Callable[[Array, Array, float], Array]"
+
+MANY = 9
+"""Values that a function of any number takes at most."""
+
+
+def _power(left: Array, right: Array) -> Array:
+    return np.power(left, right)
+
+
+def _wrap(angle: Array) -> Array:
+    """An angle in -pi to pi."""
+    return np.remainder(angle + np.pi, 2 * np.pi) - np.pi
+
+
+OPERATORS: Mapping[str, Callable[[Array, Array], Array]] = {
+    "+": np.add,
+    "-": np.subtract,
+    "*": np.multiply,
+    "/": np.divide,
+    "//": np.floor_divide,
+    "%": np.remainder,
+    "**": _power,
+}
+
+PLAIN: Mapping[str, tuple[int, int, Callable[..., Array]]] = {
+    **{name: (1, 1, getattr(np, name)) for name in ("abs", "sqrt", "exp", "log", "sin", "cos", "tan")},
+    **{name: (1, 1, getattr(np, f"arc{name[1:]}")) for name in ("asin", "acos", "atan")},
+    "atan2": (2, 2, np.arctan2),
+    "hypot": (2, MANY, lambda *given: reduce(np.hypot, given)),
+    "deg": (1, 1, np.degrees),
+    "rad": (1, 1, np.radians),
+    "round": (1, 1, np.round),
+    "wrap": (1, 1, _wrap),
+    "min": (2, MANY, lambda *given: reduce(np.minimum, given)),
+    "max": (2, MANY, lambda *given: reduce(np.maximum, given)),
+}
+"""How many values a function takes, least and most, and the function."""
+
+
+def derivative(times: Array, values: Array) -> Array:
+    """The change per second since the sample before; NaN at the first, and where no time has passed."""
+    slope = np.full(len(times), np.nan)
+    passed = np.diff(times)
+    slope[1:] = np.where(passed > 0, np.diff(values) / np.where(passed > 0, passed, 1.0), np.nan)
+    return slope
+
+
+def _begins(times: Array, seconds: float) -> npt.NDArray[np.intp]:
+    """Where the samples of the last seconds begin, for each sample: those later than so long ago."""
+    return np.minimum(np.searchsorted(times, times - seconds, side="right"), np.arange(len(times)))
+
+
+def _sums(values: Array, begins: npt.NDArray[np.intp]) -> Array:
+    total = np.concatenate([[0.0], np.cumsum(values)])
+    return total[1:] - total[begins]
+
+
+def mean(times: Array, values: Array, seconds: float) -> Array:
+    """The mean of the finite values of the last seconds."""
+    return _moments(times, values, seconds)[0]
+
+
+def std(times: Array, values: Array, seconds: float) -> Array:
+    """Their standard deviation."""
+    return _moments(times, values, seconds)[1]
+
+
+def _moments(times: Array, values: Array, seconds: float) -> tuple[Array, Array]:
+    fine = np.isfinite(values)
+    middle = float(np.mean(values[fine])) if fine.any() else 0.0  # sums of what is near 0 lose fewer digits
+    begins = _begins(times, seconds)
+    count = _sums(fine.astype(float), begins)
+    count = np.where(count > 0, count, np.nan)
+    off = np.where(fine, values - middle, 0.0)
+    first = _sums(off, begins) / count
+    second = _sums(off * off, begins) / count
+    return first + middle, np.sqrt(np.maximum(second - first * first, 0.0))
+
+
+def least(times: Array, values: Array, seconds: float) -> Array:
+    """The least value of the last seconds; NaN counts for nothing."""
+    return _extreme(np.fmin, times, values, seconds)
+
+
+def greatest(times: Array, values: Array, seconds: float) -> Array:
+    """The greatest one."""
+    return _extreme(np.fmax, times, values, seconds)
+
+
+def _extreme(function: np.ufunc, times: Array, values: Array, seconds: float) -> Array:
+    if not len(values):
+        return values
+    ends = np.arange(1, len(values) + 1)
+    pairs = np.column_stack([_begins(times, seconds), ends]).ravel()
+    found: Array = function.reduceat(np.append(values, np.nan), pairs)[::2]
+    return found
+
+
+OVER_TIME: Mapping[str, OverTime] = {"mean": mean, "min": least, "max": greatest, "std": std}

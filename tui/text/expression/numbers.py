@@ -1,0 +1,86 @@
+"""The value of an expression of numbers; nothing else is run."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from typing import Any, TypeAlias
+
+from bot_console.tui.format import cut
+from bot_console.tui.text.expression.parse import parse
+from bot_console.tui.text.expression.tree import Call, Minus, Name, Tree, Two
+from bot_console.tui.text.expression.tree import Number as Typed
+
+Number: TypeAlias = "int | float"
+
+LARGEST = 400
+"""Bits that a whole number may have, so that no typing error keeps the console busy."""
+
+FUNCTIONS: Mapping[str, Any] = {
+    **{"abs": abs, "min": min, "max": max, "round": round, "sqrt": math.sqrt, "hypot": math.hypot},
+    **{"exp": math.exp, "log": math.log, "sin": math.sin, "cos": math.cos, "tan": math.tan},
+    **{"asin": math.asin, "acos": math.acos, "atan": math.atan, "atan2": math.atan2},
+    **{"deg": math.degrees, "rad": math.radians},
+}
+CONSTANTS: Mapping[str, Number] = {"pi": math.pi, "e": math.e}
+
+_TWO: Mapping[str, Callable[[Number, Number], Number]] = {
+    "+": lambda left, right: left + right,
+    "-": lambda left, right: left - right,
+    "*": lambda left, right: left * right,
+    "/": lambda left, right: left / right,
+    "//": lambda left, right: left // right,
+    "%": lambda left, right: left % right,
+}
+
+
+def evaluate(text: str, names: Mapping[str, Number] | None = None) -> Number:
+    """The value of an expression; raises `ValueError` with what is wrong with it."""
+    try:
+        tree = parse(text)
+    except ValueError as error:
+        raise ValueError(f"'{cut(text, 24)}' is no number and no expression such as 0.5*2: {error}") from None
+    try:
+        return _value(tree, {**CONSTANTS, **(names or {})})
+    except ZeroDivisionError:
+        raise ValueError("a division by zero") from None
+    except (OverflowError, TypeError) as error:
+        raise ValueError(f"'{cut(text, 24)}' cannot be worked out: {error}") from None
+
+
+def _value(tree: Tree, known: Mapping[str, Number]) -> Number:
+    if isinstance(tree, Typed):
+        return _small(tree.value)
+    if isinstance(tree, Name):
+        if tree.text not in known:
+            raise ValueError(f"'{tree.text}' is none of {', '.join(sorted(known))}")
+        return known[tree.text]
+    if isinstance(tree, Minus):
+        return -_value(tree.of, known)
+    if isinstance(tree, Two):
+        return _small(_both(tree.operator, _value(tree.left, known), _value(tree.right, known)))
+    if isinstance(tree, Call):
+        function = FUNCTIONS.get(tree.function)
+        if function is None:
+            raise ValueError(f"'{tree.function}' is none of {', '.join(FUNCTIONS)}")
+        return _small(function(*(_value(each, known) for each in tree.arguments)))
+    raise ValueError("only numbers, names, + - * / // % **, brackets and functions are understood")
+
+
+def _both(operator: str, left: Number, right: Number) -> Number:
+    if operator != "**":
+        return _TWO[operator](left, right)
+    if isinstance(left, int) and isinstance(right, int) and right >= 0:
+        if left.bit_length() * right > LARGEST:
+            raise ValueError("the number is too large")
+        return left**right
+    result: complex | float = float(left) ** float(right)
+    if isinstance(result, complex):
+        raise ValueError("the root of a negative number")
+    return result
+
+
+def _small(value: Number) -> Number:
+    if isinstance(value, int) and value.bit_length() > LARGEST:
+        raise ValueError("the number is too large")
+    return value

@@ -1,0 +1,146 @@
+"""Reads expressions: numbers, names, paths, `+ - * / // % **`, brackets and calls, as closely bound as in Python."""
+
+from __future__ import annotations
+
+import re
+from typing import NoReturn
+
+from bot_console.tui.format import cut
+from bot_console.tui.text.expression.tree import OF_ARRAYS, Call, Minus, Name, Number, Path, Span, Tree, Two
+
+LONGEST = 400
+"""Letters of an expression at most."""
+DEEPEST = 40
+"""Brackets, signs and powers within each other at most, so that no input exhausts the stack."""
+
+SECONDS = {"s": 1.0, "ms": 0.001, "min": 60.0}
+"""Units of a length of time."""
+
+NUMBER = re.compile(r"0[xX][0-9a-fA-F_]+|0[bB][01_]+|0[oO][0-7_]+|(?:\d[\d_]*\.?[\d_]*|\.\d[\d_]*)(?:[eE][+-]?\d+)?")
+NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
+PATH = re.compile(
+    r"(?:/[A-Za-z_]\w*)+(?:[./][A-Za-z_]\w*(?!\w*\()|\[-?\d*(?::-?\d*)?\])*"
+    rf"(?:\.(?:{'|'.join(OF_ARRAYS)})\(\)|:[A-Za-z_]\w*(?:[./][A-Za-z_]\w*)*)?",
+    re.ASCII,
+)
+OPERATOR = re.compile(r"\*\*|//|[-+*/%]")
+_RANKS = {"+": 1, "-": 1, "*": 2, "/": 2, "//": 2, "%": 2}
+
+
+def parse(text: str, *, paths: bool = False) -> Tree:
+    """The tree of an expression; raises `ValueError` with what is wrong and where. Paths are read where asked for."""
+    if len(text) > LONGEST:
+        raise ValueError(f"an expression of more than {LONGEST} letters")
+    return _Reader(text, paths).whole()
+
+
+class _Reader:
+    def __init__(self, text: str, paths: bool) -> None:
+        self._text = text
+        self._paths = paths
+        self._at = 0
+        self._depth = 0
+
+    def whole(self) -> Tree:
+        tree = self._sum(1)
+        if self._rest():
+            self._fail("an operator is expected")
+        return tree
+
+    def _rest(self) -> str:
+        while self._text[self._at : self._at + 1] in (" ", "\t"):
+            self._at += 1
+        return self._text[self._at :]
+
+    def _take(self, pattern: re.Pattern[str]) -> str:
+        self._rest()
+        found = pattern.match(self._text, self._at)
+        if found is None:
+            return ""
+        self._at = found.end()
+        return found[0]
+
+    def _fail(self, why: str) -> NoReturn:
+        rest = self._rest()
+        where = f"at '{cut(rest, 20)}'" if rest else "at the end"
+        raise ValueError(f"{where} {why}" if self._text.strip() else "nothing was typed where a number should be")
+
+    def _sum(self, least: int) -> Tree:
+        """What binds at least as closely as `+` (1) or `*` (2)."""
+        left = self._sign()
+        while True:
+            begin = self._at
+            operator = self._take(OPERATOR)
+            if _RANKS.get(operator, 0) < least:
+                self._at = begin
+                return left
+            left = Two(operator, left, self._sum(_RANKS[operator] + 1))
+
+    def _sign(self) -> Tree:
+        self._depth += 1
+        if self._depth > DEEPEST:
+            raise ValueError(f"more than {DEEPEST} brackets or signs within each other")
+        sign = self._rest()[:1]
+        if sign in ("+", "-"):
+            self._at += 1
+            tree: Tree = self._sign()
+            tree = Minus(tree) if sign == "-" else tree
+        else:
+            tree = self._power()
+        self._depth -= 1
+        return tree
+
+    def _power(self) -> Tree:
+        base = self._atom()
+        if self._rest().startswith("**"):
+            self._at += 2
+            return Two("**", base, self._sign())
+        return base
+
+    def _atom(self) -> Tree:
+        if self._rest().startswith("("):
+            self._at += 1
+            tree = self._sum(1)
+            self._close()
+            return tree
+        if self._paths and (path := self._take(PATH)):
+            return Path(path)
+        if number := self._take(NUMBER):
+            return self._number(number)
+        if name := self._take(NAME):
+            return self._call(name) if self._rest().startswith("(") else Name(name)
+        self._fail("a number, a name or a path is expected" if self._paths else "no number and no name stands")
+
+    def _number(self, text: str) -> Tree:
+        try:
+            value = float(text) if re.search(r"[.eE]", text) and text[:2] not in ("0x", "0X") else int(text, 0)
+        except ValueError:
+            raise ValueError(f"'{cut(text, 20)}' is no number") from None
+        begin = self._at
+        unit = self._take(NAME) if self._paths else ""
+        if unit in SECONDS:
+            return Span(float(value) * SECONDS[unit])
+        self._at = begin
+        return Number(value)
+
+    def _call(self, function: str) -> Tree:
+        self._at += 1
+        arguments: list[Tree] = []
+        while not self._rest().startswith(")"):
+            if arguments and not self._comma():
+                self._fail("a comma or a bracket is expected")
+            arguments.append(self._sum(1))
+        self._close()
+        if function in OF_ARRAYS and len(arguments) == 1 and isinstance(one := arguments[0], Path):
+            return Path(f"{one.text}.{function}()")
+        return Call(function, tuple(arguments))
+
+    def _comma(self) -> bool:
+        found = self._rest().startswith(",")
+        self._at += found
+        return found
+
+    def _close(self) -> None:
+        if not self._rest().startswith(")"):
+            self._fail("a closing bracket is missing")
+        self._at += 1

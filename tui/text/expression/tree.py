@@ -1,0 +1,86 @@
+"""What an expression is made of, once it has been read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TypeAlias
+
+OF_ARRAYS = ("min", "max", "mean", "sum", "std", "len", "yaw")
+"""What is made of a whole array, or of a quaternion, at each message: `min(/scan/ranges)` or `/scan/ranges.min()`."""
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    """A number as it was typed."""
+
+    value: int | float
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """A length of time, such as `500 ms`."""
+
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
+class Name:
+    """A name that stands for a number."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Path:
+    """A field of a topic, or a parameter: `/odom/twist.twist.linear.x`, `/robot_navigator:max_speed`."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Minus:
+    """The opposite of a value."""
+
+    of: Tree
+
+
+@dataclass(frozen=True, slots=True)
+class Two:
+    """One of `+ - * / // % **` and what stands on its sides."""
+
+    operator: str
+    left: Tree
+    right: Tree
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """A function and what it is given."""
+
+    function: str
+    arguments: tuple[Tree, ...]
+
+
+Tree: TypeAlias = "Number | Span | Name | Path | Minus | Two | Call"
+
+
+def children(tree: Tree) -> tuple[Tree, ...]:
+    """The parts of a tree."""
+    if isinstance(tree, Minus):
+        return (tree.of,)
+    if isinstance(tree, Two):
+        return (tree.left, tree.right)
+    return tree.arguments if isinstance(tree, Call) else ()
+
+
+def walk(tree: Tree) -> Iterator[Tree]:
+    """The tree and all that is in it, from left to right."""
+    yield tree
+    for each in children(tree):
+        yield from walk(each)
+
+
+def paths_of(tree: Tree) -> tuple[str, ...]:
+    """The paths in a tree, each once, in their order."""
+    return tuple(dict.fromkeys(each.text for each in walk(tree) if isinstance(each, Path)))
