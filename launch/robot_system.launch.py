@@ -54,6 +54,11 @@ def generate_launch_description():
             DeclareLaunchArgument("seed", default_value="", description="Seed of the simulator; empty: the file's"),
             DeclareLaunchArgument("world", default_value="", description="World of the simulator; empty: the file's"),
             DeclareLaunchArgument(
+                "origin",
+                default_value="",
+                description="Where map and odom begin: corner of the world, or start of the robot; empty: the file's",
+            ),
+            DeclareLaunchArgument(
                 "navigator",
                 default_value="true",
                 description="Who drives: robot_navigator (true), nobody (false), Nav2's goals (goals), a Python file",
@@ -102,8 +107,9 @@ def make_simulator(context):
     given = {}
     if seed := LaunchConfiguration("seed").perform(context):
         given["seed"] = int(seed)
-    if world := LaunchConfiguration("world").perform(context):
-        given["world"] = world
+    for name in ("world", "origin"):
+        if value := LaunchConfiguration(name).perform(context):
+            given[name] = value
     return [
         Node(
             package=PACKAGE,

@@ -75,8 +75,8 @@ def odometry_message(pose: Pose, velocity: tuple[float, float], frame: str, stam
     return message
 
 
-def map_message(world: World, resolution: float, stamp: Time) -> OccupancyGrid:
-    """What stands still, as a grid with cells of `resolution` m."""
+def map_message(world: World, corner: Pose, resolution: float, stamp: Time) -> OccupancyGrid:
+    """What stands still, as a grid with cells of `resolution` m; `corner` is the world's own in the map."""
     grid = occupancy_grid(world, resolution)
     message = OccupancyGrid()
     message.header.stamp = stamp
@@ -84,6 +84,7 @@ def map_message(world: World, resolution: float, stamp: Time) -> OccupancyGrid:
     message.info.map_load_time = stamp
     message.info.resolution = resolution
     message.info.height, message.info.width = grid.shape
+    message.info.origin.position.x, message.info.origin.position.y = corner.x, corner.y
     cells = array("b")
     cells.frombytes(grid.tobytes())
     message.data = cells

@@ -10,6 +10,8 @@ from bot_console_robot.emergency_stop import ARBITER, BASE, EmergencyStop
 from bot_console_robot.models import MODELS
 from bot_console_robot.parameters import accepted, refused
 from bot_console_robot.running import CannotStart, run
+from bot_console_robot.simulation.arrays import table
+from bot_console_robot.simulation.frames import Frames
 from bot_console_robot.simulation.geometry import Pose
 from bot_console_robot.simulation.simulation import STEP, STEP_NS, Simulation
 from bot_console_robot.simulation.world import WorldError
@@ -95,11 +97,14 @@ class Simulator(Node):
         world, stamp = self._simulation.world, messages.time_of(0)
         self._bumped = False
         self._restart_time()
-        self._maps.publish(messages.map_message(world, float(self.get_parameter("map_resolution").value), stamp))
-        self._routes.publish(messages.route_message(world.route, stamp))
+        self._frames = Frames.of(world, str(self.get_parameter("origin").value))
+        corner, resolution = self._frames.in_map(Pose(0.0, 0.0, 0.0)), float(self.get_parameter("map_resolution").value)
+        self._maps.publish(messages.map_message(world, corner, resolution, stamp))
+        route = self._frames.rows_in_map(table(world.route, 2)).tolist()
+        self._routes.publish(messages.route_message(route, stamp))
         self._collisions.publish(UInt32(data=0))
         self._bumper.publish(Bool(data=False))
-        self._signals.begin(self._simulation, stamp)
+        self._signals.begin(self._simulation, self._frames, stamp)
         self.get_logger().info(
             f"{world.title}: {world.size[0]:g} m x {world.size[1]:g} m, seed {self._simulation.seed}"
         )
@@ -150,9 +155,9 @@ class Simulator(Node):
         place = message.pose.pose
         pose = Pose(place.position.x, place.position.y, messages.heading_of(place.orientation))
         try:
-            self._simulation.place(pose)
+            self._simulation.place(self._frames.in_world(pose))
         except ValueError as error:
-            self.get_logger().warning(f"Pose on initialpose ignored: {error}")
+            self.get_logger().warning(f"Pose on initialpose ignored: x = {pose.x:.2f} m, y = {pose.y:.2f} m: {error}")
         else:
             self.get_logger().info(f"Robot put to x = {pose.x:.2f} m, y = {pose.y:.2f} m")
 
@@ -233,18 +238,20 @@ class Simulator(Node):
         log = self._simulation.collisions
         self._collisions.publish(UInt32(data=log.count))
         if log.last:
+            place = self._frames.in_map(Pose(log.last.x, log.last.y))
             self.get_logger().warning(
-                f"💥 Collision {log.count}: {log.last.what} at x = {log.last.x:.2f} m, y = {log.last.y:.2f} m, "
+                f"💥 Collision {log.count}: {log.last.what} at x = {place.x:.2f} m, y = {place.y:.2f} m, "
                 f"{abs(log.last.speed):.2f} m/s"
             )
 
     def _publish_poses(self) -> None:
-        simulation, drive = self._simulation, self._simulation.drive
+        simulation, drive, frames = self._simulation, self._simulation.drive, self._frames
         stamp = messages.time_of(simulation.time_ns)
         wheels = (drive.linear, drive.angular)
         truth = (simulation.speed, simulation.turn_rate)
-        self._odometry.publish(messages.odometry_message(simulation.odometry.pose, wheels, messages.ODOM, stamp))
-        self._truth.publish(messages.odometry_message(simulation.pose, truth, messages.MAP, stamp))
+        told, true = frames.in_odom(simulation.odometry.pose), frames.in_map(simulation.pose)
+        self._odometry.publish(messages.odometry_message(told, wheels, messages.ODOM, stamp))
+        self._truth.publish(messages.odometry_message(true, truth, messages.MAP, stamp))
         self._signals.publish(simulation, stamp)
 
     def _publish_scan(self) -> None:
@@ -254,7 +261,7 @@ class Simulator(Node):
         scan, settings = simulation.scan(), simulation.lidar.settings
         self._scans.publish(messages.scan_message(scan, settings, period, stamp, self._model))
         if self._obstacles.get_subscription_count():
-            self._obstacles.publish(messages.obstacles_message(simulation.moving(), stamp))
+            self._obstacles.publish(messages.obstacles_message(self._frames.rows_in_map(simulation.moving()), stamp))
 
 
 def main(args: list[str] | None = None) -> None:

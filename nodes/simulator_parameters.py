@@ -8,6 +8,7 @@ from typing import Any
 
 from bot_console_robot.models import MODELS
 from bot_console_robot.parameters import fixed, number, plain, proposed, whole
+from bot_console_robot.simulation.frames import ORIGINS
 from bot_console_robot.simulation.lidar import LidarSettings
 from bot_console_robot.simulation.odometry import OdometryNoise
 from bot_console_robot.simulation.robot import DriveLimits
@@ -20,6 +21,7 @@ LIMITS, LIDAR, NOISE = DriveLimits(), LidarSettings(), OdometryNoise()
 DECLARED: tuple[tuple[str, Any, ParameterDescriptor], ...] = (
     ("world", "indoor", plain("Name of a world or path of its file, used at reset")),
     ("seed", 1, whole("Seed of all random numbers, used at reset", 0, 2**31 - 1)),
+    ("origin", "corner", plain("Where map and odom begin, used at reset: corner of the world, or start of the robot")),
     ("scan_rate", 10.0, number("Rate of the LIDAR (Hz)", 1.0, 50.0)),
     ("odom_rate", 20.0, number("Rate of odometry and ground truth (Hz)", 1.0, 100.0)),
     ("model", "plain", fixed(f"Whose names its frames and joints have: {', '.join(MODELS)}")),
@@ -68,6 +70,9 @@ def settings(node: Node) -> Settings:
 
 def problem(node: Node, changes: Iterable[Parameter]) -> str:
     """What is wrong between parameters after some changes, in words; empty when nothing is."""
+    origin = {each.name: each.value for each in changes}.get("origin", node.get_parameter("origin").value)
+    if origin not in ORIGINS:
+        return f"origin must be one of {', '.join(ORIGINS)}, not '{origin}'"
     low, high = proposed(node, changes, "lidar.range_min", "lidar.range_max")
     if low >= high:
         return f"lidar.range_min ({low} m) must be less than lidar.range_max ({high} m)"

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 
 from bot_console_robot.models import Model
+from bot_console_robot.simulation.frames import Frames
 from bot_console_robot.simulation.geometry import Pose
 from bot_console_robot.simulation.simulation import Simulation
 from bot_console_robot.simulator_messages import MAP, ODOM, quaternion
@@ -39,16 +40,18 @@ class Signals:
         self._imu = node.create_publisher(Imu, "imu", 10)
         self._battery = node.create_publisher(BatteryState, "battery_state", 10)
         self._angles = [0.0, 0.0]
+        self._frames = Frames()
         self._speed = 0.0
         self._stamp = 0
         self._count = 0
 
-    def begin(self, simulation: Simulation, stamp: Time) -> None:
+    def begin(self, simulation: Simulation, frames: Frames, stamp: Time) -> None:
         """Tell the frames that stay where they are; a run begins."""
+        self._frames = frames
         model, half = self._model, 0.5 * simulation.drive.limits.wheel_separation
         wheel = Quaternion(x=-math.sin(math.pi / 4), w=math.cos(math.pi / 4))
         self._angles, self._speed, self._stamp, self._count = [0.0, 0.0], 0.0, simulation.time_ns, 0
-        frames = [
+        fixed = [
             _frame(model.footprint, model.base, stamp, z=model.base_height),
             _frame(model.base, model.scan, stamp, z=model.scan_height),
             _frame(model.base, model.imu, stamp),
@@ -56,8 +59,8 @@ class Signals:
         for name, side in zip(model.wheels, (half, -half), strict=True):
             frame = _frame(model.base, name, stamp, y=side, z=model.wheel_radius - model.base_height)
             frame.transform.rotation = wheel
-            frames.append(frame)
-        self._static.publish(TFMessage(transforms=frames))
+            fixed.append(frame)
+        self._static.publish(TFMessage(transforms=fixed))
 
     def publish(self, simulation: Simulation, stamp: Time) -> None:
         """Tell what has changed since the last time."""
@@ -82,7 +85,7 @@ class Signals:
 
     def _moving(self, simulation: Simulation, stamp: Time) -> list[TransformStamped]:
         """Where odometry has the robot, and how far it is off: `map` to `odom` puts it right."""
-        told, true = simulation.odometry.pose, simulation.pose
+        told, true = self._frames.in_odom(simulation.odometry.pose), self._frames.in_map(simulation.pose)
         turn = math.remainder(true.heading - told.heading, 2.0 * math.pi)
         cosine, sine = math.cos(turn), math.sin(turn)
         x, y = true.x - (cosine * told.x - sine * told.y), true.y - (sine * told.x + cosine * told.y)
@@ -91,7 +94,7 @@ class Signals:
     def _inertia(self, simulation: Simulation, passed: float, stamp: Time) -> Imu:
         message = Imu()
         message.header.stamp, message.header.frame_id = stamp, self._model.imu
-        message.orientation = quaternion(simulation.odometry.pose.heading)
+        message.orientation = quaternion(self._frames.in_odom(simulation.odometry.pose).heading)
         message.angular_velocity.z = simulation.turn_rate
         message.linear_acceleration.x = (simulation.drive.linear - self._speed) / passed if passed else 0.0
         message.linear_acceleration.z = GRAVITY

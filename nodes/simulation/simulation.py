@@ -118,7 +118,7 @@ class Simulation:
     def place(self, pose: Pose) -> None:
         """Put the robot somewhere at rest; odometry follows. Raises `ValueError` when it does not fit there."""
         if self.gap_at(pose.x, pose.y) <= 0.0:
-            raise ValueError(f"the robot does not fit at x = {pose.x:.2f} m, y = {pose.y:.2f} m")
+            raise ValueError("the robot does not fit there")
         self._space.place(pose)
         self.pose = pose
         self.odometry.pose = pose

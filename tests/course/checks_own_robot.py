@@ -23,8 +23,8 @@ NODES = {
 }
 NAVIGATOR = "/robot_navigator"
 FIXED = ("start_type_description_service", "use_sim_time")
-AT_START = ("enable_stamped_cmd_vel", "model")
-"""Read only: what a robot is, its command line says."""
+AT_START = {"enable_stamped_cmd_vel": "True", "model": "turtlebot4"}
+"""Read only, with another value than the default: what a robot is, the command line of its start says."""
 
 
 def start(page: Page, name: str, *words: str) -> Program:
@@ -174,6 +174,11 @@ def each_parameter_can_be_set(page: Page, row: Row) -> None:
                 answer = page.ask(f'ros2 param set /{name} {key} "{text}"')
                 assert answer.stdout == "Set parameter successful\n", (key, answer.stderr)
         page.stop(program)
+        if at_start := {key: value for key, value in AT_START.items() if key in dumped}:
+            words = [word for key, value in at_start.items() for word in ("-p", f"{key}:={value}")]
+            again = start(page, name, "--ros-args", *words)
+            assert {key: page.value(f"/{name}", key) for key in at_start} == at_start
+            page.stop(again)
 
 
 @row(83, 260, 270, 363, 369)

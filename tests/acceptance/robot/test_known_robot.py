@@ -36,7 +36,11 @@ def once(running: System, topic: str, *words: str) -> str:
 
 
 def place(running: System) -> tuple[float, float]:
-    text = once(running, "/ground_truth")
+    return position(once(running, "/ground_truth"))
+
+
+def position(text: str) -> tuple[float, float]:
+    """The first position in a message."""
     x, y = (float(re.findall(rf"position:\n(?:.*\n)*?\s+{axis}: ([-\d.e]+)", text)[0]) for axis in "xy")
     return x, y
 
@@ -109,7 +113,33 @@ def test_the_right_wheel_is_the_faster_one_in_a_turn_to_the_left(running: System
     assert float(re.findall(r"angular_velocity:\n(?:.*\n){2}\s+z: ([-\d.]+)", once(running, "/imu"))[0]) > 0.9
 
 
-def test_nothing_of_it_is_published_while_nobody_listens(running: System) -> None:
+def test_map_and_odometry_begin_where_the_robot_does(running: System) -> None:
+    robot(running, "-p", "origin:=start", "-p", "odometry.distance_noise:=0.0")
+    navigator(running)
+    assert place(running) == (0.0, 0.0)
+    assert math.hypot(*position(once(running, "/odom"))) == 0.0
+    assert position(once(running, "/map", "--no-arr")) == (-2.4, -2.4)
+    assert position(once(running, "/route")) == pytest.approx((6.5 - 2.4, 3.45 - 2.4))
+    echo = running.executable("tf2_ros", "tf2_echo", "map", "base_footprint")
+    assert "SUCCEEDED" in goal(
+        running, "navigate_to_pose", "NavigateToPose", "{pose: {pose: {position: {x: 1.0, y: -1.0}}}}"
+    )
+    assert place(running) == pytest.approx((1.0, -1.0), abs=0.2)
+    running.run(1.5)
+    found = re.findall(r"Translation: \[([-\d.]+), ([-\d.]+), ", echo.stdout)[-1]
+    assert tuple(map(float, found)) == pytest.approx(place(running), abs=0.002)
+    pose = "{pose: {pose: {position: {x: 0.5, y: 0.25}}}}"
+    running.ask("topic", "pub", "--once", "/initialpose", "geometry_msgs/msg/PoseWithCovarianceStamped", pose)
+    assert place(running) == (0.5, 0.25)
+
+
+def test_an_origin_that_there_is_not(running: System) -> None:
+    refused = running.finish(running.executable(PACKAGE, "simulator_node", "--ros-args", "-p", "origin:=middle"))
+    assert refused.exit == 1
+    assert "origin must be one of corner, start, not 'middle'" in refused.stderr
+
+
+def test_all_of_it_is_listed_and_comes_to_who_subscribes_late(running: System) -> None:
     robot(running)
     running.run(1.0)
     listed = running.ask("topic", "list").stdout.split()
