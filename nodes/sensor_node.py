@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 from bot_console_robot.detection import Detection, find, median_of_three, strong
+from bot_console_robot.diagnostics import ERROR, OK
+from bot_console_robot.health import Health, HealthReport
 from bot_console_robot.parameters import number, plain, whole
 from bot_console_robot.running import run
 from bot_console_robot.scans import intensities_of, packed, ranges_of
@@ -28,6 +30,9 @@ class SensorHandler(Node):
         self._scans = self.create_publisher(LaserScan, "scan_filtered", 10)
         self._detections = self.create_publisher(PoseArray, "detections", 10)
         self.create_subscription(LaserScan, "scan", self._on_scan, 10)
+        self._count = 0
+        self._beams = (0, 0)
+        self._health = HealthReport(self, "scan", self._look)
         self._read()
         self._timer = self.create_timer(1.0 / self._rate, self._process)
         self.get_logger().info(f"Filtering scans at {self._rate} Hz")
@@ -47,6 +52,14 @@ class SensorHandler(Node):
 
     def _on_scan(self, scan: LaserScan) -> None:
         self._newest = scan
+        self._count += 1
+
+    def _look(self) -> Health:
+        """Scans since the last look, a second ago."""
+        count, self._count = self._count, 0
+        beams, things = self._beams
+        values = {"scans per second": count, "beams": beams, "things seen": things, "filtered": self._filter}
+        return (OK, f"{count} scans per second", values) if count else (ERROR, "no scan comes", values)
 
     def _process(self) -> None:
         scan, self._newest = self._newest, None
@@ -56,6 +69,7 @@ class SensorHandler(Node):
         if self._filter:
             ranges = median_of_three(ranges)
         found = find(ranges, scan.angle_min, scan.angle_increment)
+        self._beams = (len(ranges), len(found))
         scan.ranges = packed(ranges)
         self._scans.publish(scan)
         self._detections.publish(PoseArray(header=scan.header, poses=[_pose(each) for each in found]))

@@ -6,7 +6,9 @@ from __future__ import annotations
 import json
 
 from bot_console_robot import simulator_messages as messages
+from bot_console_robot.diagnostics import OK, WARN
 from bot_console_robot.emergency_stop import ARBITER, BASE, EmergencyStop
+from bot_console_robot.health import Health, HealthReport
 from bot_console_robot.models import MODELS
 from bot_console_robot.parameters import accepted, refused
 from bot_console_robot.running import CannotStart, run
@@ -73,6 +75,8 @@ class Simulator(Node):
         self.create_service(Trigger, "report", self._on_report)
         self._stop = EmergencyStop(self, self._steady, BASE, ARBITER, self._hold)
         self._signals = Signals(self, self._model)
+        self._left_out = 0.0
+        self._health = HealthReport(self, "time", self._look)
         self._begin()
         self.create_timer(STEP, self._tick, clock=self._steady)
 
@@ -209,8 +213,24 @@ class Simulator(Node):
             self._advance()
         self._done += due
 
+    def _look(self) -> Health:
+        """Whether the simulation keeps up with real time, since the last look."""
+        left_out, self._left_out = self._left_out, 0.0
+        simulation = self._simulation
+        values: dict[str, object] = {
+            "simulated (s)": simulation.time_ns * 1e-9,
+            "left out (s)": left_out,
+            "collisions": simulation.collisions.count,
+            "world": simulation.world.name,
+            "seed": simulation.seed,
+        }
+        if self._paused:
+            return WARN, "paused", values
+        return (WARN, f"{left_out:.2f} s left out", values) if left_out else (OK, "in real time", values)
+
     def _tell_lag(self, missing: float) -> None:
         """Say so once; again only when all has been well for a while."""
+        self._left_out += missing
         now = self._steady.now().nanoseconds
         if now - self._lagged > QUIET_NS:
             self.get_logger().warning(

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from bot_console.tui.keys.key import Key
 from bot_console.tui.keys.tuning import TUNING
+from bot_console.tui.keys.watching import WATCHING
 from textual.binding import Binding, BindingType
 
 TABLE: dict[str, tuple[Key, ...]] = {
@@ -41,6 +42,7 @@ TABLE: dict[str, tuple[Key, ...]] = {
         Key("app.launch", "8", "pane('launch')", "Launch"),
         Key("app.history", "H", "pane('history')", "History", shown="H"),
         Key("app.topics", "9", "pane('topics')", "Topics"),
+        Key("app.diagnostics", "M", "pane('diagnostics')", "Diagnostics: the robot monitor", shown="M"),
         Key("app.next", "tab", "next_pane(1)", "Next pane", priority=True),
         Key("app.previous", "shift+tab", "next_pane(-1)", "Previous pane", priority=True),
         Key("app.arrange", "V", "arrange", "Arrange the panes: split, resize, close, layouts", shown="V"),
@@ -61,6 +63,7 @@ TABLE: dict[str, tuple[Key, ...]] = {
         Key("app.redraw", "ctrl+l", "redraw", "Draw the screen anew"),
     ),
     **TUNING,
+    **WATCHING,
     "logs": (
         Key("logs.follow", "f", "follow", "Follow the newest line", footer=True, short="Follow"),
         Key("logs.warnings", "w", "warnings", "Warnings and worse only", footer=True, short="Warnings"),

@@ -17,6 +17,7 @@ RQT_PANES = {
     "rqt_publisher": "topics",
     "rqt_service_caller": "topics",
     "rqt_action": "topics",
+    "rqt_robot_monitor": "diagnostics",
     "rviz2": "world",
 }
 """Programs of rqt, as packages and as executables, and the pane that does their work."""

@@ -41,4 +41,5 @@ PANES = (
     PaneEntry("launch", "8", "Launch", "LaunchPane"),
     PaneEntry("topics", "9", "Topics", "TopicsPane"),
     PaneEntry("history", "H", "History", "HistoryPane", short="Hist"),
+    PaneEntry("diagnostics", "M", "Diagnostics", "DiagnosticsPane", short="Diag"),
 )

@@ -110,6 +110,15 @@ def test_a_watched_series_is_read_by_cursor(rig: Rig) -> None:
     assert len(rig.console.samples(LEVEL).values) == 0
 
 
+def test_a_series_is_collected_for_as_long_as_anybody_wants_it(rig: Rig) -> None:
+    path = f"{ROBOT}:speed"
+    assert rig.console.watch(path).ok and rig.console.watch(path, "another").ok
+    rig.console.unwatch(path)
+    assert list(rig.console.samples(path).values) == [1.0]
+    rig.console.unwatch(path, "another")
+    assert len(rig.console.samples(path).values) == 0
+
+
 def _new(rig: Rig, path: str, cursor: int) -> Any:
     new = rig.console.samples(path, cursor)
     return new if len(new.values) else None

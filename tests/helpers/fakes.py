@@ -28,13 +28,13 @@ from bot_console.tui.console.parameters.file import save
 from bot_console.tui.console.parameters.journal import Journal, Move, Step
 from bot_console.tui.console.parameters.origin import origin_text
 from bot_console.tui.console.parameters.profiles import differences
-from bot_console.tui.console.protocol import Answer, LogView, Samples, Stream
+from bot_console.tui.console.protocol import Answer, LogView, Stream
 from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.console.values import refusal
 from fake_profiles import CLOSED, FakeProfiles
+from fake_series import START, FakeSeries
+from fake_sights import FakeSights
 from fake_traffic import FakeTraffic
-
-START = 1_700_000_000_000_000_000
 
 
 def done(value: Any) -> Future[Any]:
@@ -53,7 +53,7 @@ class FakeView(SearchedView):
         return super().look()
 
 
-class FakeConsole(FakeProfiles):
+class FakeConsole(FakeProfiles, FakeSeries):
     """A console over one snapshot; it takes what the descriptors allow, and remembers what it was asked."""
 
     def __init__(self, snapshot: ConsoleSnapshot | None = None) -> None:
@@ -61,6 +61,7 @@ class FakeConsole(FakeProfiles):
         self.current = snapshot or ConsoleSnapshot()
         self.asked: list[tuple[Any, ...]] = []
         self.traffic = FakeTraffic(self.asked)
+        self.sights = FakeSights()
         self.sent: list[tuple[float, float]] = []
         """Velocities that have reached the robot."""
         self.refusals: dict[tuple[str, str], str] = {}
@@ -72,7 +73,7 @@ class FakeConsole(FakeProfiles):
         self.now = 60.0
         self.closed = False
         self._steps = Journal()
-        self._watched: set[str] = set()
+        self._watched = {}
 
     def change(self, **parts: Any) -> None:
         """Replace parts of the snapshot."""
@@ -248,41 +249,6 @@ class FakeConsole(FakeProfiles):
         self._tell_journal()
         names = ", ".join(name for move in step.moves for name in move.after)
         return done(Answer(not left, "; ".join(each.reason for each in refused) or f"{source.value}: {names}"))
-
-    def _plot(self, path: str, value: Value) -> None:
-        if path in self._watched and isinstance(value, (bool, int, float)):
-            times, values = self.series.setdefault(path, ([], []))
-            times.append(self.now)
-            values.append(float(value))
-
-    def watch(self, path: str) -> Answer:
-        self.asked.append(("watch", path))
-        if self.closed:
-            return Answer(False, CLOSED)
-        node, _, name = path.partition(":")
-        number = isinstance(self._value(node, name), (bool, int, float))
-        why = self.unplottable.get(path, "" if path in self.series or number else f"there is no topic {path}")
-        if not why:
-            self._watched.add(path)
-            if path not in self.series:
-                self._plot(path, self._value(node, name))
-        return Answer(not why, why or path)
-
-    def unwatch(self, path: str) -> None:
-        self.asked.append(("unwatch", path))
-        self._watched.discard(path)
-
-    def samples(self, path: str, after: int = 0) -> Samples:
-        if path not in self._watched:
-            return Samples((), (), after)
-        times, values = self.series.get(path, ([], []))
-        return Samples(times[after:], values[after:], len(times))
-
-    def plot_time(self, stamp: int | None = None) -> float:
-        return self.now if stamp is None else self.now + (stamp - START) / 1e9
-
-    def plottable(self) -> Sequence[str]:
-        return sorted(self.series)
 
     def drive(self, linear: float, angular: float) -> None:
         self.asked.append(("drive", linear, angular))

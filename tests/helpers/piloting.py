@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.panes.diagnostics.pane import DiagnosticsPane
 from bot_console.tui.panes.steering.pane import SteeringPane
 from fake_launcher import FakeLauncher
 from fakes import FakeCommandLine, FakeConsole
@@ -92,7 +93,8 @@ def run(
         app = BotConsoleApp(console, launcher, FakeCommandLine(console.asked), refresh_hz=0)
         async with app.run_test(size=size, notifications=True) as pilot:
             session = Session(app, pilot, console, launcher)
-            session.pane(SteeringPane).clock = Clock()
+            for kind in (SteeringPane, DiagnosticsPane):
+                session.pane(kind).clock = Clock()
             await session.settle()
             await play(session)
             if not faults_wanted:

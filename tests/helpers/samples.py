@@ -31,8 +31,10 @@ from bot_console.tui.console.model import (
     Value,
 )
 from bot_console.tui.console.robot.robot_model import DriveInfo, GridMap, Pose, WorldInfo
+from bot_console.tui.console.sights.model import Diagnostics, Level
 from bot_console.tui.console.traffic import Measure
 from fake_launcher import FakeLauncher
+from fake_sights import status
 from fakes import START, FakeConsole
 
 ODOM_TOPIC = "/odom"
@@ -178,6 +180,20 @@ def launched() -> LaunchInfo:
     return LaunchInfo(("robot_system.launch.py",), tuple(processes), events)
 
 
+def diagnosed() -> Diagnostics:
+    """Parts of a robot, one of them warm, one broken, one silent."""
+    return Diagnostics(
+        (
+            status("safety_monitor: velocity", Level.OK, "free", source="cmd_vel_nav", nearest="1.2"),
+            status("motors/left/driver", Level.WARN, "warm", temperature="71 C"),
+            status("motors/right/driver", Level.OK, "fine", temperature="40 C"),
+            status("motors/right/encoder", Level.ERROR, "no pulses"),
+            status("camera", Level.OK, "30 Hz", heard=90.0),
+        ),
+        ("/diagnostics",),
+    )
+
+
 def profiles() -> tuple[Profile, ...]:
     """Three profiles, one of which cannot be used."""
     values = MappingProxyType({("/robot_navigator", "max_speed"): 2.0})
@@ -240,6 +256,7 @@ def live(parts: tuple[str, ...] = ()) -> tuple[FakeConsole, FakeLauncher]:
         Change(1, START - 5 * 10**9, "/robot_navigator", "max_speed", 1.0, 10.0, ChangeSource.EDIT, False, "too fast"),
     ]  # fmt: skip
     console.traffic.figures.update(figures())
+    console.sights.info = diagnosed()
     console.traffic.messages[ODOM_TOPIC] = (odometry(), ODOM)
     console.differences["competition"] = differences()
     console.differences["indoor"] = ()
@@ -314,5 +331,6 @@ def hostile(text: str = BELL) -> tuple[FakeConsole, FakeLauncher]:
         drive=replace(driving(), topic=text, limited_by=text),
     )
     console.differences[text] = (ProfileDifference(text, text, text, text, text),)
+    console.sights.info = Diagnostics((status(f"a/{text}", Level.ERROR, text, key=text),), (text,))
     console.series[f"/{text}"] = ([1.0, 2.0], [1.0, 2.0])
     return console, FakeLauncher((LaunchArgument(text, text, text, (text,)),), (text,))

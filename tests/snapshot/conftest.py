@@ -5,6 +5,8 @@ from __future__ import annotations
 import time
 
 import pytest
+from bot_console.tui.panes.diagnostics.pane import DiagnosticsPane
+from piloting import Clock
 from textual.widgets import Input
 
 
@@ -13,4 +15,5 @@ def plain_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("NO_COLOR", raising=False)
     monkeypatch.setenv("TZ", "UTC")
     time.tzset()
+    monkeypatch.setattr(DiagnosticsPane, "clock", staticmethod(Clock()))
     monkeypatch.setattr(Input, "_toggle_cursor", lambda self: None)

@@ -37,6 +37,7 @@ from bot_console.tui.console.plot.watch import PlotWatch
 from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.robot.drive_node import DriveNode
 from bot_console.tui.console.robot.world_watch import WorldWatch
+from bot_console.tui.console.sights.room import NodeSights
 from bot_console.tui.console.topics.room import NodeTraffic
 from bot_console.tui.files.save_file import NotSaved, typed_path
 from rcl_interfaces.msg import Log, LoggerLevel
@@ -92,6 +93,7 @@ class ConsoleNode:
         self._compared: tuple[Profile | None, object, int] = (None, None, 0)
         self.setter = ParameterSetter(self.calls, self.parameters, self.journal)
         self.traffic = NodeTraffic(self.node, self.calls, lambda: self.graph.info)
+        self.sights = NodeSights(self.node)
         self._rosout = OfferedSubscription(
             self.node, Log, "/rosout", self._on_log, ROSOUT, eager=not foreign, once_weak=True
         )
@@ -121,6 +123,7 @@ class ConsoleNode:
         self.world.follow(graph)
         self._drive_node.follow(graph)
         self.traffic.follow(graph)
+        self.sights.follow(graph)
 
     def _parameter_changed(self, node: str, name: str, old: Value, new: Value) -> ChangeSource:
         self.plots.parameter_is(node, name, new)

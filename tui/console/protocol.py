@@ -25,6 +25,7 @@ from bot_console.tui.console.model import (
 )
 
 if TYPE_CHECKING:
+    from bot_console.tui.console.sights.model import Sights
     from bot_console.tui.console.traffic import Traffic
 
 
@@ -138,6 +139,11 @@ class Console(ConsoleReading, Protocol):
         """Its topics, services and actions, as a person uses them."""
         ...
 
+    @property
+    def sights(self) -> Sights:
+        """What it shows of itself: its diagnostics."""
+        ...
+
     def clear_logs(self) -> None:
         """Forget all records; numbers go on."""
         ...
@@ -171,16 +177,17 @@ class Console(ConsoleReading, Protocol):
         """Make the last undone change again."""
         ...
 
-    def watch(self, path: str) -> Answer:
-        """Collect a series; says in words why it cannot be plotted.
+    def watch(self, path: str, asker: str = "") -> Answer:
+        """Collect a series, for as long as any asker wants it; says in words why it cannot be plotted.
 
         `/topic/field.sub[2]`, `/topic/array[2:8].mean()` (or min, max, sum, std, len; yaw of a quaternion), or
         `/node:parameter`.
+
         """
         ...
 
-    def unwatch(self, path: str) -> None:
-        """Stop collecting and forget the series."""
+    def unwatch(self, path: str, asker: str = "") -> None:
+        """For one asker, who wants it no more; a series that nobody wants is forgotten."""
         ...
 
     def drive(self, linear: float, angular: float) -> None:

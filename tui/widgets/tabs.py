@@ -49,13 +49,13 @@ class Tabs(Static):
 
 
 def tab_texts(marks: Sequence[Mark], width: int, colour: str) -> list[Text]:
-    """Digits and titles of the panes; short titles, then none but the shown one's, where there is little room."""
-    for form in ("long", "short", "digits"):
+    """Digits and titles of the panes; where there is little room short titles, the last ones first without any."""
+    for titled, long in ((len(marks), True), *((most, False) for most in range(len(marks), -1, -1))):
         parts: list[Text] = []
-        for digit, title, brief, _, shown in marks:
-            word = title if form == "long" else (brief if form == "short" or shown else "")
+        for at, (digit, title, brief, _, shown) in enumerate(marks):
+            word = title if long else (brief if at < titled or shown else "")
             label = harmless(f"{digit} {word}".strip())
-            padded = f"[{label}]" if shown else (label if form == "short" else f" {label} ")
+            padded = f"[{label}]" if shown else (label if not long else f" {label} ")
             parts.append(Text(padded, Style(color=colour, bold=True, reverse=True) if shown else ""))
         if sum(part.cell_len + 1 for part in parts) - 1 <= width:
             return parts

@@ -26,6 +26,7 @@ from bot_console.tui.console.model import (
 from bot_console.tui.console.node import ConsoleNode
 from bot_console.tui.console.parameters.shelf import Shelf
 from bot_console.tui.console.protocol import Answer, LogView, Samples
+from bot_console.tui.console.sights.model import Sights
 from bot_console.tui.console.traffic import Traffic
 
 LAST_WORD = 0.15
@@ -53,6 +54,11 @@ class LinkedConsole:
     def traffic(self) -> Traffic:
         """Topics, services and actions."""
         return self._node.traffic
+
+    @property
+    def sights(self) -> Sights:
+        """What the robot shows of itself."""
+        return self._node.sights
 
     def snapshot(self) -> ConsoleSnapshot:
         """What the node knows now; each unchanged part is the same object."""
@@ -116,13 +122,13 @@ class LinkedConsole:
         """Make the last undone change again."""
         return self._node.redo()
 
-    def watch(self, path: str) -> Answer:
+    def watch(self, path: str, asker: str = "") -> Answer:
         """Collect a series."""
-        return self._node.plots.watch(path, self._node.graph.info, self._node.parameters.trees)
+        return self._node.plots.watch(path, self._node.graph.info, self._node.parameters.trees, asker)
 
-    def unwatch(self, path: str) -> None:
+    def unwatch(self, path: str, asker: str = "") -> None:
         """Stop collecting a series."""
-        self._node.plots.unwatch(path)
+        self._node.plots.unwatch(path, asker)
 
     def samples(self, path: str, after: int = 0) -> Samples:
         """New samples of a series."""

@@ -18,6 +18,8 @@ from bot_console.tui.console.model import (
     Value,
 )
 from bot_console.tui.console.protocol import Answer, ConsoleReading, LogFindings, LogView, Samples, Stream
+from bot_console.tui.console.sights.idle import IdleSights
+from bot_console.tui.console.sights.model import Sights
 from bot_console.tui.console.topics.idle import IdleTraffic
 from bot_console.tui.console.traffic import Traffic
 
@@ -98,6 +100,7 @@ class NoConsole:
         self._why = why
         self._refusal = Answer(False, why)
         self._idle: Traffic = IdleTraffic(why)
+        self._blind: Sights = IdleSights(why)
         self.snapshot = known.snapshot
         self.log = known.log
         self.matching_logs = known.matching_logs
@@ -112,6 +115,11 @@ class NoConsole:
     def traffic(self) -> Traffic:
         """Refuses, too."""
         return self._idle
+
+    @property
+    def sights(self) -> Sights:
+        """Nothing is seen."""
+        return self._blind
 
     def clear_logs(self) -> None:
         """There is nothing to forget."""
@@ -143,11 +151,11 @@ class NoConsole:
         """Refused."""
         return done(self._refusal)
 
-    def watch(self, path: str) -> Answer:
+    def watch(self, path: str, asker: str = "") -> Answer:
         """Refused."""
         return self._refusal
 
-    def unwatch(self, path: str) -> None:
+    def unwatch(self, path: str, asker: str = "") -> None:
         """Nothing is collected."""
 
     def drive(self, linear: float, angular: float) -> None:

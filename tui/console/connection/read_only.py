@@ -9,6 +9,7 @@ from concurrent.futures import Future
 from bot_console.tui.console.connection.no_console import NoConsole, done
 from bot_console.tui.console.model import LaunchArgument
 from bot_console.tui.console.protocol import Answer, CommandLine, Console, Stream
+from bot_console.tui.console.sights.model import Sights
 from bot_console.tui.console.topics.reading import ReadingTraffic
 from bot_console.tui.console.traffic import Traffic
 
@@ -41,13 +42,18 @@ class ReadOnlyConsole(NoConsole):
         """Topics are seen; nothing is sent."""
         return ReadingTraffic(WHY, self._console.traffic)
 
-    def watch(self, path: str) -> Answer:
-        """Collect a series."""
-        return self._console.watch(path)
+    @property
+    def sights(self) -> Sights:
+        """All that the robot shows."""
+        return self._console.sights
 
-    def unwatch(self, path: str) -> None:
+    def watch(self, path: str, asker: str = "") -> Answer:
+        """Collect a series."""
+        return self._console.watch(path, asker)
+
+    def unwatch(self, path: str, asker: str = "") -> None:
         """Stop collecting a series."""
-        self._console.unwatch(path)
+        self._console.unwatch(path, asker)
 
     def clear_logs(self) -> None:
         """Forget the records of this console."""

@@ -33,6 +33,7 @@ from bot_console.tui.console.model import (
 )
 from bot_console.tui.console.parameters.provenance import Learn, Provenance
 from bot_console.tui.console.protocol import Answer, Console, LogView, Samples
+from bot_console.tui.console.sights.model import Sights
 from bot_console.tui.console.traffic import Traffic
 
 if TYPE_CHECKING:
@@ -178,6 +179,11 @@ class RosConsole:
         """Topics, services and actions."""
         return self._now.traffic
 
+    @property
+    def sights(self) -> Sights:
+        """What the robot shows of itself."""
+        return self._now.sights
+
     def log(self, seq: int) -> LogRecord | None:
         """The log record of that number."""
         return self._now.log(seq)
@@ -223,13 +229,13 @@ class RosConsole:
         """Make the last undone change again."""
         return self._now.redo()
 
-    def watch(self, path: str) -> Answer:
+    def watch(self, path: str, asker: str = "") -> Answer:
         """Collect a series."""
-        return self._now.watch(path)
+        return self._now.watch(path, asker)
 
-    def unwatch(self, path: str) -> None:
+    def unwatch(self, path: str, asker: str = "") -> None:
         """Stop collecting a series."""
-        self._now.unwatch(path)
+        self._now.unwatch(path, asker)
 
     def samples(self, path: str, after: int = 0) -> Samples:
         """New samples of a series."""

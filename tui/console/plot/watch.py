@@ -29,6 +29,7 @@ class _Watched:
         self.series = Series()
         self.subscription: Any = None
         self.problem = ""
+        self.askers: set[str] = set()
 
 
 class PlotWatch:
@@ -50,9 +51,10 @@ class PlotWatch:
         """Where a moment (ns since the epoch; None is now) lies on that axis."""
         return self.now() if stamp is None else (stamp - self._started_at) / 1e9
 
-    def watch(self, path: str, graph: GraphInfo, trees: Mapping[str, ParameterTree]) -> Answer:
+    def watch(self, path: str, graph: GraphInfo, trees: Mapping[str, ParameterTree], asker: str = "") -> Answer:
         """Begin to collect a path, or say why it cannot be plotted."""
         if path in self._watched:
+            self._watched[path].askers.add(asker)
             return Answer(True, f"{path} is plotted already")
         try:
             if ":" in path:
@@ -61,6 +63,7 @@ class PlotWatch:
                 self._watch_topic(path, graph)
         except NotPlottable as error:
             return Answer(False, str(error))
+        self._watched[path].askers.add(asker)
         return Answer(True, path)
 
     def _watch_parameter(self, path: str, trees: Mapping[str, ParameterTree]) -> None:
@@ -114,11 +117,16 @@ class PlotWatch:
         if watched and isinstance(value, (bool, int, float)):
             watched.series.add(self.now(), float(value))
 
-    def unwatch(self, path: str) -> None:
-        """Stop collecting and forget."""
-        watched = self._watched.pop(path, None)
-        if watched and watched.subscription is not None:
-            self._node.destroy_subscription(watched.subscription)
+    def unwatch(self, path: str, asker: str = "") -> None:
+        """Stop collecting and forget, unless somebody else wants it still."""
+        watched = self._watched.get(path)
+        if watched is None:
+            return
+        watched.askers.discard(asker)
+        if not watched.askers:
+            del self._watched[path]
+            if watched.subscription is not None:
+                self._node.destroy_subscription(watched.subscription)
 
     def samples(self, path: str, after: int) -> Samples:
         """New samples; nothing for a path that is not watched."""

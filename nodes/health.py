@@ -1,0 +1,29 @@
+"""A node's own health, once a second on `diagnostics`, as `diagnostic_updater` tells it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from bot_console_robot.diagnostics import status
+from diagnostic_msgs.msg import DiagnosticArray
+from rclpy.node import Node
+
+PERIOD = 1.0
+"""Seconds between two statuses."""
+Health = tuple[bytes, str, Mapping[str, object]]
+"""Level, message and values."""
+
+
+class HealthReport:
+    """Tells `<node>: <part>` with what `look` gives."""
+
+    def __init__(self, node: Node, part: str, look: Callable[[], Health]) -> None:
+        self._node = node
+        self._name = f"{node.get_name()}: {part}"
+        self._look = look
+        self._publisher = node.create_publisher(DiagnosticArray, "diagnostics", 10)
+        node.create_timer(PERIOD, self._tell)
+
+    def _tell(self) -> None:
+        level, message, values = self._look()
+        self._publisher.publish(status(self._name, level, message, values, self._node.get_clock().now().to_msg()))

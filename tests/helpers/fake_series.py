@@ -1,0 +1,62 @@
+"""The part of `FakeConsole` that collects series."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from bot_console.tui.console.model import Value
+from bot_console.tui.console.protocol import Answer, Samples
+from fake_profiles import CLOSED
+
+START = 1_700_000_000_000_000_000
+
+
+class FakeSeries:
+    """Collects what the test has put into `series`, and numbers among the parameters."""
+
+    asked: list[tuple[Any, ...]]
+    closed: bool
+    now: float
+    series: dict[str, tuple[list[float], list[float]]]
+    unplottable: dict[str, str]
+    _watched: dict[str, set[str]]
+    """Who wants each path."""
+
+    def _value(self, node: str, name: str) -> Value:
+        raise NotImplementedError
+
+    def _plot(self, path: str, value: Value) -> None:
+        if self._watched.get(path) and isinstance(value, (bool, int, float)):
+            times, values = self.series.setdefault(path, ([], []))
+            times.append(self.now)
+            values.append(float(value))
+
+    def watch(self, path: str, asker: str = "") -> Answer:
+        self.asked.append(("watch", path))
+        if self.closed:
+            return Answer(False, CLOSED)
+        node, _, name = path.partition(":")
+        number = isinstance(self._value(node, name), (bool, int, float))
+        why = self.unplottable.get(path, "" if path in self.series or number else f"there is no topic {path}")
+        if not why:
+            self._watched.setdefault(path, set()).add(asker)
+            if path not in self.series:
+                self._plot(path, self._value(node, name))
+        return Answer(not why, why or path)
+
+    def unwatch(self, path: str, asker: str = "") -> None:
+        self.asked.append(("unwatch", path))
+        self._watched[path] = self._watched.get(path, set()) - {asker}
+
+    def samples(self, path: str, after: int = 0) -> Samples:
+        if not self._watched.get(path):
+            return Samples((), (), after)
+        times, values = self.series.get(path, ([], []))
+        return Samples(times[after:], values[after:], len(times))
+
+    def plot_time(self, stamp: int | None = None) -> float:
+        return self.now if stamp is None else self.now + (stamp - START) / 1e9
+
+    def plottable(self) -> Sequence[str]:
+        return sorted(self.series)

@@ -1,0 +1,21 @@
+"""`FakeSights`: what the test says that the robot shows."""
+
+from __future__ import annotations
+
+from bot_console.tui.console.sights.model import Diagnostics, Level, Status, Told
+
+
+class FakeSights:
+    """Shows what was put in."""
+
+    def __init__(self) -> None:
+        self.info = Diagnostics()
+
+    def diagnostics(self) -> Diagnostics:
+        return self.info
+
+
+def status(name: str, level: Level = Level.OK, message: str = "", heard: float = 100.0, **values: str) -> Status:
+    """A status that has been so from the start."""
+    told = (Told(1_700_000_000_000_000_000, level, message),)
+    return Status(name, level, message, "robot", tuple(values.items()), heard, told)

@@ -1,0 +1,98 @@
+"""Diagnostics: the tree, what is wrong in it, silence, and all about one status."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from bot_console.tui.console.sights.model import Diagnostics, Level
+from bot_console.tui.panes.diagnostics.pane import DiagnosticsPane
+from bot_console.tui.panes.diagnostics.table import StatusRows
+from fake_sights import status
+from piloting import Session, run
+from samples import empty, live
+
+
+def titles(session: Session) -> list[str]:
+    return [each.title for each in session.pane(StatusRows).rows]
+
+
+def test_the_tree_shows_levels_by_word_and_the_worst_upwards() -> None:
+    async def play(session: Session) -> None:
+        await session.press("M")
+        lines = session.lines()
+        assert any("motors" in each and "✗ ERROR" in each and "1 of 3 OK" in each for each in lines)
+        assert any("camera" in each and "◌ STALE" in each and "10 s" in each for each in lines)
+        await session.press("G")
+        assert "nearest  1.2" in session.text() and "was" in session.text()
+        await session.press("g", "down", "enter")
+        assert titles(session)[1:3] == ["motors", "safety_monitor: velocity"], "enter closes what holds others"
+        await session.press("right", "down", "down", "enter")
+        assert "temperature  71 C" in session.text() and "hardware robot" in session.text()
+
+    run(live(), play, (100, 30))
+
+
+def test_what_comes_is_shown_when_time_goes_on_and_what_is_silent_turns_stale() -> None:
+    async def play(session: Session) -> None:
+        await session.press("M", "w")
+        assert "safety_monitor: velocity" not in titles(session) and "2 of 5" not in session.text()
+        pane = session.pane(DiagnosticsPane)
+        session.console.sights.info = Diagnostics((status("arm", Level.ERROR, "broken", heard=100.0),))
+        pane.clock.now += 0.4
+        pane.tick()
+        assert "arm" not in titles(session), "not before its time"
+        pane.clock.now += 0.2
+        pane.tick()
+        await session.settle()
+        assert "broken" in session.text()
+        pane.clock.now += 5.0
+        pane.tick()
+        await session.settle()
+        assert "◌ STALE" in session.text() and "it was ERROR" in session.text()
+        fresh = replace(session.console.sights.info.statuses[0], heard=pane.clock.now, level=Level.OK)
+        session.console.sights.info = Diagnostics((fresh,))
+        pane.clock.now += 0.5
+        pane.tick()
+        await session.settle()
+        assert "All is OK; w shows everything." in session.text()
+
+    run(live(), play, (100, 30))
+
+
+def test_filter_and_folds() -> None:
+    async def play(session: Session) -> None:
+        await session.press("M", "slash")
+        await session.type("warm")
+        await session.press("enter")
+        assert titles(session) == ["motors", "left", "driver"] and "1 of 5" in session.text()
+        await session.press("escape", "C")
+        assert titles(session) == ["camera", "motors", "safety_monitor: velocity"]
+        await session.press("C")
+        assert len(titles(session)) == 8
+
+    run(live(), play)
+
+
+def test_the_mouse_chooses_opens_and_closes() -> None:
+    async def play(session: Session) -> None:
+        await session.press("M")
+        assert await session.pilot.click(StatusRows, offset=(10, 3))
+        await session.settle()
+        assert session.pane(StatusRows).current.title == "driver"
+        await session.pilot.click(StatusRows, offset=(10, 3))
+        await session.settle()
+        assert "temperature" in session.text() and len(session.app.screen_stack) == 2
+        await session.press("escape")
+        await session.pilot.click(StatusRows, offset=(0, 1))
+        await session.settle()
+        assert titles(session) == ["camera", "motors", "safety_monitor: velocity"], "the fold mark closes at once"
+
+    run(live(), play, (100, 30))
+
+
+def test_nothing_to_see_says_why() -> None:
+    async def play(session: Session) -> None:
+        await session.press("M", "enter", "left", "C", "w")
+        assert "No node publishes diagnostics" in session.text()
+
+    run(empty(), play)

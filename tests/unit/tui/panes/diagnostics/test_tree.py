@@ -1,0 +1,66 @@
+"""The tree of diagnostics: names by slashes, the worst level upwards, silence."""
+
+from __future__ import annotations
+
+from bot_console.tui.console.query import parse
+from bot_console.tui.console.sights.model import Level
+from bot_console.tui.panes.diagnostics.tree import Row, matches, rows
+from fake_sights import status
+from hypothesis import given
+from hypothesis import strategies as st
+
+NOW = 101.0
+
+
+def shown(found: list[Row]) -> list[tuple[str, int, Level]]:
+    return [(each.title, each.depth, each.level) for each in found]
+
+
+def test_slashes_make_levels_and_the_worst_goes_upwards() -> None:
+    found = rows([status("arm/left/motor", Level.WARN), status("/arm/right", Level.ERROR), status("base")], NOW)
+    assert shown(found) == [
+        ("arm", 0, Level.ERROR),
+        ("left", 1, Level.WARN),
+        ("motor", 2, Level.WARN),
+        ("right", 1, Level.ERROR),
+        ("base", 0, Level.OK),
+    ]
+    assert (found[0].count, found[0].bad) == (2, 2)
+
+
+def test_what_is_silent_for_more_than_five_seconds_is_stale_but_an_error_is_worse() -> None:
+    old = status("a/old", heard=NOW - 5.1)
+    assert shown(rows([old, status("a/warm", Level.WARN)], NOW))[0] == ("a", 0, Level.STALE)
+    assert shown(rows([status("a/edge", heard=NOW - 5.0)], NOW))[0] == ("a", 0, Level.OK)
+    assert shown(rows([old, status("a/bad", Level.ERROR)], NOW))[0] == ("a", 0, Level.ERROR)
+
+
+def test_a_status_may_stand_above_others() -> None:
+    top, below = rows([status("arm", message="all well"), status("arm/hand", Level.WARN)], NOW)
+    assert (top.level, top.status.message, top.count, top.bad) == (Level.WARN, "all well", 1, 1)
+    assert below.path == "/arm/hand"
+
+
+def test_folded_rows_hold_back_what_stands_below() -> None:
+    statuses = [status("a/b/c", Level.WARN), status("d")]
+    assert shown(rows(statuses, NOW, {"/a"})) == [("a", 0, Level.WARN), ("d", 0, Level.OK)]
+    assert shown(rows(statuses, NOW, {"/a/b"})) == [("a", 0, Level.WARN), ("b", 1, Level.WARN), ("d", 0, Level.OK)]
+
+
+def test_only_what_is_not_ok() -> None:
+    statuses = [status("a/b", Level.WARN), status("c"), status("d", heard=0.0)]
+    assert [each.path for each in rows(statuses, NOW, bad_only=True)] == ["/a", "/a/b", "/d"]
+
+
+def test_a_filter_looks_at_name_level_message_and_hardware() -> None:
+    one = status("arm/motor", Level.WARN, "too hot")
+    assert all(matches(one, parse(words)) for words in ("motor", "warn hot", "robot", "re:to+"))
+    assert not matches(one, parse("cold"))
+
+
+@given(st.lists(st.text("ab/", min_size=1, max_size=6), unique=True, max_size=12))
+def test_every_name_has_its_row_and_counts_add_up(names: list[str]) -> None:
+    found = rows([status(each) for each in names], NOW)
+    kept = {"/".join(part for part in each.split("/") if part) or each for each in names}
+    assert sum(each.status is not None for each in found) == len(kept)
+    assert sum(each.count + (each.status is not None) for each in found if not each.depth) == len(kept)

@@ -1,0 +1,1 @@
+"""What a robot shows of itself: its diagnostics and its cameras."""

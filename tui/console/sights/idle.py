@@ -1,0 +1,16 @@
+"""`Sights` while there is no ROS system to look at: nothing is seen, and it says why."""
+
+from __future__ import annotations
+
+from bot_console.tui.console.sights.model import Diagnostics
+
+
+class IdleSights:
+    """Says why nothing is seen."""
+
+    def __init__(self, why: str) -> None:
+        self._diagnostics = Diagnostics(problem=why)
+
+    def diagnostics(self) -> Diagnostics:
+        """None, and why."""
+        return self._diagnostics

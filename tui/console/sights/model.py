@@ -1,0 +1,75 @@
+"""Diagnostics as a person sees them, and the protocol that gives them. Standard library only.
+
+`Sights` is read by pulling, as `Console` is, of which it is a part: nothing here blocks.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Protocol
+
+STALE_AFTER = 5.0
+"""Seconds after which a status that was not told again counts as stale, as in rqt_robot_monitor."""
+
+
+class Level(IntEnum):
+    """Levels of `diagnostic_msgs/msg/DiagnosticStatus`, with its codes."""
+
+    OK = 0
+    WARN = 1
+    ERROR = 2
+    STALE = 3
+
+    @property
+    def weight(self) -> int:
+        """How bad it is: an error is worse than silence, and silence worse than a warning."""
+        return (0, 1, 3, 2)[self]
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """A moment (ns since the epoch) from which a status had another level, or said something else at the same one."""
+
+    stamp: int
+    level: Level
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class Status:
+    """What one part of the robot last said of itself. The slashes of the name are the levels of a tree."""
+
+    name: str
+    level: Level
+    message: str = ""
+    hardware: str = ""
+    values: tuple[tuple[str, str], ...] = ()
+    heard: float = 0.0
+    """When it was said last, in s of a steady clock."""
+    history: tuple[Told, ...] = ()
+    """How it came to be so, the newest last."""
+
+    def now(self, clock: float) -> Level:
+        """Its level, or stale where it has been silent for too long."""
+        return Level.STALE if clock - self.heard > STALE_AFTER else self.level
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostics:
+    """The last status of each name; `problem` says why there is none, empty when nothing is wrong."""
+
+    statuses: tuple[Status, ...] = ()
+    topics: tuple[str, ...] = ()
+    """Where they come from."""
+    dropped: int = 0
+    """Names beyond those that are kept."""
+    problem: str = ""
+
+
+class Sights(Protocol):
+    """What a robot shows of itself."""
+
+    def diagnostics(self) -> Diagnostics:
+        """The newest diagnostics; the same object until something was said."""
+        ...

@@ -1,0 +1,168 @@
+"""The diagnostics pane: what every part of the robot says of itself, the worst of it shown upwards."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+from bot_console.tui import keymap
+from bot_console.tui.console.model import ConsoleSnapshot
+from bot_console.tui.console.query import Query, parse
+from bot_console.tui.console.sights.model import Diagnostics, Level
+from bot_console.tui.format import harmless
+from bot_console.tui.panes.diagnostics.details import below_text, sections
+from bot_console.tui.panes.diagnostics.table import StatusRows
+from bot_console.tui.panes.diagnostics.tree import Row, matches, rows
+from bot_console.tui.panes.list_pane import ListPane
+from bot_console.tui.screens.facts import FactsScreen
+from bot_console.tui.widgets.prompt.line import Prompt
+from bot_console.tui.widgets.row_list import RowList
+from bot_console.tui.widgets.words import Words
+from rich.text import Text
+from textual.app import ComposeResult
+from textual.containers import Container
+
+PERIOD = 0.5
+"""Seconds between two looks."""
+SIDE = 110
+"""Cells from which the list and what is at the cursor stand side by side."""
+NOTHING = "No node publishes diagnostics (diagnostic_msgs/msg/DiagnosticArray) yet."
+
+
+class DiagnosticsPane(ListPane):
+    """Diagnostics as a tree."""
+
+    TITLE = "Diagnostics"
+    HELP = (
+        "What the parts of the robot say of themselves on /diagnostics (on /diagnostics_agg where there is an\n"
+        "aggregator), by the slashes of their names. A row above others has the worst level below it: error, then\n"
+        "stale, then warning. What was not said again for 5 s is stale. Below: the values of the row at the cursor,\n"
+        "and every level that it had since the console has begun."
+    )
+    BINDINGS = keymap.bindings("diagnostics")
+
+    clock: Callable[[], float] = staticmethod(time.monotonic)
+    """Seconds of the steady clock by which statuses were heard; tests give one that they step."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self._info = Diagnostics()
+        self._problem = ""
+        self._query = Query()
+        self._bad_only = False
+        self._folded: frozenset[str] = frozenset()
+        self._looked = 0.0
+
+    def compose(self) -> ComposeResult:
+        """The tree, what is at the cursor, a prompt."""
+        with Container(id="diagnostics-body"):
+            yield StatusRows()
+            yield Words(id="diagnostics-detail")
+        yield Prompt(id="diagnostics-prompt")
+
+    @property
+    def _list(self) -> StatusRows:
+        return self.query_one(StatusRows)
+
+    def show(self, snapshot: ConsoleSnapshot) -> None:
+        """Take in why nothing may come."""
+        self._problem = snapshot.problem
+        self._look()
+
+    def tick(self) -> None:
+        """Look again, while it is seen."""
+        if self.display and self.clock() - self._looked >= PERIOD:
+            self._look()
+
+    def _look(self) -> None:
+        self._looked = self.clock()
+        self._info = self.console.sights.diagnostics()
+        self._arrange()
+
+    def _arrange(self) -> None:
+        """Show what passes the filter."""
+        every = self._info.statuses
+        passing = [each for each in every if not self._query.terms or matches(each, self._query)]
+        now = self.clock()
+        self._list.exchange(rows(passing, now, self._folded, bad_only=self._bad_only))
+        shown = sum(not self._bad_only or each.now(now) is not Level.OK for each in passing)
+        more = f"{self._info.dropped} more names than are kept" if self._info.dropped else ""
+        self.tell_filter(shown, len(every), "not OK" if self._bad_only else "", more)
+        self._describe()
+
+    def _describe(self) -> None:
+        self.query_one("#diagnostics-detail", Words).say(self._details(self._list.current))
+
+    def _details(self, row: Row | None) -> Text:
+        if row is None:
+            if self._info.statuses:
+                return Text("All is OK; w shows everything." if self._bad_only else "Nothing matches.", "dim")
+            return Text(harmless(self._problem or self._info.problem) or NOTHING, "dim")
+        if row.status is None:
+            return Text(harmless(below_text(row)))
+        text = Text(no_wrap=True, overflow="ellipsis")
+        for heading, lines in sections(row.status, self.clock()):
+            if lines:
+                text.append(f"{harmless(heading)}\n", "bold")
+                text.append("".join(f"  {harmless(line)}\n" for line in lines))
+        return text
+
+    def on_row_list_moved(self, event: RowList.Moved) -> None:
+        """Tell of the row at the cursor."""
+        event.stop()
+        self._describe()
+
+    def on_status_rows_pressed(self, event: StatusRows.Pressed) -> None:
+        """A row that was chosen already, or a fold mark, was clicked."""
+        event.stop()
+        row = self._list.current
+        if event.on_mark and row is not None:
+            self.action_fold(not row.folded)
+        else:
+            self.action_open()
+
+    def filter_is(self, words: str) -> None:
+        """Show what passes."""
+        self._query = parse(words)
+        self._arrange()
+
+    def action_clear_filter(self) -> None:
+        """Show everything again."""
+        self._bad_only = False
+        self.set_filter("")
+
+    def action_bad_only(self) -> None:
+        """Only what is not OK, or all."""
+        self._bad_only = not self._bad_only
+        self._arrange()
+
+    def action_open(self) -> None:
+        """All that is known of a status; of what only holds others: close or open it."""
+        row = self._list.current
+        if row is not None and row.status is not None:
+            self.host.push_screen(FactsScreen(harmless(row.status.name), sections(row.status, self.clock())))
+        elif row is not None:
+            self.action_fold(not row.folded)
+
+    def action_fold(self, closed: bool) -> None:
+        """Close or open what stands below the row at the cursor; or close what it stands in."""
+        shown, row = self._list, self._list.current
+        if row is None:
+            return
+        if closed and (not row.count or row.folded):
+            above = (at for at in range(shown.cursor, -1, -1) if shown.rows[at].depth < row.depth)
+            at = next(above, shown.cursor)
+            shown.cursor, row = at, shown.rows[at]
+        self._folded = self._folded - {row.path} | ({row.path} if closed and row.count else frozenset[str]())
+        self._arrange()
+
+    def action_fold_all(self) -> None:
+        """Close all that holds others, or open everything."""
+        paths = frozenset(each.path for each in self._list.rows if each.count)
+        self._folded = frozenset() if self._folded else paths
+        self._arrange()
+
+    def on_resize(self) -> None:
+        """List and detail side by side where there is room."""
+        self.set_class(self.size.width >= SIDE, "side")

@@ -1,0 +1,90 @@
+"""The rows of the diagnostics pane as they are drawn: name, level, what was said, how long ago."""
+
+from __future__ import annotations
+
+from bot_console.tui.console.query import Query
+from bot_console.tui.console.sights.model import Level
+from bot_console.tui.format import cut, harmless
+from bot_console.tui.panes.diagnostics.tree import Row, matches
+from bot_console.tui.panes.topics.figures import age_text
+from bot_console.tui.widgets.item_list import ItemList
+from rich.cells import cell_len
+from rich.segment import Segment
+from rich.style import Style
+from textual.events import Click
+from textual.message import Message
+
+LOOKS = {
+    Level.OK: ("●", "good"),
+    Level.WARN: ("▲", "warn"),
+    Level.ERROR: ("✗", "error"),
+    Level.STALE: ("◌", "warn"),
+}
+"""Sign and style of each level; the word stands beside it, so that nothing is told by colour alone."""
+LEVEL, AGE = 7, 6
+"""Cells of level and age."""
+NAME = 40
+"""Cells that a name takes at most."""
+
+
+class StatusRows(ItemList[Row]):
+    """One part of the robot a row."""
+
+    class Pressed(Message):
+        """A row that was chosen already, or its fold mark, was clicked."""
+
+        def __init__(self, on_mark: bool) -> None:
+            super().__init__()
+            self.on_mark = on_mark
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._names: tuple[object, int] = (None, 0)
+
+    def key(self, item: Row) -> object:
+        """Its path."""
+        return item.path
+
+    def on_click(self, event: Click) -> None:
+        """A click chooses the row; on its fold mark, or on the row that was chosen already, it opens or closes."""
+        index = event.y + self.scroll_offset.y
+        if not 0 <= index < self.row_count():
+            return
+        row, chosen = self.rows[index], index == self.cursor
+        self.cursor = index
+        on_mark = bool(row.count) and event.x < 2 * row.depth + 2
+        if chosen or on_mark:
+            self.post_message(self.Pressed(on_mark))
+
+    def matches(self, index: int, query: Query) -> bool:
+        """Whether a status matches a filter; what only holds others is no match."""
+        status = self.rows[index].status
+        return status is not None and matches(status, query)
+
+    def _name_width(self, width: int) -> int:
+        if self._names[0] is not self.rows:
+            longest = max((2 * each.depth + 4 + cell_len(harmless(each.title)) for each in self.rows), default=0)
+            self._names = (self.rows, longest)
+        return max(12, min(self._names[1], NAME, width - LEVEL - AGE - 2))
+
+    def row(self, index: int, width: int) -> list[Segment]:
+        """Fold mark, name, level, age, message."""
+        row = self.rows[index]
+        sign, style = LOOKS[row.level]
+        own = self._style(style)
+        fold = ("▸ " if row.folded else "▾ ") if row.count else "  "
+        name = cut(f"{'  ' * row.depth}{fold}{harmless(row.title)}", self._name_width(width), pad=True)
+        quiet = row.level is Level.OK
+        return [
+            Segment(name, self._style("head") if row.count else self._style("strong") if not quiet else None),
+            Segment(f" {sign} {row.level.name:<{LEVEL - 1}}", own),
+            Segment(f"{age_text(row.age):>{AGE}}  ", self._style("dim")),
+            Segment(harmless(self._said(row)), None if quiet else own),
+        ]
+
+    def _said(self, row: Row) -> str:
+        below = f"{row.count - row.bad} of {row.count} OK" if row.count else ""
+        return "  ".join(each for each in (row.said, below) if each)
+
+    def _style(self, name: str) -> Style:
+        return self.get_component_rich_style(f"row-list--{name}", partial=True)
