@@ -13,6 +13,7 @@ from collections.abc import Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
 
+from bot_console.runtime.child_range import children_meet
 from bot_console.runtime.commands import BIN, COMMAND_VARIABLE, command
 from bot_console.runtime.importer import embedded_names
 from bot_console.runtime.process.scratch import scratch
@@ -38,8 +39,6 @@ class ChildEnvironment:
 
     def __init__(self) -> None:
         self._stood_in: set[str] = set()
-        self.meet = False
-        """Whether they take part in the domain: not where what runs here is alone in this process."""
 
     def added_to(self, env: Mapping[str, str]) -> dict[str, str]:
         """An environment with the folders first on both paths; one without PATH was not inherited, and stays."""
@@ -48,7 +47,7 @@ class ChildEnvironment:
         return {
             **env,
             COMMAND_VARIABLE: command(),
-            **({} if self.meet else {RANGE_VARIABLE: "OFF"}),
+            **({} if children_meet() else {RANGE_VARIABLE: "OFF"}),
             "PATH": _joined([str(BIN / "ros2"), *_venv()], env["PATH"]),
             "PYTHONPATH": _joined([str(self._stand_ins()), *source_folders()], env.get("PYTHONPATH", "")),
         }
@@ -85,11 +84,6 @@ def _joined(first: Iterable[str], rest: str) -> str:
 
 
 _environment = ChildEnvironment()
-
-
-def let_children_meet(meet: bool) -> None:
-    """Let the programs that launches start take part in the domain, as this program does, or keep them apart."""
-    _environment.meet = meet
 
 
 def child_environment(env: Mapping[str, str]) -> dict[str, str]:

@@ -14,7 +14,8 @@ import pytest
 if os.name != "posix":
     pytest.skip("needs a shell", allow_module_level=True)
 
-from bot_console.runtime.child_environment import child_environment, let_children_meet
+from bot_console.runtime.child_environment import child_environment
+from bot_console.runtime.child_range import let_children_meet
 from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
 from bot_console.runtime.workspace import discover
 from bot_console.runtime.workspace.discover import Workspace, default_folders

@@ -25,7 +25,7 @@ def take_part() -> str:
     global _taking_part
     if os.name == "nt":
         return NO_SOCKETS
-    from bot_console.runtime.child_environment import let_children_meet
+    from bot_console.runtime.child_range import let_children_meet
     from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
     from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
 
@@ -41,7 +41,7 @@ def take_part() -> str:
 
 def run_apart() -> None:
     """Let the contexts that are initialised from now on, and the programs of launches, meet nobody."""
-    from bot_console.runtime.child_environment import let_children_meet
+    from bot_console.runtime.child_range import let_children_meet
     from bot_console.runtime.rmw.local import local_bus
     from bot_console.runtime.rmw.middleware import choose_middleware
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from enum import IntEnum
-from typing import TypeVar
+from functools import lru_cache
+from typing import NamedTuple, TypeVar
 
 from bot_console.runtime.rmw.qos import Period, Profile
 from bot_console.runtime.rmw.qos_matching import INFINITE
@@ -57,15 +57,13 @@ class Liveliness(IntEnum):
     BEST_AVAILABLE = 5
 
 
-@dataclass(frozen=True)
-class Span:
+class Span(NamedTuple):
     """A duration."""
 
     nanoseconds: int = ENDLESS
 
 
-@dataclass(frozen=True)
-class WireQos:
+class WireQos(NamedTuple):
     """The quality of service of an endpoint of another process."""
 
     reliability: Reliability = Reliability.RELIABLE
@@ -96,6 +94,7 @@ def encode_qos(qos: Profile) -> str:
     return ":".join(fields)
 
 
+@lru_cache(256)  # a graph of thousands of endpoints has a few profiles
 def decode_qos(text: str) -> WireQos:
     """The profile of a text; raises `FormatError`."""
     fields = text.split(":")

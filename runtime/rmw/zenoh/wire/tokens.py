@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import Literal, NamedTuple, get_args
 
 from bot_console.runtime.rmw.zenoh.wire.keys import FormatError, dds_type, demangled, mangled, ros_type
 from bot_console.runtime.rmw.zenoh.wire.qos_text import WireQos, decode_qos
@@ -18,8 +17,7 @@ DEFAULT_QOS = WireQos()
 KINDS: tuple[str, ...] = get_args(Kind)
 
 
-@dataclass(frozen=True)
-class TokenNode:
+class TokenNode(NamedTuple):
     """The node that a token names; `zid` is the session's, `number` the node's in it."""
 
     zid: str
@@ -29,8 +27,7 @@ class TokenNode:
     name: str
 
 
-@dataclass(frozen=True)
-class Token:
+class Token(NamedTuple):
     """What a token says; `topic`, type and hash are empty for a node. `number` is the entity's in its session."""
 
     key: str

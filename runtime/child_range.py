@@ -1,0 +1,19 @@
+"""Whether the programs that launches start take part in the domain: not where what runs here is alone in its process.
+
+A module of its own, as verbs say it that start nothing.
+"""
+
+from __future__ import annotations
+
+_meet = False
+
+
+def let_children_meet(meet: bool) -> None:
+    """Let the programs that launches start take part in the domain, as this program does, or keep them apart."""
+    global _meet
+    _meet = meet
+
+
+def children_meet() -> bool:
+    """Whether they take part."""
+    return _meet
