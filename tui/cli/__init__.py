@@ -175,6 +175,12 @@ def _lint(words: Words) -> int:
     return run(words)
 
 
+def _tune(words: Words) -> int:
+    from bot_console.tui.cli.tune.command_line import run
+
+    return run(words)
+
+
 _COMMANDS: dict[str, Callable[[Words], int]] = {
     "run": _run,
     "launch": _launch,
@@ -189,6 +195,7 @@ _COMMANDS: dict[str, Callable[[Words], int]] = {
     "down": _down,
     "status": _status,
     "lint": _lint,
+    "tune": _tune,
     "doctor": _doctor,
     "router": _router,
     "stop": _stop,

@@ -28,6 +28,8 @@ class Launches:
         self._running = 0
         self._services: list[Any] = []
         self._ending = False
+        self.died = ""
+        """The first process that ended with a fault before its time, and how; empty where none did."""
 
     @property
     def exit_code(self) -> int | None:
@@ -84,19 +86,21 @@ class Launches:
 
         from launch import LaunchDescription, LaunchService
 
-        def counted(by: int) -> Callable[..., None]:
-            def count(event: Any, context: Any) -> None:
-                self._running += by
+        def started(_event: Any, _context: Any) -> None:
+            self._running += 1
 
-            return count
+        def ended(event: Any, context: Any) -> None:
+            self._running -= 1
+            if event.returncode and not self._ending and not context.is_shutdown and not self.died:
+                self.died = f"{event.process_name} ended with exit code {event.returncode}"
 
         def ending(_event: Any, _context: Any) -> None:
             if self._running and not self._ending:
                 self._before_end()
 
         handlers = (
-            OnProcessStart(on_start=counted(1)),
-            OnProcessExit(on_exit=counted(-1)),
+            OnProcessStart(on_start=started),
+            OnProcessExit(on_exit=ended),
             OnShutdown(on_shutdown=ending),
         )
         include = IncludeLaunchDescription(AnyLaunchDescriptionSource(file), launch_arguments=arguments.items())

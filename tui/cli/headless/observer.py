@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import json
 import threading
+from collections.abc import Sequence
 from typing import Any
 
 import rclpy
+from bot_console.tui.console.model import Endpoint, GraphInfo
+from bot_console.tui.console.plot.watch import PlotWatch
+from bot_console.tui.tuning.score import statistics
 from rclpy.clock import Clock, ClockType
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
@@ -19,10 +23,16 @@ PROBE_PERIOD = 0.1
 
 
 class Observer:
-    """Waits for the end of a run of `duration` s, asks `report`, and keeps what it learns."""
+    """Waits for the end of a run of `duration` s, asks `report`, and keeps what it learns.
 
-    def __init__(self, duration: float) -> None:
+    It listens to `paths`, fields of topics such as `/odom/twist.twist.linear.x`, from when the topics are there.
+    """
+
+    def __init__(self, duration: float, paths: Sequence[str] = ()) -> None:
         self._duration = duration
+        self._paths = paths
+        self._waited_for = list(paths)
+        self._topics: PlotWatch | None = None
         self._figures: dict[str, Any] = {}
         self._late: list[float] = []
         self._collisions = 0
@@ -44,6 +54,7 @@ class Observer:
         self._due = self._steady.now().nanoseconds
         node.create_timer(PROBE_PERIOD, self._probe, clock=self._steady)
         self._now = node.create_guard_condition(self._ask)
+        self._topics = PlotWatch(node)
         self._node = node
         try:
             rclpy.spin(node)
@@ -65,6 +76,11 @@ class Observer:
         self._due += period
         self._late.append((now - self._due) * 1e-6)
         self._due += max(0, now - self._due) // period * period
+        if self._waited_for and self._node is not None and self._topics is not None:
+            found = self._node.get_topic_names_and_types()
+            graph = GraphInfo(topics=tuple(Endpoint(name, tuple(types)) for name, types in found))
+            watch = self._topics.watch
+            self._waited_for = [each for each in self._waited_for if not watch(each, graph, {}).ok]
 
     def _ask(self) -> None:
         if self._asked:
@@ -90,5 +106,9 @@ class Observer:
                 "median": round(late[len(late) // 2], 3),
                 "p99": round(late[min(len(late) - 1, len(late) * 99 // 100)], 3),
                 "max": round(late[-1], 3),
+            }
+        if self._paths and self._topics is not None:
+            self._figures["topics"] = {
+                path: statistics([float(each) for each in self._topics.samples(path, 0).values]) for path in self._paths
             }
         return self._figures

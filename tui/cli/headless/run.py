@@ -41,13 +41,23 @@ def run(options: Options) -> int:
     choose(options.workspace)
     if not options.fast:
         _meet_others(options)
+    report, observer, launches = simulated(options)
+    print(json.dumps(report, indent=2))
+    return 0 if observer.complete else _no_report(launches)
+
+
+def simulated(options: Options, observer: Observer | None = None) -> tuple[dict[str, Any], Observer, Launches]:
+    """Run the system for a while; the observer's report, the observer, and what was launched.
+
+    `install` must have been called.
+    """
     duration = DURATION if options.duration is None else options.duration
     began = time.perf_counter()
     with _orderly_end(), _time(options) as clock, _notices():
         from bot_console.tui.cli.headless.launches import Launches
         from bot_console.tui.cli.headless.observer import Observer
 
-        observer = Observer(duration)
+        observer = observer or Observer(duration)
         watching = NodeProcess("observer", clock)
         watching.start(observer.run, argv=["observer"])
         launches = Launches(options, clock, observer.ask)
@@ -62,8 +72,7 @@ def run(options: Options) -> int:
     report["wall_time"] = round(time.perf_counter() - began, 3)
     if stalls:
         report["stalls"] = stalls
-    print(json.dumps(report, indent=2))
-    return 0 if observer.complete else _no_report(launches)
+    return report, observer, launches
 
 
 def _meet_others(options: Options) -> None:

@@ -55,8 +55,8 @@ class Shelf:
         """Save what runs as a profile of the user's; one of that name is brought up to date, its comments stay."""
         if self._own is None:
             return Answer(False, "this console has no folder for profiles")
-        if not _NAME.fullmatch(name):
-            return Answer(False, f"'{name}' is no name for a profile: letters, digits, blanks, . + - _")
+        if problem := profile_name_problem(name):
+            return Answer(False, problem)
         path = self._own / f"{name}.yaml"
         title = f"# {' '.join(description.split())}\n" if description.strip() else ""
         try:
@@ -65,3 +65,8 @@ class Shelf:
             return Answer(False, f"not saved: {error}")
         self.look_again()
         return Answer(True, saved.text(path))
+
+
+def profile_name_problem(name: str) -> str:
+    """Why a profile cannot be called so; empty when it can."""
+    return "" if _NAME.fullmatch(name) else f"'{name}' is no name for a profile: letters, digits, blanks, . + - _"

@@ -1,0 +1,50 @@
+"""The node of a run that only asks which parameters there are."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from bot_console.tui.cli.headless.observer import Observer
+from rcl_interfaces.msg import ParameterDescriptor
+from rclpy.node import Node
+from rclpy.parameter import parameter_value_to_python
+from rclpy.parameter_client import AsyncParameterClient
+
+
+class Probe(Observer):
+    """Reports the parameters of all nodes, by node and name, in place of the simulator's figures."""
+
+    def _ask(self) -> None:
+        node = self._node
+        if self._asked or node is None or node.executor is None:
+            return
+        self._asked = True
+        self._end.cancel()
+        node.executor.create_task(self._describe(node))
+
+    async def _describe(self, node: Node) -> None:
+        for name, space in node.get_node_names_and_namespaces():
+            full = f"{space.rstrip('/')}/{name}"
+            client = AsyncParameterClient(node, full)
+            if not client.services_are_ready():
+                continue
+            listed = await client.list_parameters()
+            names = list(listed.result.names) if listed else []
+            described = await client.describe_parameters(names)
+            values = await client.get_parameters(names)
+            if described and values:
+                found = zip(described.descriptors, map(parameter_value_to_python, values.values), strict=False)
+                self._figures[full] = {each.name: _plain(each, value) for each, value in found}
+        self.complete = True
+        self.done.set()
+
+
+def _plain(descriptor: ParameterDescriptor, value: Any) -> dict[str, Any]:
+    """What is said of a parameter, ready for JSON; arrays are not tuned, and left out."""
+    spans = (*descriptor.floating_point_range, *descriptor.integer_range)
+    return {
+        "value": value if isinstance(value, (bool, int, float, str)) else None,
+        "range": [spans[0].from_value, spans[0].to_value] if spans else None,
+        "description": descriptor.description,
+        "read_only": descriptor.read_only,
+    }

@@ -1,0 +1,175 @@
+"""The command: options, a line for each setting while it goes on, the result, and what to do with it."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from bot_console.tui.cli.arguments import profile_names
+from bot_console.tui.cli.tune.describing import dials_of, line_of, result_of
+from bot_console.tui.cli.tune.pool import Pool, profile_text
+from bot_console.tui.files.folders import state_folder
+from bot_console.tui.files.save_file import NotSaved
+from bot_console.tui.tuning.dial import Setting, find_dials
+from bot_console.tui.tuning.journal import Journal
+from bot_console.tui.tuning.question import Question
+from bot_console.tui.tuning.score import FIGURES, READY, parse_score
+from bot_console.tui.tuning.search import SEARCHES
+from bot_console.tui.tuning.study import Progress, Study
+
+EPILOG = """\
+scores that stand ready, more is better:
+{ready}
+a formula is arithmetic over {figures},
+and mean, least, greatest, last or rms of a topic's field: "mean_speed - rms(/odom/twist.twist.angular.z)"
+
+examples:
+  bot-console tune max_speed safety_distance
+  bot-console tune max_speed=0.5..3 turn_rate --profile outdoor --runs 120 --save swift
+  bot-console tune kp_angular --score "mean_speed - 2*collisions" --search grid --json
+
+exit codes: 0 done, 1 failed or stopped, 2 wrong usage
+"""
+
+
+def run(words: Sequence[str]) -> int:
+    """Tune; 0 when a result is there, 1 where none is, 2 for wrong usage."""
+    parser = command_parser()
+    given = parser.parse_args(words)
+    arguments = dict(each.split(":=", 1) for each in given.parameters if ":=" in each)
+    named = [each for each in given.parameters if ":=" not in each]
+    try:
+        score = parse_score(given.score)
+        profile_text(given.profile)
+    except (ValueError, OSError) as error:
+        problem = error.strerror if isinstance(error, OSError) else error
+        known = f"; profiles: {', '.join(profile_names())}" if isinstance(error, OSError) else ""
+        parser.error(f"{given.profile if isinstance(error, OSError) else '--score'}: {problem}{known}")
+    try:
+        pool = Pool(given.jobs)
+    except OSError as error:
+        print(error, file=sys.stderr)
+        return 1
+    try:
+        system = pool.probe(given.profile, arguments).result()
+        if problem := system.get("problem"):
+            print(f"the system does not start: {problem}", file=sys.stderr)
+            return 1
+        question = Question(
+            _found(parser, named, system),
+            score,
+            profile=given.profile,
+            worlds=tuple(given.worlds.split(",")) if given.worlds else ("",),
+            runs=given.runs,
+            seeds=given.seeds,
+            held_out=given.held_out,
+            seed=given.seed,
+            duration=given.duration,
+            search=given.search,
+            arguments=arguments,
+        )
+        if problem := question.problem():
+            parser.error(problem)
+        progress = _tuned(question, pool, given)
+    finally:
+        pool.close()
+    return _told(question, progress, given)
+
+
+def _found(parser: argparse.ArgumentParser, named: list[str], system: Mapping[str, Any]) -> Any:
+    try:
+        return find_dials(named, dials_of(system))
+    except ValueError as error:
+        parser.error(str(error))
+
+
+def _tuned(question: Question, pool: Pool, given: argparse.Namespace) -> Progress:
+    """Run it to its end, or until Ctrl-C; what was found stays in the journal."""
+    journal = Journal(state_folder() / "tune", question, resume=given.resume)
+    if given.resume:
+        print(f"{journal.resumed} runs are known already", file=sys.stderr)
+    study = Study(question, pool, journal, _teller(question))
+    try:
+        return study.run()
+    except KeyboardInterrupt:
+        print(f"\nstopped; --resume goes on with the runs in {journal.path}", file=sys.stderr)
+        return study.progress
+    finally:
+        journal.close()
+
+
+def _teller(question: Question) -> Callable[[Progress], None]:
+    """Prints each setting once, and how far it is, on stderr."""
+    told: set[Setting] = set()
+
+    def tell(progress: Progress) -> None:
+        rest = "\r\033[K" if sys.stderr.isatty() else ""
+        for each in progress.rows:
+            if each.setting not in told:
+                print(f"{rest}{line_of(question, each)}", file=sys.stderr)
+                told.add(each.setting)
+        if rest and not progress.ended:
+            left = f", {math.ceil(progress.left)} s left" if progress.left is not None else ""
+            print(f"{rest}{progress.done} of {progress.runs} runs{left}", end="", file=sys.stderr, flush=True)
+        elif rest:
+            print(rest, end="", file=sys.stderr)
+
+    return tell
+
+
+def _told(question: Question, progress: Progress, given: argparse.Namespace) -> int:
+    """Print the result and save it; the exit code."""
+    best = progress.best
+    result = result_of(question, progress)
+    if given.json:
+        print(json.dumps(result, indent=2))
+    elif best is not None:
+        print("\n".join(result["text"]))
+    if best is None or progress.problem or not progress.ended:
+        print(progress.problem or "stopped", file=sys.stderr)
+        return 1
+    if given.save:
+        from bot_console.runtime.importer import install
+
+        install()
+        from bot_console.tui.cli.tune.saving import save_profile
+
+        try:
+            print(save_profile(given.save, question, best), file=sys.stderr)
+        except NotSaved as error:
+            print(f"not saved: {error}", file=sys.stderr)
+            return 1
+    return 0
+
+
+def command_parser() -> argparse.ArgumentParser:
+    """The options of `tune`."""
+    ready = "\n".join(f"  {name:8}{formula}\n{'':10}{what}" for name, (formula, what) in READY.items())
+    parser = argparse.ArgumentParser(
+        "bot-console tune",
+        description="Run the simulator many times, and find the values of parameters that score best.",
+        epilog=EPILOG.format(ready=ready, figures=", ".join(FIGURES)),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    add = parser.add_argument
+    add(
+        "parameters", nargs="+", metavar="[NODE:]NAME[=LOW..HIGH]", help="what to tune; NAME:=VALUE: to the launch file"
+    )
+    add("--score", default="swift", metavar="FORMULA", help=f"{', '.join(READY)}, or a formula; more is better")
+    add("--runs", type=int, default=60, metavar="N", help="runs in all (60)")
+    add("--seeds", type=int, default=3, metavar="N", help="seeds that each setting is run with (3)")
+    add("--held-out", type=int, default=5, metavar="N", help="further seeds that judge the best in the end (5)")
+    add("--seed", type=int, default=1, metavar="N", help="the first seed (1)")
+    add("--duration", type=float, default=60.0, metavar="S", help="simulated seconds of a run (60)")
+    add("--search", default="adaptive", choices=sorted(SEARCHES), help="how settings are chosen (adaptive)")
+    add("--profile", default="indoor", metavar="PROFILE", help="what is tuned: a profile, or a parameter file (indoor)")
+    add("--worlds", default="", metavar="A,B", help="the worlds of each setting; else the profile's")
+    add("--jobs", type=int, default=0, metavar="N", help="runs side by side; else one for each processor")
+    add("--resume", action="store_true", help="go on with a tuning that was ended")
+    add("--json", action="store_true", help="the result for programs")
+    add("--save", default="", metavar="NAME", help="save the best as a profile of yours")
+    return parser

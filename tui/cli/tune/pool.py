@@ -1,0 +1,151 @@
+"""Runs of the simulator side by side, each in a process that a preloaded server forks."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from collections.abc import Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass, field
+from pathlib import Path
+from queue import SimpleQueue
+from typing import Any
+
+from bot_console.runtime.process.fork_server import ForkServer, Job, Report
+from bot_console.tui.console.parameters.patch import patched
+from bot_console.tui.tuning.question import Question, Trial
+
+CAN_FORK = hasattr(os, "fork")
+PROBING = 1.0
+"""Simulated s after which all nodes are asked for their parameters."""
+_WARM_UP = "bot_console.tui.cli.tune.worker:warm_up"
+_JOB = "bot_console.tui.cli.tune.worker:job"
+_FAULTS = ("[FATAL]", "[ERROR]")
+
+
+def processors() -> list[int]:
+    """Those that this process may use."""
+    offered = getattr(os, "sched_getaffinity", None)
+    return sorted(offered(0)) if offered else list(range(os.cpu_count() or 1))
+
+
+class Pool:
+    """As many runs at a time as there are processors; `close` ends them.
+
+    Raises `OSError` where nothing can be forked.
+    """
+
+    def __init__(self, most: int = 0) -> None:
+        """`most` runs at a time; 0: one for each processor."""
+        if not CAN_FORK:
+            raise OSError("this system cannot fork processes, which runs side by side need")
+        places = processors()
+        self._places: SimpleQueue[int] = SimpleQueue()
+        count = most or len(places)
+        for index in range(count):
+            self._places.put(places[index % len(places)])
+        self._server = ForkServer(_WARM_UP)
+        self._threads = ThreadPoolExecutor(count, thread_name_prefix="tune")
+        self._closed = False
+
+    def begin(self, question: Question, trial: Trial) -> Future[Mapping[str, Any]]:
+        """Begin a run as soon as a processor is free; its report has `problem` where it failed."""
+        run = _Run(
+            "run",
+            question.profile,
+            patched(profile_text(question.profile), question.values(trial.setting)),
+            trial.world,
+            trial.seed,
+            question.duration,
+            [f"{name}:={value}" for name, value in question.arguments.items()],
+            question.score.paths,
+        )
+        return self._threads.submit(self._run, run)
+
+    def probe(self, profile: str, arguments: Mapping[str, str]) -> Future[Mapping[str, Any]]:
+        """The parameters of the system that a profile starts, by node and name."""
+        words = [f"{name}:={value}" for name, value in arguments.items()]
+        run = _Run("probe", profile, profile_text(profile), "", 1, PROBING, words)
+        return self._threads.submit(self._run, run)
+
+    def close(self) -> None:
+        """End all runs and the server."""
+        self._closed = True
+        self._threads.shutdown(wait=False, cancel_futures=True)
+        self._server.close()
+        self._threads.shutdown(wait=True)
+
+    def _run(self, run: _Run) -> Mapping[str, Any]:
+        place = self._places.get()
+        try:
+            return run.report(self._server, place)
+        finally:
+            self._places.put(place)
+
+
+@dataclass(frozen=True)
+class _Run:
+    """What the worker is called with."""
+
+    kind: str
+    profile: str
+    parameters: str
+    world: str
+    seed: int
+    duration: float
+    words: Sequence[str]
+    paths: Sequence[str] = field(default=())
+
+    def report(self, server: ForkServer, processor: int) -> Mapping[str, Any]:
+        """Run it in a process of its own and wait for its report."""
+        profile = self.profile if not is_file(self.profile) else "indoor"
+        arguments = [self.kind, profile, self.parameters, self.world, self.seed, self.duration, list(self.words)]
+        job = Job(
+            "tune", _JOB, [*arguments, list(self.paths), processor], ["bot-console"], dict(os.environ), os.getcwd()
+        )
+        reading, writing = os.pipe()
+        with tempfile.TemporaryFile() as said, open(os.devnull, "r+b") as nothing:
+            try:
+                descriptor = server.start(
+                    job, stdin=nothing.fileno(), stdout=writing, stderr=said.fileno(), data=nothing.fileno()
+                )
+            except OSError:
+                os.close(reading)
+                raise
+            finally:
+                os.close(writing)
+            printed = _drain(reading)
+            ended = Report()
+            ended.feed(_drain(descriptor))
+            return _report(printed, ended, said)
+
+
+def _report(printed: bytes, ended: Report, said: Any) -> Mapping[str, Any]:
+    try:
+        report: dict[str, Any] = json.loads(printed)
+    except ValueError:
+        report = {"problem": ended.problem or f"the run ended with exit code {ended.exit_code}"}
+    if problem := report.get("problem"):
+        said.seek(0)
+        lines = said.read().decode("utf-8", "replace").splitlines()
+        why = next((each for fault in _FAULTS for each in lines if fault in each), "")
+        report["problem"] = f"{problem}: {why.partition(']: ')[2] or why}" if why else problem
+    return report
+
+
+def _drain(descriptor: int) -> bytes:
+    with os.fdopen(descriptor, "rb") as file:
+        return file.read()
+
+
+def is_file(profile: str) -> bool:
+    """Whether a profile is given as a file, not by a name."""
+    return profile.endswith((".yaml", ".yml"))
+
+
+def profile_text(profile: str) -> str:
+    """The parameter file of a profile; raises `OSError` for one that is not there."""
+    folder = Path(__file__).resolve().parents[3] / "profiles"
+    path = Path(profile).expanduser() if is_file(profile) else folder / f"{profile}.yaml"
+    return path.read_text(encoding="utf-8-sig")

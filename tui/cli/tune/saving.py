@@ -1,0 +1,25 @@
+"""The best setting of a tuning, saved as a profile of the user's."""
+
+from __future__ import annotations
+
+from bot_console.tui.cli.tune.pool import is_file, profile_text
+from bot_console.tui.console.parameters.patch import patched
+from bot_console.tui.console.parameters.shelf import profile_name_problem
+from bot_console.tui.files.folders import config_folder
+from bot_console.tui.files.save_file import NotSaved, save_file
+from bot_console.tui.tuning.question import Question
+from bot_console.tui.tuning.study import Judged
+
+
+def save_profile(name: str, question: Question, best: Judged) -> str:
+    """Save the profile that was tuned with the best values in it, and say where; raises `NotSaved`."""
+    if problem := profile_name_problem(name):
+        raise NotSaved(problem)
+    path = config_folder() / "profiles" / f"{name}.yaml"
+    text = profile_text(question.profile)
+    if not is_file(question.profile):
+        # The first comment is the title, and says what a profile is for.
+        title = f"# {question.profile}, tuned for {question.score.text}: score {best.score:.3f}\n"
+        text = title + text
+    save_file(path, patched(text, question.values(best.setting)))
+    return f"saved as profile {name}: {path}"

@@ -1,0 +1,89 @@
+"""One run of the simulator, in a process of its own that was forked with everything imported."""
+
+from __future__ import annotations
+
+import contextlib
+import importlib
+import json
+import os
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+LAUNCHED = ("robot_node", "sensor_node", "safety_node", "controller_node", "telemetry_node", "simulator_node")
+MODULES = (
+    *("bot_console.tui.cli.headless.launches", "bot_console.tui.cli.headless.probe", "launch.actions"),
+    *("launch.event_handlers", "launch.launch_description_sources", "launch_ros.actions"),
+    *("diagnostic_msgs.msg", "visualization_msgs.msg", "rosgraph_msgs.msg", "geometry_msgs.msg", "pymunk"),
+    *(f"bot_console_robot.{each}" for each in LAUNCHED),
+)
+"""What a run imports."""
+
+
+def warm_up() -> None:
+    """What the fork server does once."""
+    from bot_console.runtime.warm_up import warm_up as warm_runtime
+
+    warm_runtime()
+    for name in MODULES:
+        with contextlib.suppress(ImportError):  # missing where a workspace has a package of that name
+            importlib.import_module(name)
+
+
+def job(
+    kind: str, profile: str, parameters: str, world: str, seed: int, duration: float, words: Sequence[str],
+    paths: Sequence[str], processor: int,
+) -> Callable[[], object]:  # fmt: skip
+    """The program of a process: `kind` is `run` or `probe`; prints a JSON object.
+
+    `parameters` is the text of a parameter file, `words` are launch arguments (`name:=value`), `processor` the one that
+    it keeps to where the system offers that: runs side by side would else meet on one.
+    """
+
+    def program() -> None:
+        if hasattr(os, "sched_setaffinity"):
+            with contextlib.suppress(OSError):
+                os.sched_setaffinity(0, {processor})
+        out = os.dup(1)
+        os.dup2(2, 1)  # what a node prints is not the report
+        report = _run(kind, profile, parameters, world, seed, duration, dict(_pair(each) for each in words), paths)
+        with os.fdopen(out, "w") as file:
+            json.dump(report, file)
+
+    return program
+
+
+def _run(
+    kind: str, profile: str, parameters: str, world: str, seed: int, duration: float, arguments: Mapping[str, str],
+    paths: Sequence[str],
+) -> dict[str, Any]:  # fmt: skip
+    from bot_console.runtime.importer import install
+    from bot_console.tui.cli.arguments import Options
+    from bot_console.tui.cli.headless.observer import Observer
+    from bot_console.tui.cli.headless.probe import Probe
+    from bot_console.tui.cli.headless.run import simulated
+
+    install()
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder, "tuned.yaml")
+        file.write_text(parameters, encoding="utf-8")
+        options = Options(
+            profile=profile,
+            launch_arguments={**arguments, "config_file": str(file)},
+            headless=True,
+            fast=True,
+            duration=duration,
+            seed=seed,
+            world=world,
+        )
+        observer = (Probe if kind == "probe" else Observer)(duration, paths)
+        report, _, launches = simulated(options, observer)
+    if not observer.complete or launches.died:
+        return {"problem": launches.died or "the system ended before its time"}
+    return report
+
+
+def _pair(word: str) -> tuple[str, str]:
+    name, _, value = word.partition(":=")
+    return name, value

@@ -1,0 +1,61 @@
+"""The journal of a tuning: one line for each run, on the disk as soon as it has ended, so that nothing is run twice."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, cast
+
+from bot_console.tui.tuning.question import Question, Trial
+
+
+class Journal:
+    """The reports of runs by trial. A line that a crash has cut short is left out; that run is made again.
+
+    Methods raise `OSError` where the file cannot be read or written.
+    """
+
+    def __init__(self, folder: Path, question: Question, *, resume: bool) -> None:
+        """Begin anew, or with what the last tuning of the very same question has left."""
+        self.path = folder / f"{question.digest}.jsonl"
+        self._reports: dict[str, Mapping[str, Any]] = {}
+        folder.mkdir(parents=True, exist_ok=True)
+        whole = self._read() if resume else 0
+        self._file = self.path.open("r+b" if self.path.exists() else "w+b")
+        self._file.truncate(whole)
+        self._file.seek(whole)
+        self.resumed = len(self._reports)
+        """How many runs were there already."""
+
+    def _read(self) -> int:
+        """Take in what is there; how many bytes of it are whole."""
+        if not self.path.exists():
+            return 0
+        whole = 0
+        for line in self.path.read_bytes().splitlines(keepends=True):
+            try:
+                entry: Any = json.loads(line) if line.endswith(b"\n") else None
+            except ValueError:
+                break
+            if not isinstance(entry, dict) or not {"trial", "report"} <= set(cast("dict[str, Any]", entry)):
+                break
+            self._reports[entry["trial"]] = entry["report"]
+            whole += len(line)
+        return whole
+
+    def report(self, trial: Trial) -> Mapping[str, Any] | None:
+        """What is known of a run."""
+        return self._reports.get(trial.key)
+
+    def add(self, trial: Trial, report: Mapping[str, Any]) -> None:
+        """Keep a report; it is on the disk when this returns."""
+        self._reports[trial.key] = report
+        self._file.write(json.dumps({"trial": trial.key, "report": report}).encode() + b"\n")
+        self._file.flush()
+        os.fsync(self._file.fileno())
+
+    def close(self) -> None:
+        """Let the file go; it stays."""
+        self._file.close()

@@ -1,0 +1,114 @@
+"""The score of a run: a formula over the figures of its report and over topics; more is better."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from bot_console.tui.expression import Number, evaluate
+
+FIGURES: Mapping[str, str] = {
+    "mean_speed": "way over time (m/s)",
+    "distance": "way driven (m)",
+    "collisions": "touches, each counted once",
+    "min_clearance": "least room around the hull (m)",
+    "stops": "times that it came to a stand",
+    "longest_standstill": "longest time without driving (s)",
+    "duration": "simulated time (s)",
+}
+"""What a formula may name, and what that is."""
+READY: Mapping[str, tuple[str, str]] = {
+    "swift": (
+        "mean_speed - 2*collisions - 5*max(0, 0.15 - min_clearance)",
+        "fast, and nothing touched: a collision costs 2 m/s, less than 0.15 m of room costs too",
+    ),
+    "steady": (
+        "mean_speed - 0.1*stops - longest_standstill/duration - 2*collisions",
+        "fast without stopping: a stop costs 0.1 m/s, and so does the share of time that it stood longest",
+    ),
+    "roomy": (
+        "min(1, min_clearance) + 0.2*mean_speed - 2*collisions",
+        "room around the hull first, speed second",
+    ),
+}
+"""Scores that stand ready: formula, and what it is for."""
+STATISTICS = ("mean", "least", "greatest", "last", "rms")
+"""What is made of a topic's samples, such as `mean(/odom/twist.twist.linear.x)`."""
+FAILED = -math.inf
+
+_TOPIC = re.compile(rf"\b({'|'.join(STATISTICS)})\(\s*(/[^\s()]+)\s*\)")
+
+
+@dataclass(frozen=True)
+class Score:
+    """A formula that has been found right."""
+
+    text: str
+    """As it was typed, or the name of a ready one."""
+    formula: str
+    """With `topic0`, `topic1` ... in place of what is asked of topics."""
+    topics: tuple[tuple[str, str], ...] = ()
+    """Statistic and path of each of them."""
+
+    @property
+    def paths(self) -> tuple[str, ...]:
+        """The topics' paths, each once."""
+        return tuple(dict.fromkeys(path for _, path in self.topics))
+
+    def of(self, report: Mapping[str, Any]) -> float:
+        """The score of a run's report; raises `ValueError` where the formula has no value for it."""
+        names = figures(report)
+        samples: Mapping[str, Mapping[str, float]] = report.get("topics") or {}
+        for index, (statistic, path) in enumerate(self.topics):
+            found = samples.get(path)
+            if not found:
+                raise ValueError(f"nothing came on {path}")
+            names[f"topic{index}"] = found[statistic]
+        value = float(evaluate(self.formula, names))
+        if not math.isfinite(value):
+            raise ValueError(f"the score is {value}")
+        return value
+
+
+def figures(report: Mapping[str, Any]) -> dict[str, Number]:
+    """The figures of a report by name; no clearance means that nothing was ever near."""
+    known = {name: report.get(name) for name in FIGURES}
+    return {name: math.inf if value is None else value for name, value in known.items()}
+
+
+def parse_score(text: str) -> Score:
+    """A ready score by its name, or a formula; raises `ValueError` with what is wrong with it."""
+    topics: list[tuple[str, str]] = []
+
+    def take(match: re.Match[str]) -> str:
+        topics.append((match[1], match[2]))
+        return f"topic{len(topics) - 1}"
+
+    formula = _TOPIC.sub(take, READY[text][0] if text in READY else text)
+    if text.isidentifier() and text not in READY and text not in FIGURES:
+        raise ValueError(f"'{text}' is no score; there are {', '.join(READY)}, and formulas over {', '.join(FIGURES)}")
+    score = Score(text, formula, tuple(topics))
+    trial = {**dict.fromkeys(FIGURES, 1.0), **{f"topic{index}": 1.0 for index in range(len(topics))}}
+    try:
+        evaluate(formula, trial)
+    except ValueError as error:
+        # With ones in it a formula may well divide by zero; only what is never right is refused here.
+        if "division" not in str(error) and "negative" not in str(error):
+            raise
+    return score
+
+
+def statistics(samples: list[float]) -> dict[str, float]:
+    """What a formula may ask of a topic's samples; nothing where none came."""
+    if not samples:
+        return {}
+    return {
+        "mean": math.fsum(samples) / len(samples),
+        "least": min(samples),
+        "greatest": max(samples),
+        "last": samples[-1],
+        "rms": math.sqrt(math.fsum(each * each for each in samples) / len(samples)),
+    }

@@ -1,0 +1,185 @@
+"""A tuning under way: it asks the search for settings, has them run side by side, and keeps the table."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, wait
+from dataclasses import dataclass, field
+from typing import Any, Protocol
+
+from bot_console.tui.tuning.dial import Setting
+from bot_console.tui.tuning.journal import Journal
+from bot_console.tui.tuning.question import Question, Trial
+from bot_console.tui.tuning.score import FAILED
+from bot_console.tui.tuning.search import Tried, next_settings
+
+
+class Runner(Protocol):
+    """Runs the simulator; the reports of runs that could not be have `problem`."""
+
+    def begin(self, question: Question, trial: Trial) -> Future[Mapping[str, Any]]:
+        """Begin a run, as soon as there is room for it."""
+        ...
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A setting and what its runs came to."""
+
+    setting: Setting
+    score: float
+    """The mean over its runs; minus infinity where one failed."""
+    scores: tuple[float, ...] = ()
+    collisions: int = 0
+    problem: str = ""
+    """Why a run failed; empty when none did."""
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far it is. The same object until something has changed."""
+
+    rows: tuple[Judged, ...] = ()
+    """Settings in the order in which they were tried; the first is how it was before."""
+    done: int = 0
+    runs: int = 0
+    """Runs there will be at most, those on held-out seeds included."""
+    elapsed: float = 0.0
+    """Seconds so far."""
+    fresh: int = 0
+    """Runs made now, not taken from the journal."""
+    held_out: tuple[Judged, Judged] | None = None
+    """The setting of before and the best one, on held-out seeds."""
+    ended: bool = False
+    problem: str = ""
+    """Why it ended early; empty when it did not."""
+
+    @property
+    def best(self) -> Judged | None:
+        """The setting with the highest score; None while none has one."""
+        scored = [each for each in self.rows if math.isfinite(each.score)]
+        return max(scored, key=lambda each: each.score) if scored else None
+
+    @property
+    def left(self) -> float | None:
+        """Seconds that are left, if the rest goes as fast; None while nobody knows."""
+        return self.elapsed / self.fresh * (self.runs - self.done) if self.fresh else None
+
+
+@dataclass
+class Study:
+    """Runs a question to its end in the calling thread; `progress` and `stop` are for any other."""
+
+    question: Question
+    runner: Runner
+    journal: Journal
+    changed: Callable[[Progress], None] = lambda progress: None
+    clock: Callable[[], float] = time.monotonic
+    progress: Progress = field(default_factory=Progress)
+    _stopped: bool = False
+
+    def stop(self) -> None:
+        """End it after the runs that go on; what was found stays."""
+        self._stopped = True
+
+    def run(self) -> Progress:
+        """Search, then judge the best on held-out seeds."""
+        question, self._began = self.question, self.clock()
+        self._rows: list[Judged] = []
+        self._going_on: Mapping[Setting, Sequence[Trial]] = {}
+        self._done = self._fresh = 0
+        self._planned = question.settings * question.seeds * len(question.worlds)
+        self._planned += 2 * len(question.held_out_trials(()))
+        held_out: tuple[Judged, Judged] | None = None
+        try:
+            while settings := self._next():
+                self._going_on = {each: question.trials(each) for each in settings}
+                self._rows += self._judge(self._going_on)
+                self._going_on = {}
+            best = self._best()
+            if best is not None and question.held_out and not self._stopped:
+                both = (self._rows[0].setting, best.setting)
+                chosen = [*self._judge({each: question.held_out_trials(each) for each in both})]
+                held_out = (chosen[0], chosen[-1])  # one, where nothing was better than before
+            problem = "stopped" if self._stopped else self._all_failed()
+        except _Stopped:
+            problem = "stopped"
+        except OSError as error:
+            problem = f"the journal cannot be written: {error}"
+        self._tell(held_out=held_out, ended=True, problem=problem)
+        return self.progress
+
+    def _all_failed(self) -> str:
+        return "" if self._best() else f"every setting failed: {self._rows[0].problem if self._rows else 'stopped'}"
+
+    def _next(self) -> Sequence[Setting]:
+        if self._stopped:
+            return ()
+        question = self.question
+        tried = [Tried(each.setting, each.score) for each in self._rows]
+        return next_settings(question.search, question.dials, question.settings, question.seed, tried)
+
+    def _judge(self, wanted: Mapping[Setting, Sequence[Trial]]) -> list[Judged]:
+        """Settings by the trials of each, which go on side by side."""
+        every = list(dict.fromkeys(trial for each in wanted.values() for trial in each))
+        running: dict[Future[Mapping[str, Any]], Trial] = {}
+        for trial in every:
+            if self.journal.report(trial) is None:
+                running[self.runner.begin(self.question, trial)] = trial
+            else:
+                self._done += 1
+        self._tell()
+        while running:
+            ended, _ = wait(running, return_when=FIRST_COMPLETED)
+            for each in ended:
+                self._take(running.pop(each), each)
+            if self._stopped:
+                for each in running:
+                    each.cancel()
+                raise _Stopped
+            self._tell()
+        return [self._judged(setting, mine) for setting, mine in wanted.items()]
+
+    def _take(self, trial: Trial, ended: Future[Mapping[str, Any]]) -> None:
+        if ended.cancelled():
+            raise _Stopped
+        error = ended.exception()
+        self.journal.add(trial, {"problem": str(error)} if error else ended.result())
+        self._done += 1
+        self._fresh += 1
+
+    def _judged(self, setting: Setting, trials: Sequence[Trial]) -> Judged:
+        scores: list[float] = []
+        collisions, problem = 0, ""
+        for trial in trials:
+            report = self.journal.report(trial) or {}
+            try:
+                if report.get("problem"):
+                    raise ValueError(report["problem"])
+                scores.append(self.question.score.of(report))
+                collisions += int(report.get("collisions") or 0)
+            except ValueError as error:
+                problem = problem or f"seed {trial.seed}: {error}"
+        mean = math.fsum(scores) / len(scores) if scores and not problem else FAILED
+        return Judged(setting, mean, tuple(scores), collisions, problem)
+
+    def _best(self) -> Judged | None:
+        return Progress(tuple(self._rows)).best
+
+    def _so_far(self) -> tuple[Judged, ...]:
+        """What is judged, with those of the generation under way whose runs have all ended."""
+        known = self.journal.report
+        ended = [each for each in self._going_on.items() if all(known(trial) is not None for trial in each[1])]
+        return (*self._rows, *(self._judged(*each) for each in ended))
+
+    def _tell(self, *, held_out: tuple[Judged, Judged] | None = None, ended: bool = False, problem: str = "") -> None:
+        elapsed = self.clock() - self._began
+        runs = self._done if ended else self._planned
+        self.progress = Progress(self._so_far(), self._done, runs, elapsed, self._fresh, held_out, ended, problem)
+        self.changed(self.progress)
+
+
+class _Stopped(Exception):
+    """It was asked to end."""
