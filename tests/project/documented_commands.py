@@ -11,6 +11,7 @@ from pathlib import Path
 from bot_console.runtime.ros2cli.command_line import _add, _top_parser, load
 from bot_console.tui import cli
 from bot_console.tui.cli import arguments
+from bot_console.tui.cli.tune import command_line
 from bot_console.tui.cli.verbs import bag, ros2
 from bot_console.tui.cli.verbs import run as console_run
 from launch.launch_description_sources import get_launch_description_from_any_launch_file
@@ -83,6 +84,9 @@ def _console(words: list[str]) -> str:
         return ""
     if name == "ros2":
         return _console(words[1:])
+    if name == "tune":
+        command_line.command_parser().parse_args(words[1:])
+        return ""
     if name == "colcon":
         return ""
     if name == "setup":

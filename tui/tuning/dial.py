@@ -65,7 +65,7 @@ class Dial:
 
     def _digits(self) -> int:
         span = self.high - self.low
-        return max(0, math.ceil(-math.log10(span / RESOLUTION))) if span > 0 else 12
+        return max(0, math.ceil(math.log10(RESOLUTION) - math.log10(span))) if span > 0 else 12
 
 
 def parse_range(text: str) -> tuple[float, float]:

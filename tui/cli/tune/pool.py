@@ -49,6 +49,11 @@ class Pool:
         self._threads = ThreadPoolExecutor(count, thread_name_prefix="tune")
         self._closed = False
 
+    @property
+    def server_pid(self) -> int:
+        """The process that forks the runs."""
+        return self._server.pid
+
     def begin(self, question: Question, trial: Trial) -> Future[Mapping[str, Any]]:
         """Begin a run as soon as a processor is free; its report has `problem` where it failed."""
         run = _Run(
@@ -100,10 +105,15 @@ class _Run:
     def report(self, server: ForkServer, processor: int) -> Mapping[str, Any]:
         """Run it in a process of its own and wait for its report."""
         profile = self.profile if not is_file(self.profile) else "indoor"
-        arguments = [self.kind, profile, self.parameters, self.world, self.seed, self.duration, list(self.words)]
-        job = Job(
-            "tune", _JOB, [*arguments, list(self.paths), processor], ["bot-console"], dict(os.environ), os.getcwd()
-        )
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "tuned.yaml")
+            file.write_text(self.parameters, encoding="utf-8")
+            arguments = [self.kind, profile, str(file), self.world, self.seed, self.duration, list(self.words)]
+            return self._reported(server, [*arguments, list(self.paths), processor])
+
+    @staticmethod
+    def _reported(server: ForkServer, arguments: Sequence[Any]) -> Mapping[str, Any]:
+        job = Job("tune", _JOB, arguments, ["bot-console"], dict(os.environ), os.getcwd())
         reading, writing = os.pipe()
         with tempfile.TemporaryFile() as said, open(os.devnull, "r+b") as nothing:
             try:

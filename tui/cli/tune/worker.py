@@ -6,9 +6,8 @@ import contextlib
 import importlib
 import json
 import os
-import tempfile
+import signal
 from collections.abc import Callable, Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 LAUNCHED = ("robot_node", "sensor_node", "safety_node", "controller_node", "telemetry_node", "simulator_node")
@@ -37,11 +36,12 @@ def job(
 ) -> Callable[[], object]:  # fmt: skip
     """The program of a process: `kind` is `run` or `probe`; prints a JSON object.
 
-    `parameters` is the text of a parameter file, `words` are launch arguments (`name:=value`), `processor` the one that
+    `parameters` is the path of a parameter file, `words` are launch arguments (`name:=value`), `processor` the one that
     it keeps to where the system offers that: runs side by side would else meet on one.
     """
 
     def program() -> None:
+        signal.signal(signal.SIGINT, lambda number, frame: os._exit(128 + number))  # nobody wants half a report
         if hasattr(os, "sched_setaffinity"):
             with contextlib.suppress(OSError):
                 os.sched_setaffinity(0, {processor})
@@ -65,20 +65,17 @@ def _run(
     from bot_console.tui.cli.headless.run import simulated
 
     install()
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder, "tuned.yaml")
-        file.write_text(parameters, encoding="utf-8")
-        options = Options(
-            profile=profile,
-            launch_arguments={**arguments, "config_file": str(file)},
-            headless=True,
-            fast=True,
-            duration=duration,
-            seed=seed,
-            world=world,
-        )
-        observer = (Probe if kind == "probe" else Observer)(duration, paths)
-        report, _, launches = simulated(options, observer)
+    options = Options(
+        profile=profile,
+        launch_arguments={**arguments, "config_file": parameters},
+        headless=True,
+        fast=True,
+        duration=duration,
+        seed=seed,
+        world=world,
+    )
+    observer = (Probe if kind == "probe" else Observer)(duration, paths)
+    report, _, launches = simulated(options, observer)
     if not observer.complete or launches.died:
         return {"problem": launches.died or "the system ended before its time"}
     return report

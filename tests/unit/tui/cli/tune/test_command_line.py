@@ -1,0 +1,81 @@
+"""The command: wrong usage is told in one line, the best is saved as a profile, the result is for programs too."""
+
+from __future__ import annotations
+
+import json
+from argparse import Namespace
+from pathlib import Path
+
+import pytest
+from bot_console.tui.cli.tune import command_line
+from bot_console.tui.cli.tune.describing import line_of, result_of
+from bot_console.tui.tuning.dial import Dial
+from bot_console.tui.tuning.question import Question
+from bot_console.tui.tuning.score import FAILED, parse_score
+from bot_console.tui.tuning.study import Judged, Progress
+
+SPEED = Dial("/robot_navigator", "max_speed", "double", 0.1, 5.0, 1.0, "m/s")
+QUESTION = Question((SPEED,), parse_score("swift"))
+NOW = Judged((1.0,), 0.8, (0.7, 0.9))
+BEST = Judged((2.5,), 1.2, (1.2, 1.2))
+WORST = Judged((5.0,), FAILED, (), problem="seed 1: robot_node ended")
+BUMPED = Judged((4.0,), -1.0, (-1.0, -1.0), 3)
+
+
+@pytest.mark.parametrize(
+    ("words", "why"),
+    [
+        (["max_speed", "--score", "spede"], "--score: 'spede' is no score"),
+        (["max_speed", "--profile", "moon"], "moon: No such file or directory; profiles: competition"),
+        (["max_speed", "--search", "luck"], "invalid choice"),
+        ([], "required"),
+    ],
+)
+def test_wrong_usage_ends_before_anything_runs(
+    words: list[str], why: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(command_line, "Pool", None)
+    with pytest.raises(SystemExit) as ended:
+        command_line.run(words)
+    assert ended.value.code == 2
+    assert why in capsys.readouterr().err
+
+
+def test_a_line_for_each_setting() -> None:
+    assert line_of(QUESTION, BEST) == "   1.200  max_speed 2.5"
+    assert line_of(QUESTION, BUMPED).endswith("3 collisions")
+    assert line_of(QUESTION, WORST) == "  failed  max_speed 5.0  seed 1: robot_node ended"
+
+
+def test_the_result_says_by_how_much_and_whether_it_holds_on_other_seeds() -> None:
+    worse = Judged((2.5,), 0.6, (0.6,))
+    result = result_of(QUESTION, Progress((NOW, BEST, WORST), 9, 9, 3.0, 9, (NOW, worse), True))
+    assert result["best"]["values"] == {"/robot_navigator:max_speed": 2.5}
+    assert result["worst"]["score"] is None
+    assert result["complete"]
+    assert "+50%" in result["text"][1]
+    assert result["text"][2] == "on 2 other seeds: 0.800 → 0.600  -25%"
+    assert "no better" in result["text"][3]
+    json.dumps(result)
+
+
+@pytest.mark.parametrize(("name", "code"), [("swift one", 0), ("../up", 1)])
+def test_the_best_is_saved_as_a_profile_with_the_comments_of_the_one_that_was_tuned(
+    name: str, code: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("BOT_CONSOLE_USER_DIR", str(tmp_path))
+    progress = Progress((NOW, BEST), 9, 9, 3.0, 9, (NOW, BEST), True)
+    assert command_line._told(QUESTION, progress, Namespace(json=False, save=name)) == code
+    said = capsys.readouterr().err
+    if code:
+        assert "is no name for a profile" in said
+        return
+    text = (tmp_path / "config" / "profiles" / "swift one.yaml").read_text()
+    assert text.startswith("# indoor, tuned for swift: score 1.200\n# Indoor: low speed")
+    assert "max_speed: 2.5 " in text
+    assert 'robot_name: "IndoorBot"' in text
+
+
+@pytest.mark.parametrize("progress", [Progress((WORST,), ended=True, problem="every setting failed"), Progress()])
+def test_without_a_result_the_exit_code_says_so(progress: Progress) -> None:
+    assert command_line._told(QUESTION, progress, Namespace(json=True, save="")) == 1
