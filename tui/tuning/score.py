@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from bot_console.tui.expression import Number, evaluate
+from bot_console.tui.text.expression.numbers import Number, evaluate
 
 FIGURES: Mapping[str, str] = {
     "mean_speed": "way over time (m/s)",
