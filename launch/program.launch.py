@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """One node: a Python file, or an executable of a package."""
 
+import os
 import shlex
 
 from launch.actions import DeclareLaunchArgument, OpaqueFunction
@@ -26,5 +27,7 @@ def make_program(context):
     """The node, with its words."""
     words = shlex.split(LaunchConfiguration("words").perform(context))
     program = LaunchConfiguration("program").perform(context)
-    package = {"package": name} if (name := LaunchConfiguration("package").perform(context)) else {}
-    return [Node(executable=program, output="screen", arguments=words, **package)]
+    options = {"package": name} if (name := LaunchConfiguration("package").perform(context)) else {}
+    if program.endswith(".py"):  # need not be executable
+        options.update(prefix="python3", exec_name=os.path.basename(program))
+    return [Node(executable=program, output="screen", arguments=words, **options)]

@@ -85,9 +85,9 @@ def make_navigator(context):
     chosen = LaunchConfiguration("navigator").perform(context)
     if chosen.lower() in ("false", "0"):
         return []
-    program = {"executable": chosen} if chosen.endswith(".py") else {"package": PACKAGE, "executable": "robot_node"}
-    if chosen == "goals":
-        program["executable"] = "navigation_node"
+    program = {"package": PACKAGE, "executable": "navigation_node" if chosen == "goals" else "robot_node"}
+    if chosen.endswith(".py"):  # need not be executable
+        program = {"executable": chosen, "prefix": "python3", "exec_name": os.path.basename(chosen)}
     return [
         Node(
             **program,

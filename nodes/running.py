@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import signal
 import sys
 from collections.abc import Callable
 
@@ -21,9 +23,10 @@ def run(make_node: Callable[[], Node], args: list[str] | None) -> None:
 
     A start value that is refused, or `CannotStart`, becomes one fatal log line and exit code 1.
     """
-    rclpy.init(args=args)
+    _interrupt_once()
     node: Node | None = None
     try:
+        rclpy.init(args=args)
         node = make_node()
         rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):
@@ -32,7 +35,7 @@ def run(make_node: Callable[[], Node], args: list[str] | None) -> None:
         get_logger(make_node.__name__).fatal(str(error))
         sys.exit(1)
     except Exception:
-        if _goes_on():
+        if rclpy.ok():
             raise
         # A signal has shut the context down while a callback was about to publish: that is the end, and no fault.
     finally:
@@ -41,9 +44,15 @@ def run(make_node: Callable[[], Node], args: list[str] | None) -> None:
         rclpy.try_shutdown()
 
 
-def _goes_on() -> bool:
-    """Whether nothing has ended the program; a second signal may come just now."""
-    try:
-        return rclpy.ok()
-    except KeyboardInterrupt:
-        return False
+def _interrupt_once() -> None:
+    """Raise KeyboardInterrupt for the first Ctrl-C alone: more of them must not break into the end with tracebacks."""
+    raised = False
+
+    def interrupt(number: int, frame: object) -> None:
+        nonlocal raised
+        if not raised:
+            raised = True
+            raise KeyboardInterrupt
+
+    with contextlib.suppress(ValueError):  # in another than the main thread
+        signal.signal(signal.SIGINT, interrupt)

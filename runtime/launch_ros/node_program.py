@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -76,6 +77,15 @@ def _find_packages_in(folders: Sequence[str]) -> None:
         use(Workspace([Path(each) for each in folders]))
 
 
+def is_this_python(words: Sequence[str]) -> bool:
+    """Whether words before a program ask for nothing but the Python that runs here."""
+    return len(words) == 1 and words[0] in ("python3", "python", sys.executable)
+
+
+def _is_interpreter(word: str) -> bool:
+    return re.fullmatch(r"python[\d.]*", os.path.basename(word)) is not None
+
+
 def container_path(package: str, executable: str) -> str | None:
     """The path by which our own container stands for one that is not installed; None for other executables."""
     place = os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib", package, executable)
@@ -88,11 +98,14 @@ def _is_container(package: str | None, path: str) -> bool:
 
 
 def os_command(package: str | None, command: list[str], at: int) -> list[str]:
-    """A command whose word `at` is the executable; where that is Python, with the embedded runtime behind it."""
+    """A command whose word `at` is the executable; where that is Python, with the embedded runtime behind it.
+
+    A file that Python is to run, as in `python3 -m pdb FILE`, stays: its process finds the runtime by its environment.
+    """
     executable = _known(package, command[at])
     if executable is not None and executable.entry_point is not None:
         runner = [sys.executable, "-m", "bot_console.runtime.run", executable.package, executable.name]
-    elif _is_python(command[at]):
+    elif _is_python(command[at]) and not any(map(_is_interpreter, command[:at])):
         runner = [sys.executable, "-m", "bot_console.runtime.run", command[at]]
     else:
         return command

@@ -11,7 +11,8 @@ import yaml
 
 def readme(name: str, place: Path, executables: Iterable[str]) -> str:
     """The text for the package that was written to `place`."""
-    profiles = sorted(each.stem for each in (place / "config").glob("*.yaml") if not each.stem.endswith("_config"))
+    files = {each.stem.removesuffix("_config"): each for each in sorted((place / "config").glob("*.yaml"))}
+    profiles = list(files)
     launch_files = sorted(each.name for each in (place / "launch").iterdir())
     return f"""# {name}
 
@@ -28,7 +29,9 @@ A small robot system of ROS 2 nodes and a simulated robot to run them on, with s
     ros2 launch {name} robot_system.launch.py profile:={profiles[0]}
     ros2 launch {name} robot_system.launch.py --show-args
 
-Launch files: {", ".join(launch_files)}. `config_file:=FILE` gives all nodes another parameter file.
+Launch files: {", ".join(launch_files)}.
+`config_file:=FILE` gives all nodes another parameter file;
+`navigator:=my_node.py` lets a Python file of yours drive, which need not be executable.
 
 ## Nodes
 
@@ -39,7 +42,7 @@ Launch files: {", ".join(launch_files)}. `config_file:=FILE` gives all nodes ano
 `ros2 param describe /robot_navigator max_speed` tells what a parameter means and its range; values outside are refused
 with the reason. These are the values of the profiles in `config/`:
 
-{_table(profiles, [_flat(yaml.safe_load((place / "config" / f"{each}.yaml").read_text("utf-8"))) for each in profiles])}
+{_table(profiles, [_flat(yaml.safe_load(each.read_text("utf-8"))) for each in files.values()])}
 """
 
 

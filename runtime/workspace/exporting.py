@@ -30,9 +30,7 @@ def export(folder: Path) -> Path:
     for target, (source, pattern) in FOLDERS.items():
         (place / target).mkdir()
         for path in sorted((ROOT / source).glob(pattern)):
-            shutil.copy(path, place / target / path.name)
-            if target == "config":
-                shutil.copy(path, place / target / f"{path.stem}_config.yaml")
+            shutil.copy(path, place / target / (f"{path.stem}_config.yaml" if target == "config" else path.name))
     shutil.copy(ROOT / "launch" / "environment.launch.py", place / "launch" / SECOND_SPELLING)
     (place / "README.md").write_text(readme(NAME, place, own_package().executables), encoding="utf-8")
     (place / "resource").mkdir()

@@ -190,8 +190,8 @@ class ExecuteLocal(Action):
 
         return ros2_program(command, self.__shell)
 
-    def os_command(self, command: list[str]) -> list[str]:
-        """The command as the system is given it."""
+    def words_for(self, program: PythonProgram | None, command: list[str]) -> list[str]:
+        """The command as the program is given it; where there is none, as the system is."""
         return command
 
     def execute(self, context: LaunchContext) -> list[Any] | None:
@@ -351,7 +351,7 @@ class ExecuteLocal(Action):
 
         program = self.python_program(command)
         child = await start_child(
-            self.os_command(command) if program is None else command,
+            self.words_for(program, command),
             program=program,
             own_process=program is not None and has_own_process(context, program),
             name=details["name"],

@@ -13,7 +13,7 @@ from launch.frontend import expose_action
 from launch.substitutions import LocalSubstitution, TextSubstitution
 from launch.utilities import ensure_argument_type, normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.missing_executables import may_start
-from launch_ros.node_program import os_command, program_of
+from launch_ros.node_program import is_this_python, os_command, program_of
 from launch_ros.parameter_arguments import ParameterArgument, global_parameter_arguments, own_parameter_arguments
 from launch_ros.parameter_sources import tell_given
 from launch_ros.parameter_warnings import warn_of_files, warn_of_values
@@ -243,14 +243,16 @@ class Node(ExecuteProcess):
         self.process_description.cmd.extend([TextSubstitution(text=each)] for each in words)
 
     def python_program(self, command: list[str]) -> PythonProgram | None:
-        """The node's program, where it is Python and nothing is put before it."""
-        if self.shell or self.process_description.words_of_prefix:
+        """The node's program, where it is Python and nothing but Python itself is put before it."""
+        prefix = self.process_description.words_of_prefix
+        if self.shell or (prefix and not is_this_python(prefix)):
             return None
-        return program_of(self.__package_text, command[0])
+        return program_of(self.__package_text, command[len(prefix)])
 
-    def os_command(self, command: list[str]) -> list[str]:
-        """The command as the system can run it."""
-        return os_command(self.__package_text, command, len(self.process_description.words_of_prefix))
+    def words_for(self, program: PythonProgram | None, command: list[str]) -> list[str]:
+        """The command as its program is given it, or as the system can run it."""
+        prefix = len(self.process_description.words_of_prefix)
+        return os_command(self.__package_text, command, prefix) if program is None else command[prefix:]
 
 
 def _performed(context: LaunchContext, text: Any) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 import textwrap
 from pathlib import Path
 from typing import Any
@@ -46,6 +47,21 @@ def test_it_sees_its_own_arguments_and_environment(run: Launch, script: Any) -> 
         "['a', '--ros-args', '-r', '__node:=a'] a True",
         "['b', '--ros-args', '-r', '__node:=b'] b True",
     ]
+
+
+@pytest.mark.parametrize("prefix", ["python3", sys.executable])
+def test_a_file_that_python_is_to_run_need_not_be_executable(run: Launch, script: Any, prefix: str) -> None:
+    path = script("import os, sys; print(sys.argv, os.getpid() > 4194304)", "node.py")
+    Path(path).chmod(0o644)
+    outcome = run([Node(executable=path, prefix=prefix, exec_name="node.py", output="screen", arguments=["a"])])
+    assert re.search(rf"^\[node\.py-\d+\] \['{re.escape(path)}', 'a', '--ros-args'\] True$", outcome.text, re.M)
+
+
+def test_what_python_is_to_do_with_a_file_is_left_to_it(run: Launch, script: Any) -> None:
+    path = script("import rclpy, sys; print(rclpy.__name__, sys.argv[1:])", "node.py")
+    Path(path).chmod(0o644)
+    outcome = run([Node(executable=path, prefix="python3 -m cProfile -s calls", output="screen")])
+    assert lines_of(outcome.text)[0] == "rclpy ['--ros-args']" and "function calls" in outcome.text
 
 
 def test_stdout_and_stderr_are_told_apart(run: Launch, script: Any) -> None:

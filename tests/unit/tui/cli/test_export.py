@@ -5,10 +5,16 @@ from __future__ import annotations
 import builtins
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 from bot_console.runtime.workspace.exporting import NAME
 from bot_console.tui.cli.verbs.export import run
+from launch.launch_description_sources import get_launch_description_from_python_launch_file
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch_ros.actions import Node
+
+from launch import LaunchContext
 
 
 def contents(place: Path) -> dict[str, bytes]:
@@ -44,6 +50,43 @@ def test_over_a_folder_that_is_there_it_asks_and_deletes_nothing(
     assert run([str(tmp_path)]) == 0
     assert "kept with a ~ behind their names: setup.py" in capsys.readouterr().out
     assert contents(place) == fresh | {"notes.txt": b"mine", "setup.py~": b"# mine\n"}
+
+
+def test_each_profile_is_there_once(tmp_path: Path) -> None:
+    run([str(tmp_path)])
+    names = sorted(each.stem for each in (tmp_path / NAME / "config").iterdir())
+    assert names == [f"{each}_config" for each in ("competition", "indoor", "outdoor", "warehouse")]
+    readme = (tmp_path / NAME / "README.md").read_text()
+    assert "| parameter | competition | indoor | outdoor | warehouse |" in readme and "config |" not in readme
+
+
+@pytest.mark.parametrize(
+    ("launch_file", "words"),
+    [("robot_system.launch.py", {"navigator": "my_node.py"}), ("program.launch.py", {"program": "my_node.py"})],
+)
+def test_where_ros_starts_it_a_file_of_the_users_need_not_be_executable(
+    tmp_path: Path, launch_file: str, words: dict[str, str]
+) -> None:
+    run([str(tmp_path)])
+    file = tmp_path / NAME / "launch" / launch_file
+    description = get_launch_description_from_python_launch_file(str(file))
+    context = LaunchContext()
+    context.launch_configurations.update(words)
+    made: list[Any] = []
+    for entity in description.entities:
+        if not isinstance(entity, Node):
+            made += entity.execute(context) or ()
+    (mine,) = [
+        each
+        for each in made
+        if isinstance(each, Node) and _performed(context, each.process_description.cmd[0]) == "my_node.py"
+    ]
+    assert _performed(context, mine.process_description.prefix) == "python3"
+    assert _performed(context, mine.process_description.name) == "my_node.py"
+
+
+def _performed(context: LaunchContext, text: Any) -> str:
+    return perform_substitutions(context, normalize_to_list_of_substitutions(text))
 
 
 def test_where_nothing_can_be_written_it_says_so_in_one_line(

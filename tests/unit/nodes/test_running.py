@@ -1,0 +1,69 @@
+"""The life of a node of the package, beside signals that come more than once."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Iterator
+
+import pytest
+import rclpy
+from bot_console_robot.running import CannotStart, run
+from rclpy.node import Node
+
+
+@pytest.fixture(autouse=True)
+def domain(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    monkeypatch.setenv("ROS_DOMAIN_ID", "7902")
+    before = signal.getsignal(signal.SIGINT)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+class Impatient(Node):
+    """Gets Ctrl-C once while it runs, and again while it ends."""
+
+    ended = 0
+
+    def __init__(self) -> None:
+        super().__init__("impatient")
+        self.create_timer(0.001, self._interrupt)
+
+    def _interrupt(self) -> None:
+        signal.raise_signal(signal.SIGINT)
+
+    def destroy_node(self) -> None:
+        signal.raise_signal(signal.SIGINT)
+        Impatient.ended += 1
+        super().destroy_node()
+
+
+def test_a_second_interrupt_does_not_break_into_the_end() -> None:
+    Impatient.ended = 0
+    run(Impatient, [])
+    assert Impatient.ended == 1
+    assert not rclpy.ok()
+    signal.raise_signal(signal.SIGINT)  # until the interpreter has gone
+
+
+def test_an_interrupt_while_the_node_is_made_is_a_clean_end() -> None:
+    def make() -> Node:
+        signal.raise_signal(signal.SIGINT)
+        raise AssertionError
+
+    run(make, [])
+    assert not rclpy.ok()
+
+
+def test_the_next_run_can_be_interrupted_again() -> None:
+    for _ in range(2):
+        run(Impatient, [])
+
+
+def test_what_cannot_start_says_why(capfd: pytest.CaptureFixture[str]) -> None:
+    def make() -> Node:
+        raise CannotStart("no world")
+
+    with pytest.raises(SystemExit) as left:
+        run(make, [])
+    assert left.value.code == 1
+    assert "no world" in capfd.readouterr().err
