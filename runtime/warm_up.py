@@ -47,9 +47,10 @@ def _make_one_node() -> None:
         executor.add_node(node)
         executor.spin_once(timeout_sec=0.0)
         executor.shutdown()
-        for endpoint in (*context.bus.publishers(), *context.bus.subscriptions()):
+        (graph,) = context.bus.tables()
+        for endpoint in (*graph.publishers.all(), *graph.subscriptions.all()):
             type_hash.text(endpoint.message_class)
-        for service in context.bus.servers():
+        for service in graph.servers.all():
             type_hash.text(service.service_class)
     finally:
         node.destroy_node()

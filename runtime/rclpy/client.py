@@ -10,7 +10,7 @@ from functools import partial
 from typing import Any
 
 from bot_console.runtime.process import current
-from bot_console.runtime.rmw.endpoints import ClientEndpoint
+from bot_console.runtime.rmw.endpoints import ClientEndpoint, Owner
 from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.entity import CLIENT, Entity
 from rclpy.impl.reexports import reexporting
@@ -129,7 +129,11 @@ class Client(Entity):
         clock = current().clock
         deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * NANO)
         wakeup = clock.wakeup()
-        forget = self._node._ros_bus.on_graph_change(wakeup.set)
+
+        def woken(owner: Owner) -> None:
+            wakeup.set()
+
+        forget = self._node._ros_bus.on_graph_change(woken)
         try:
             while self.context.ok() and not self.service_is_ready():
                 now = clock.steady_ns()

@@ -8,6 +8,7 @@ from typing import Protocol
 from bot_console.runtime.rmw.endpoints import (
     ClientEndpoint,
     Endpoint,
+    GraphChanged,
     Message,
     NodeId,
     Notify,
@@ -15,6 +16,7 @@ from bot_console.runtime.rmw.endpoints import (
     ServiceEndpoint,
     SubscriptionEndpoint,
 )
+from bot_console.runtime.rmw.graph_tables import GraphTables
 
 
 class Publisher(Protocol):
@@ -112,27 +114,11 @@ class Bus(Protocol):
         """Whether a server of the client's service is there."""
         ...
 
-    def nodes(self) -> Sequence[NodeId]:
-        """All nodes."""
+    def tables(self) -> Sequence[GraphTables]:
+        """The graph: of this process, and of the others where there are any."""
         ...
 
-    def publishers(self) -> Sequence[Endpoint]:
-        """All publishers."""
-        ...
-
-    def subscriptions(self) -> Sequence[Endpoint]:
-        """All subscriptions."""
-        ...
-
-    def servers(self) -> Sequence[ServiceEndpoint]:
-        """All service servers."""
-        ...
-
-    def clients(self) -> Sequence[ClientEndpoint]:
-        """All service clients."""
-        ...
-
-    def on_graph_change(self, callback: Notify) -> Callable[[], None]:
+    def on_graph_change(self, callback: GraphChanged) -> Callable[[], None]:
         """Call back at each change of the graph; returns what ends that."""
         ...
 

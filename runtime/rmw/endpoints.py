@@ -13,6 +13,12 @@ from bot_console.runtime.rmw.qos import Profile
 Notify = Callable[[], None]
 """Called, from any thread, when an endpoint has something new."""
 
+Owner = tuple[str, str]
+"""Name and namespace of a node. Two nodes may have the same, and are then asked about as one."""
+
+GraphChanged = Callable[[Owner], None]
+"""Called, from any thread, with whose place in the graph has changed."""
+
 Event = Literal["matched", "incompatible", "alive", "gone", "asserted", "lost", "message"]
 """What an endpoint's handlers are told. With "matched" comes 1 or -1, with "incompatible" the name of the policy, with
 "alive", "gone" and "asserted" the publisher (`Publisher` in `bus.py`) that came, went, or gave a sign of life, with
@@ -93,6 +99,11 @@ class NodeId:
     namespace: str
     enclave: str = "/"
     number: int = 0
+
+    @property
+    def owner(self) -> Owner:
+        """Name and namespace."""
+        return self.name, self.namespace
 
 
 @dataclass(eq=False)

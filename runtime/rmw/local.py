@@ -13,15 +13,18 @@ from bot_console.runtime.rmw.bus import Thing
 from bot_console.runtime.rmw.endpoints import (
     ClientEndpoint,
     Endpoint,
+    GraphChanged,
     Message,
     NodeId,
     Notify,
     OnEvent,
+    Owner,
     ServiceEndpoint,
     Shared,
     SubscriptionEndpoint,
     depth,
 )
+from bot_console.runtime.rmw.graph_tables import GraphTables
 from bot_console.runtime.rmw.qos_matching import INFINITE, LATCHING, incompatible_policy, wants_history
 
 _T = TypeVar("_T")
@@ -157,7 +160,8 @@ class LocalBus:
         self._subscriptions: dict[str, list[SubscriptionEndpoint]] = {}
         self._services: dict[str, list[ServiceEndpoint]] = {}
         self._clients: dict[str, list[ClientEndpoint]] = {}
-        self._watchers: list[Notify] = []
+        self._watchers: list[GraphChanged] = []
+        self._tables = GraphTables()
 
     def published(self) -> int:
         """How many messages the present publishers have published in all."""
@@ -169,7 +173,8 @@ class LocalBus:
         node = NodeId(name, namespace, enclave, next(self._numbers))
         with self._lock:
             self._nodes[node] = []
-        self.changed()
+            self._tables.add_node(node)
+        self.changed(node.owner)
         return node
 
     def remove_node(self, node: NodeId) -> None:
@@ -178,7 +183,8 @@ class LocalBus:
             for thing in list(self._nodes.get(node, ())):
                 self._take_away(thing)
             self._nodes.pop(node, None)
-        self.changed()
+            self._tables.remove_node(node)
+        self.changed(node.owner)
 
     def create_publisher(self, endpoint: Endpoint, on_event: OnEvent) -> LocalPublisher:
         """Make a publisher and match it."""
@@ -193,7 +199,8 @@ class LocalBus:
                     matched.append(each)
             # Replaced, never changed: `publish` goes through it without a lock.
             publisher.targets = tuple(matched)
-        self.changed()
+            self._tables.publishers.add(endpoint)
+        self.changed(endpoint.node.owner)
         return publisher
 
     def create_subscription(self, subscription: SubscriptionEndpoint) -> None:
@@ -203,6 +210,7 @@ class LocalBus:
             if not self._own(endpoint.node, subscription):
                 return
             self._subscriptions.setdefault(endpoint.topic, []).append(subscription)
+            self._tables.subscriptions.add(endpoint)
             publishers = self._publishers.get(endpoint.topic, ())
             late = wants_history(endpoint.qos, [each.endpoint.qos for each in publishers])
             for publisher in publishers:
@@ -210,7 +218,7 @@ class LocalBus:
                     publisher.targets = (*publisher.targets, subscription)
                     if late and publisher.history:
                         publisher.late(subscription)
-        self.changed()
+        self.changed(endpoint.node.owner)
 
     def _match(self, publisher: LocalPublisher, subscription: SubscriptionEndpoint) -> bool:
         """Whether the two go together, telling both sides."""
@@ -232,14 +240,16 @@ class LocalBus:
         with self._lock:
             if self._own(service.node, service):
                 self._services.setdefault(service.name, []).append(service)
-        self.changed()
+                self._tables.servers.add(service)
+        self.changed(service.node.owner)
 
     def create_client(self, client: ClientEndpoint) -> None:
         """Let a client appear in the graph."""
         with self._lock:
             if self._own(client.node, client):
                 self._clients.setdefault(client.name, []).append(client)
-        self.changed()
+                self._tables.clients.add(client)
+        self.changed(client.node.owner)
 
     def _own(self, node: NodeId, thing: Thing) -> bool:
         """Note what a node has; False when it has left the graph, as one that was killed while it went on."""
@@ -260,7 +270,7 @@ class LocalBus:
         """Take an endpoint away; a second time does nothing."""
         with self._lock:
             self._take_away(thing)
-        self.changed()
+        self.changed(_owner(thing).owner)
 
     def _take_away(self, thing: Thing) -> None:
         if isinstance(thing, LocalPublisher):
@@ -269,8 +279,10 @@ class LocalBus:
             self._take_subscription(thing)
         elif isinstance(thing, ServiceEndpoint):
             _drop(self._services, thing.name, thing)
+            self._tables.servers.remove(thing)
         elif isinstance(thing, ClientEndpoint):
             _drop(self._clients, thing.name, thing)
+            self._tables.clients.remove(thing)
         # Nothing there: its node has left before it.
         things = self._nodes.get(_owner(thing))
         if things and thing in things:
@@ -279,6 +291,7 @@ class LocalBus:
     def _take_publisher(self, publisher: LocalPublisher) -> None:
         publisher.open = False
         _drop(self._publishers, publisher.endpoint.topic, publisher)
+        self._tables.publishers.remove(publisher.endpoint)
         for target in publisher.targets:
             target.matched -= 1
             target.on_event("matched", -1)
@@ -288,6 +301,7 @@ class LocalBus:
     def _take_subscription(self, subscription: SubscriptionEndpoint) -> None:
         topic = subscription.endpoint.topic
         _drop(self._subscriptions, topic, subscription)
+        self._tables.subscriptions.remove(subscription.endpoint)
         for publisher in self._publishers.get(topic, ()):
             if subscription in publisher.targets:
                 publisher.targets = tuple(each for each in publisher.targets if each is not subscription)
@@ -309,31 +323,11 @@ class LocalBus:
         """Whether a server of the client's service is there."""
         return any(each.type_name == client.type_name for each in tuple(self._services.get(client.name, ())))
 
-    def nodes(self) -> Sequence[NodeId]:
-        """All nodes, in the order in which they came."""
-        return list(self._nodes)
+    def tables(self) -> Sequence[GraphTables]:
+        """The graph of this process."""
+        return (self._tables,)
 
-    def publishers(self) -> Sequence[Endpoint]:
-        """All publishers."""
-        with self._lock:
-            return [each.endpoint for rows in self._publishers.values() for each in rows]
-
-    def subscriptions(self) -> Sequence[Endpoint]:
-        """All subscriptions."""
-        with self._lock:
-            return [each.endpoint for rows in self._subscriptions.values() for each in rows]
-
-    def servers(self) -> Sequence[ServiceEndpoint]:
-        """All service servers."""
-        with self._lock:
-            return [each for rows in self._services.values() for each in rows]
-
-    def clients(self) -> Sequence[ClientEndpoint]:
-        """All service clients."""
-        with self._lock:
-            return [each for rows in self._clients.values() for each in rows]
-
-    def on_graph_change(self, callback: Notify) -> Callable[[], None]:
+    def on_graph_change(self, callback: GraphChanged) -> Callable[[], None]:
         """Call back at each change of the graph; returns what ends that."""
         with self._lock:
             self._watchers.append(callback)
@@ -345,11 +339,11 @@ class LocalBus:
 
         return end
 
-    def changed(self) -> None:
-        """Tell those who watch the graph that it has changed."""
+    def changed(self, owner: Owner) -> None:
+        """Tell those who watch the graph whose place in it has changed."""
         # Outside of the lock: watchers ask the bus what has changed.
         for watcher in tuple(self._watchers):
-            watcher()
+            watcher(owner)
 
 
 def _drop(table: dict[str, list[_T]], key: str, thing: _T) -> None:

@@ -18,6 +18,7 @@ from bot_console.runtime.importer import install
 install()
 
 import rclpy
+from bot_console.tui.cli.live.session import graph_events
 from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.graph.watch import GraphWatch
 from rcl_interfaces.msg import ParameterEvent
@@ -91,10 +92,11 @@ class Watched:
                 node.create_publisher(Float64, f"topic{each}", 10)
                 node.create_subscription(Float64, f"topic{each}", lambda message: None, 10)
         self.console = rclpy.create_node("_console")
-        self.watch = GraphWatch(self.console, lambda graph: None)
+        self.watch = GraphWatch(self.console, lambda graph: None, graph_events)
 
     def end(self) -> None:
         """Let nothing reach the next curve."""
+        self.watch.close()
         for node in (*self.nodes, self.console):
             node.destroy_node()
 

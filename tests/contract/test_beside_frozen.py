@@ -64,9 +64,9 @@ def test_who_joins_later_is_told_which_process_is_frozen_and_sees_the_others(her
     forget = on_notice(lambda process, text: said.append(text))
     session = open_session(DOMAIN)
     here.until(lambda: len(session.linked()) == 2)
-    graph = WholeGraph(session, lambda: None)
+    graph = WholeGraph(session, lambda owner: None)
     forget()
     session.close()
-    assert sorted(each.name for each in graph.nodes()) == ["here", "peer"]
+    assert sorted(each.name for each in graph.tables.nodes()) == ["here", "peer"]
     (text,) = said
     assert f"process {here.frozen} is stopped" in text

@@ -130,7 +130,7 @@ class Calls:
 
     async def _gets_ready(self, client: Any, service: str) -> bool:
         """Wait for a server that the graph has: a client that was just made has to find it first."""
-        if all(name != service for name, _ in self._node.get_service_names_and_types()):
+        if not self._node.count_services(service):
             return False
         found: RosFuture[bool] = RosFuture()
         looks = itertools.count(1)

@@ -14,7 +14,7 @@ from typing import Any
 from action_msgs.msg import GoalStatus as GoalStatus  # programs import it from here
 from action_msgs.srv import CancelGoal
 from bot_console.runtime.process import current
-from bot_console.runtime.rmw.endpoints import own
+from bot_console.runtime.rmw.endpoints import Owner, own
 from rclpy.action.client_goal_handle import ClientGoalHandle
 from rclpy.action.endpoints import ClientEndpoints, action_names
 from rclpy.action.entity import ActionEntity, call, take
@@ -190,7 +190,11 @@ class ActionClient(ActionEntity):
         clock = current().clock
         deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * NANO)
         wakeup = clock.wakeup()
-        forget = self._node._ros_bus.on_graph_change(wakeup.set)
+
+        def woken(owner: Owner) -> None:
+            wakeup.set()
+
+        forget = self._node._ros_bus.on_graph_change(woken)
         try:
             while self._node.context.ok() and not self.server_is_ready():
                 now = clock.steady_ns()

@@ -117,9 +117,9 @@ class ClientEndpoints:
 
     def server_is_there(self) -> bool:
         """Whether all five parts of a server are in the graph."""
-        published = {each.topic for each in self._bus.publishers()}
+        tables = self._bus.tables()
         topics = (self.feedback.endpoint.topic, self.status.endpoint.topic)
-        return published.issuperset(topics) and all(
+        return all(any(each.publishers.on(topic) for each in tables) for topic in topics) and all(
             self._bus.has_server(each) for each in (self.goal, self.cancel, self.result)
         )
 

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw import names
 from bot_console.runtime.rmw.bus import Bus
-from bot_console.runtime.rmw.endpoints import Endpoint
+from bot_console.runtime.rmw.endpoints import Endpoint, NodeId, Owner
+from bot_console.runtime.rmw.graph_tables import NamesAndTypes, collect
 from rclpy._rclpy_pybind11 import NodeNameNonExistentError, RCLError
-from rclpy.node_parts.graph_index import Entities, NamesAndTypes, Owner, Tables, collect, tables_of
 from rclpy.node_parts.topic_names import expand_name, remapped
 
 if TYPE_CHECKING:
@@ -27,9 +27,10 @@ class NodeGraph:
     def get_topic_names_and_types(self, no_demangle: bool = False) -> NamesAndTypes:
         """All topics with their types, by name; raises `RCLError` after a shutdown of the context."""
         self._ros_use_graph("topic")
-        tables = self._ros_tables()
-        rows = (*tables.publishers.named.values(), *tables.subscriptions.named.values())
-        return collect((each.topic, each.type_name) for row in rows for each in row)
+        tables = self._ros_bus.tables()
+        return collect(
+            pair for each in tables for ends in (each.publishers, each.subscriptions) for pair in ends.pairs()
+        )
 
     def get_service_names_and_types(self) -> NamesAndTypes:
         """All services with their types, by name; those that only clients know count.
@@ -37,9 +38,8 @@ class NodeGraph:
         Raises `RCLError` after a shutdown of the context.
         """
         self._ros_use_graph("service")
-        tables = self._ros_tables()
-        rows = (*tables.servers.named.values(), *tables.clients.named.values())
-        return collect((each.name, each.type_name) for row in rows for each in row)
+        tables = self._ros_bus.tables()
+        return collect(pair for each in tables for ends in (each.servers, each.clients) for pair in ends.pairs())
 
     def _ros_use_graph(self, what: str) -> None:
         self._ros_use()
@@ -49,7 +49,7 @@ class NodeGraph:
     def get_node_names(self) -> list[str]:
         """The names of all nodes, without namespaces."""
         self._ros_use()
-        return [each.name for each in self._ros_bus.nodes()]
+        return [each.name for each in self._ros_nodes()]
 
     def get_fully_qualified_node_names(self) -> list[str]:
         """The full names of all nodes."""
@@ -58,41 +58,45 @@ class NodeGraph:
     def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
         """Name and namespace of all nodes."""
         self._ros_use()
-        return [(each.name, each.namespace) for each in self._ros_bus.nodes()]
+        return [(each.name, each.namespace) for each in self._ros_nodes()]
 
     def get_node_names_and_namespaces_with_enclaves(self) -> list[tuple[str, str, str]]:
         """Name, namespace and enclave of all nodes."""
         self._ros_use()
-        return [(each.name, each.namespace, each.enclave) for each in self._ros_bus.nodes()]
+        return [(each.name, each.namespace, each.enclave) for each in self._ros_nodes()]
 
     def get_publisher_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
         """What a node publishes; raises `NodeNameNonExistentError`."""
-        return self._ros_tables().publishers.of(self._ros_who("publisher", node_name, node_namespace))
+        owner = self._ros_who("publisher", node_name, node_namespace)
+        return collect(pair for each in self._ros_bus.tables() for pair in each.publishers.of(owner))
 
     def get_subscriber_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
         """What a node subscribes to; raises `NodeNameNonExistentError`."""
-        return self._ros_tables().subscriptions.of(self._ros_who("subscriber", node_name, node_namespace))
+        owner = self._ros_who("subscriber", node_name, node_namespace)
+        return collect(pair for each in self._ros_bus.tables() for pair in each.subscriptions.of(owner))
 
     def get_service_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
         """What services a node offers; raises `NodeNameNonExistentError`."""
-        return self._ros_tables().servers.of(self._ros_who("service", node_name, node_namespace))
+        owner = self._ros_who("service", node_name, node_namespace)
+        return collect(pair for each in self._ros_bus.tables() for pair in each.servers.of(owner))
 
     def get_client_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
         """What services a node asks; raises `NodeNameNonExistentError`."""
-        return self._ros_tables().clients.of(self._ros_who("client", node_name, node_namespace))
+        owner = self._ros_who("client", node_name, node_namespace)
+        return collect(pair for each in self._ros_bus.tables() for pair in each.clients.of(owner))
 
-    def _ros_tables(self) -> Tables:
-        return tables_of(self._ros_bus)
+    def _ros_nodes(self) -> list[NodeId]:
+        return [node for each in self._ros_bus.tables() for node in each.nodes()]
 
     def _ros_who(self, what: str, name: str, namespace: str) -> Owner:
         """Whom a question is about; raises `RCLError` for what can be no node, and `NodeNameNonExistentError`."""
         self._ros_use()
         owner = name, namespace or "/"
-        if owner in self._ros_tables().nodes:
+        if any(each.has(owner) for each in self._ros_bus.tables()):
             return owner
         for argument, problem in (
             ("node_name", names.validate_node_name(owner[0])),
@@ -105,36 +109,37 @@ class NodeGraph:
     def count_publishers(self, topic_name: str) -> int:
         """How many publishers a topic has; the name is expanded but not remapped."""
         name = expand_name(self, topic_name)
-        return len(self._ros_tables().publishers.on(name))
+        return sum(len(each.publishers.on(name)) for each in self._ros_bus.tables())
 
     def count_subscribers(self, topic_name: str) -> int:
         """How many subscriptions a topic has; the name is expanded but not remapped."""
         name = expand_name(self, topic_name)
-        return len(self._ros_tables().subscriptions.on(name))
+        return sum(len(each.subscriptions.on(name)) for each in self._ros_bus.tables())
 
     def count_clients(self, service_name: str) -> int:
         """How many clients a service has; the name is expanded but not remapped."""
         name = expand_name(self, service_name, service=True)
-        return len(self._ros_tables().clients.on(name))
+        return sum(len(each.clients.on(name)) for each in self._ros_bus.tables())
 
     def count_services(self, service_name: str) -> int:
         """How many servers a service has; the name is expanded but not remapped."""
         name = expand_name(self, service_name, service=True)
-        return len(self._ros_tables().servers.on(name))
+        return sum(len(each.servers.on(name)) for each in self._ros_bus.tables())
 
     def get_publishers_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[Any]:
         """The publishers of a topic; the name is remapped."""
-        return self._ros_infos(self._ros_tables().publishers, topic_name, no_mangle, publisher=True)
+        return self._ros_infos(topic_name, no_mangle, publisher=True)
 
     def get_subscriptions_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[Any]:
         """The subscriptions of a topic; the name is remapped."""
-        return self._ros_infos(self._ros_tables().subscriptions, topic_name, no_mangle, publisher=False)
+        return self._ros_infos(topic_name, no_mangle, publisher=False)
 
-    def _ros_infos(self, endpoints: Entities[Endpoint], topic: str, no_mangle: bool, *, publisher: bool) -> list[Any]:
+    def _ros_infos(self, topic: str, no_mangle: bool, *, publisher: bool) -> list[Any]:
         from rclpy.node_parts.qos_in_effect import in_effect
         from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 
         name = topic if no_mangle else remapped(self, expand_name(self, topic))
+        tables = [each.publishers if publisher else each.subscriptions for each in self._ros_bus.tables()]
         kind = TopicEndpointTypeEnum.PUBLISHER if publisher else TopicEndpointTypeEnum.SUBSCRIPTION
         return [
             TopicEndpointInfo(
@@ -146,7 +151,8 @@ class NodeGraph:
                 endpoint_gid=list(each.gid),
                 qos_profile=in_effect(each.qos),
             )
-            for each in endpoints.on(name)
+            for table in tables
+            for each in table.on(name)
         ]
 
     def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
@@ -155,7 +161,7 @@ class NodeGraph:
         clock = current().clock
         deadline = clock.steady_ns() + int(timeout * NANO)
         wakeup = clock.wakeup()
-        forget = self._ros_bus.on_graph_change(wakeup.set)
+        forget = self._ros_bus.on_graph_change(lambda owner: wakeup.set())
         try:
             while full_name not in self.get_fully_qualified_node_names():
                 if clock.steady_ns() >= deadline:

@@ -12,13 +12,14 @@ from bot_console.runtime.rmw.bus import PublisherEndpoint, Thing
 from bot_console.runtime.rmw.endpoints import (
     ClientEndpoint,
     Endpoint,
+    GraphChanged,
     Message,
     NodeId,
-    Notify,
     OnEvent,
     ServiceEndpoint,
     SubscriptionEndpoint,
 )
+from bot_console.runtime.rmw.graph_tables import GraphTables
 from bot_console.runtime.rmw.local import LocalBus
 from bot_console.runtime.rmw.zenoh.inlet import Inlet
 from bot_console.runtime.rmw.zenoh.outlet import Outlet
@@ -173,7 +174,7 @@ class ZenohBus:
 
         def tell(token: Token, came: bool) -> None:
             saw(token, came)
-            self._local.changed()
+            self._local.changed((token.node.name, token.node.namespace))
 
         return tell
 
@@ -236,27 +237,11 @@ class ZenohBus:
                 self._whole = WholeGraph(self._session, self._local.changed)
             return self._whole
 
-    def nodes(self) -> Sequence[NodeId]:
-        """All nodes."""
-        return [*self._local.nodes(), *self._graph().nodes()]
+    def tables(self) -> Sequence[GraphTables]:
+        """The graph of this process, and of the others."""
+        return (*self._local.tables(), self._graph().tables)
 
-    def publishers(self) -> Sequence[Endpoint]:
-        """All publishers."""
-        return [*self._local.publishers(), *self._graph().publishers()]
-
-    def subscriptions(self) -> Sequence[Endpoint]:
-        """All subscriptions."""
-        return [*self._local.subscriptions(), *self._graph().subscriptions()]
-
-    def servers(self) -> Sequence[ServiceEndpoint]:
-        """All service servers."""
-        return [*self._local.servers(), *self._graph().servers()]
-
-    def clients(self) -> Sequence[ClientEndpoint]:
-        """All service clients."""
-        return [*self._local.clients(), *self._graph().clients()]
-
-    def on_graph_change(self, callback: Notify) -> Callable[[], None]:
+    def on_graph_change(self, callback: GraphChanged) -> Callable[[], None]:
         """Call back at each change of the graph that this process looks at; returns what ends that."""
         return self._local.on_graph_change(callback)
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Sequence
 
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
-from bot_console.runtime.rmw.endpoints import ClientEndpoint, Endpoint, NodeId, ServiceEndpoint
+from bot_console.runtime.rmw.endpoints import ClientEndpoint, Endpoint, GraphChanged, NodeId, ServiceEndpoint
+from bot_console.runtime.rmw.graph_tables import GraphTables
 from bot_console.runtime.rmw.zenoh.domain.attendance import await_answers
 from bot_console.runtime.rmw.zenoh.seen import SeenTokens
 from bot_console.runtime.rmw.zenoh.session import Session
@@ -18,12 +18,12 @@ Row = NodeId | Endpoint | ServiceEndpoint | ClientEndpoint
 
 
 class WholeGraph:
-    """What other processes have in the graph, as rows like those of this process."""
+    """What other processes have in the graph, in tables like those of this process."""
 
-    def __init__(self, session: Session, changed: Callable[[], None]) -> None:
+    def __init__(self, session: Session, changed: GraphChanged) -> None:
         self._changed = changed
-        self._lock = threading.Lock()
-        self._rows: dict[Kind, dict[str, Row]] = {"NN": {}, "MP": {}, "MS": {}, "SS": {}, "SC": {}}
+        self.tables = GraphTables()
+        self._rows: dict[str, Row] = {}  # by the key of the token; tokens come one after the other
         self.silent = await_answers(session, session.patience)
         """The sockets of the processes that did not answer in time: what they have may be missing."""
         for each in self.silent:
@@ -37,36 +37,22 @@ class WholeGraph:
         answered.wait(2 * session.patience)
 
     def _saw(self, token: Token, came: bool) -> None:
-        with self._lock:
-            if came:
-                self._rows[token.kind][token.key] = _row(token)
-            else:
-                self._rows[token.kind].pop(token.key, None)
-        self._changed()
+        row = self._rows.setdefault(token.key, _row(token)) if came else self._rows.pop(token.key, None)
+        if row is not None:
+            self._enter(token.kind, row, came)
+        self._changed((token.node.name, token.node.namespace))
 
-    def _all(self, kind: Kind) -> Sequence[Row]:
-        with self._lock:
-            return list(self._rows[kind].values())
-
-    def nodes(self) -> list[NodeId]:
-        """The nodes."""
-        return [each for each in self._all("NN") if isinstance(each, NodeId)]
-
-    def publishers(self) -> list[Endpoint]:
-        """The publishers."""
-        return [each for each in self._all("MP") if isinstance(each, Endpoint)]
-
-    def subscriptions(self) -> list[Endpoint]:
-        """The subscriptions."""
-        return [each for each in self._all("MS") if isinstance(each, Endpoint)]
-
-    def servers(self) -> list[ServiceEndpoint]:
-        """The service servers."""
-        return [each for each in self._all("SS") if isinstance(each, ServiceEndpoint)]
-
-    def clients(self) -> list[ClientEndpoint]:
-        """The service clients."""
-        return [each for each in self._all("SC") if isinstance(each, ClientEndpoint)]
+    def _enter(self, kind: Kind, row: Row, came: bool) -> None:
+        tables = self.tables
+        if isinstance(row, NodeId):
+            (tables.add_node if came else tables.remove_node)(row)
+        elif isinstance(row, Endpoint):
+            ends = tables.publishers if kind == "MP" else tables.subscriptions
+            (ends.add if came else ends.remove)(row)
+        elif isinstance(row, ServiceEndpoint):
+            (tables.servers.add if came else tables.servers.remove)(row)
+        else:
+            (tables.clients.add if came else tables.clients.remove)(row)
 
 
 def _row(token: Token) -> Row:

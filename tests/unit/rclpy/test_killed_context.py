@@ -27,8 +27,9 @@ def process():
 
 
 def things(domain):
-    bus = local_bus(domain)
-    return [*bus.nodes(), *bus.publishers(), *bus.subscriptions(), *bus.servers(), *bus.clients()]
+    (graph,) = local_bus(domain).tables()
+    ends = (graph.publishers, graph.subscriptions, graph.servers, graph.clients)
+    return [*graph.nodes(), *(each for kind in ends for each in kind.all())]
 
 
 def test_entities_of_a_node_that_has_left(process, domain, monkeypatch):

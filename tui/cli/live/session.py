@@ -165,8 +165,8 @@ class Session:
         self.console.close()  # whose own zero is the last word to a robot that outlives this program
 
 
-def graph_events(domain: int, changed: Callable[[], None]) -> Callable[[], None]:
-    """Call back after each change of the graph of a domain; returns what ends that."""
+def graph_events(domain: int, changed: Callable[[tuple[str, str]], None]) -> Callable[[], None]:
+    """Call back after each change of the graph of a domain with name and namespace; returns what ends that."""
     from bot_console.runtime.rmw.middleware import bus_of
 
     return bus_of(domain).on_graph_change(changed)

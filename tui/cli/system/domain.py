@@ -78,9 +78,9 @@ def robot_there() -> list[str]:
 
     if not others_take_part():
         return []
-    bus = bus_of(domain())
-    found = [each for each in bus.publishers() if each.topic in SOURCES]
-    found += [each for each in bus.subscriptions() if each.topic == VELOCITY]
+    tables = bus_of(domain()).tables()
+    found = [end for each in tables for topic in SOURCES for end in each.publishers.on(topic)]
+    found += [end for each in tables for end in each.subscriptions.on(VELOCITY)]
     return sorted({f"{each.node.namespace.rstrip('/')}/{each.node.name}" for each in found})
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from rclpy.node import Node
 from rclpy.qos import QoSCompatibility, qos_check_compatible
 
@@ -21,35 +21,56 @@ class UnheardPairs:
     def __init__(self, node: Node) -> None:
         self._publishers: Ask = node.get_publishers_info_by_topic
         self._subscriptions: Ask = node.get_subscriptions_info_by_topic
-        self._known: dict[str, tuple[object, tuple[str, ...]]] = {}
+        self._nodes: dict[str, NodeInfo] = {}
+        self._ends: dict[str, set[tuple[bool, str]]] = {}
+        """Of each topic, which nodes publish (True) and subscribe."""
+        self._known: dict[str, tuple[str, ...]] = {}
         self.found: tuple[str, ...] = ()
 
     def follow(self, graph: GraphInfo) -> tuple[str, ...]:
         """All findings of a graph; the same object where nothing is different."""
-        ends: dict[str, list[object]] = {}
-        both: dict[str, set[bool]] = {}
-        for node in graph.nodes:
-            for publishes, endpoints in ((True, node.publishers), (False, node.subscriptions)):
-                for each in endpoints:
-                    ends.setdefault(each.name, []).append((publishes, node.name, each))
-                    both.setdefault(each.name, set()).add(publishes)
-        known: dict[str, tuple[object, tuple[str, ...]]] = {}
-        for topic, state in ends.items():
-            if len(both[topic]) == 2:
-                before = self._known.get(topic)
-                same = before is not None and before[0] == state
-                known[topic] = before if before is not None and same else (state, self._look(topic))
-        self._known = known
-        found = tuple(text for _, (_, texts) in sorted(known.items()) for text in texts)
+        nodes = {each.name: each for each in graph.nodes}
+        touched: set[str] = set()
+        for name in nodes.keys() | self._nodes.keys():
+            before, now = self._nodes.get(name), nodes.get(name)
+            if before is not now:
+                touched |= self._moved(name, _ends(before), _ends(now))
+        self._nodes = nodes
+        for topic in touched:
+            ends = self._ends[topic]
+            texts = self._look(topic) if len({publishes for publishes, _ in ends}) == 2 else ()
+            self._known.pop(topic, None)
+            if texts:
+                self._known[topic] = texts
+            if not ends:
+                del self._ends[topic]
+        found = tuple(text for _, texts in sorted(self._known.items()) for text in texts)
         if found != self.found:
             self.found = found
         return self.found
 
+    def _moved(self, node: str, before: set[tuple[bool, Endpoint]], now: set[tuple[bool, Endpoint]]) -> set[str]:
+        """Note the ends that a node has and has not any more; the topics whose ends are others."""
+        for publishes, each in before - now:
+            self._ends[each.name].discard((publishes, node))
+        for publishes, each in now:
+            self._ends.setdefault(each.name, set()).add((publishes, node))
+        return {each.name for _, each in before ^ now}
+
     def _look(self, topic: str) -> tuple[str, ...]:
         """Only what the QoS and types in the graph's own texts do not tell."""
         publishers, subscriptions = self._publishers(topic), self._subscriptions(topic)
+        if len({hash_of(each) for each in (*publishers, *subscriptions)} - {""}) < 2:
+            return ()
         pairs = ((one, other) for one in publishers for other in subscriptions)
         return tuple(dict.fromkeys(text for one, other in pairs if (text := otherwise_defined(topic, one, other))))
+
+
+def _ends(node: NodeInfo | None) -> set[tuple[bool, Endpoint]]:
+    """What a node publishes (True) and subscribes to."""
+    if node is None:
+        return set()
+    return {(True, each) for each in node.publishers} | {(False, each) for each in node.subscriptions}
 
 
 def unheard(topic: str, publishers: Sequence[Any], subscriptions: Sequence[Any]) -> Iterable[str]:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections import deque
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -20,35 +21,39 @@ Owner = tuple[str, str]
 Pairs = Sequence[tuple[str, Sequence[str]]]
 """Topics or services with their types."""
 
-GraphEvents = Callable[[int, Callable[[], None]], Callable[[], None]]
-"""Takes a ROS domain and what is to be called, from any thread, after each change of its graph; gives what ends that.
-rclpy has none: without one the graph is asked for again and again."""
+Answer = tuple[Pairs, Pairs, Pairs, Pairs]
+"""What a node publishes, subscribes to, offers and calls."""
+
+NOTHING: Answer = ([], [], [], [])
+
+GraphEvents = Callable[[int, Callable[[Owner], None]], Callable[[], None]]
+"""Takes a ROS domain and what is to be called, from any thread, after each change of its graph, with the node that has
+changed; gives what ends that. rclpy has none: without one the whole graph is asked for again and again."""
 
 
 class GraphWatch:
     """Keeps `info` up to date while the node spins, and tells `changed` of each new graph.
 
-    What has not changed is not described again, and stays the same object.
+    What has not changed is not described again, and stays the same object. Where events tell of changes, nodes that
+    have none are not even asked about.
     """
 
     def __init__(self, node: Node, changed: Callable[[GraphInfo], None], events: GraphEvents | None = None) -> None:
         self.info = GraphInfo()
         self._node = node
         self._changed = changed
-        self._nodes: dict[Owner, tuple[Any, NodeInfo]] = {}
-        self._topics: Any = []
-        self._services: Any = []
-        self._stale = True
+        self._nodes: dict[Owner, tuple[Answer, NodeInfo]] = {}
+        self._topics: Pairs = []
+        self._services: Pairs = []
+        self._news: deque[Owner] = deque()
+        self._looked = False
         self._told = events is not None
         self._unheard = UnheardPairs(node)
-        self._end = events(node.context.get_domain_id(), self._event) if events else _nothing
+        self._end = events(node.context.get_domain_id(), self._news.append) if events else _nothing
         node.create_timer(PERIOD, self._tick)
 
-    def _event(self) -> None:
-        self._stale = True
-
     def _tick(self) -> None:
-        if self._stale or not self._told:
+        if self._news or not (self._told and self._looked):
             self.look()
 
     def close(self) -> None:
@@ -57,34 +62,56 @@ class GraphWatch:
 
     def look(self) -> None:
         """Ask for the graph now."""
-        self._stale = False  # before the questions: what changes meanwhile is asked for again
+        known = self._unchanged()  # before the questions: what changes meanwhile is asked for again
+        self._looked = True
         node = self._node
         profiles = Profiles(node)
-        nodes = {owner: self._look_at(owner, profiles) for owner in set(node.get_node_names_and_namespaces())}
-        topics, services = node.get_topic_names_and_types(), node.get_service_names_and_types()
-        same_nodes = nodes.keys() == self._nodes.keys() and all(
-            seen is self._nodes[owner] for owner, seen in nodes.items()
-        )
-        if same_nodes and topics == self._topics and services == self._services:
+        owners = dict.fromkeys(node.get_node_names_and_namespaces())
+        nodes = {owner: known.get(owner) or self._look_at(owner, profiles) for owner in owners}
+        different = [each for each in nodes.keys() | self._nodes.keys() if nodes.get(each) is not self._nodes.get(each)]
+        if self._told and not different:
+            return
+        topics, services = self._names(nodes, different)
+        if not different and topics is self._topics and services is self._services:
             return
         old = self.info
         self.info = GraphInfo(
-            old.nodes if same_nodes else tuple(sorted((each for _, each in nodes.values()), key=_name)),
-            old.topics if topics == self._topics else _endpoints(topics),
-            old.services if services == self._services else _endpoints(services),
+            tuple(sorted((each for _, each in nodes.values()), key=_name)) if different else old.nodes,
+            old.topics if topics is self._topics else _endpoints(topics, old.topics),
+            old.services if services is self._services else _endpoints(services, old.services),
         )
         self.info = replace(self.info, unheard=self._unheard.follow(self.info))
         self._nodes, self._topics, self._services = nodes, topics, services
         self._changed(self.info)
 
-    def _look_at(self, owner: Owner, profiles: Profiles) -> tuple[Any, NodeInfo]:
+    def _unchanged(self) -> dict[Owner, tuple[Answer, NodeInfo]]:
+        """What need not be asked for again."""
+        if not (self._told and self._looked):
+            self._news.clear()
+            return {}
+        known = dict(self._nodes)
+        while self._news:
+            known.pop(self._news.popleft(), None)
+        return known
+
+    def _names(self, nodes: Mapping[Owner, tuple[Answer, NodeInfo]], different: Sequence[Owner]) -> tuple[Pairs, Pairs]:
+        """Topics and services; the same objects as before where they are the same."""
+        changed = [(_answer(nodes, each), _answer(self._nodes, each)) for each in different]
+        topics, services = self._topics, self._services
+        if not self._told or any(now[:2] != before[:2] for now, before in changed):
+            topics = _same(self._node.get_topic_names_and_types(), topics)
+        if not self._told or any(now[2:] != before[2:] for now, before in changed):
+            services = _same(self._node.get_service_names_and_types(), services)
+        return topics, services
+
+    def _look_at(self, owner: Owner, profiles: Profiles) -> tuple[Answer, NodeInfo]:
         """What a node answers and what it means; the same object as before where the answer is the same."""
         answer, known = self._ask(*owner), self._nodes.get(owner)
         if known is None:
             return answer, _described(owner, answer, NodeInfo(""), profiles)
         return known if known[0] == answer else (answer, _described(owner, answer, known[1], profiles))
 
-    def _ask(self, name: str, space: str) -> tuple[Any, ...]:
+    def _ask(self, name: str, space: str) -> Answer:
         node = self._node
         asked = (
             node.get_publisher_names_and_types_by_node,
@@ -92,14 +119,19 @@ class GraphWatch:
             node.get_service_names_and_types_by_node,
             node.get_client_names_and_types_by_node,
         )
-        answers: list[Any] = []
-        for ask in asked:
-            try:
-                answers.append(ask(name, space))
-            except RuntimeError:
-                # The node left between the two questions.
-                answers.append([])
-        return tuple(answers)
+        try:
+            publishers, subscriptions, services, clients = (ask(name, space) for ask in asked)
+        except RuntimeError:  # the node left between two questions
+            return NOTHING
+        return publishers, subscriptions, services, clients
+
+
+def _answer(nodes: Mapping[Owner, tuple[Answer, NodeInfo]], owner: Owner) -> Answer:
+    return nodes[owner][0] if owner in nodes else NOTHING
+
+
+def _same(pairs: Pairs, before: Pairs) -> Pairs:
+    return before if pairs == before else pairs
 
 
 class Profiles:
@@ -121,7 +153,7 @@ class Profiles:
         return self._found[key].get(owner, "")
 
 
-def _described(owner: Owner, answer: tuple[Any, ...], before: NodeInfo, profiles: Profiles) -> NodeInfo:
+def _described(owner: Owner, answer: Answer, before: NodeInfo, profiles: Profiles) -> NodeInfo:
     """What an answer says of a node; of what the node had before, the profile is known."""
     publishers, subscriptions, services, clients = answer
     name, space = owner
@@ -154,16 +186,22 @@ def qos_text(profile: Any) -> str:
     return " ".join([*(word.lower().replace("_", " ") for word in words), depth]).strip()
 
 
-def _name(node: NodeInfo) -> str:
-    return node.name
+def _name(named: NodeInfo | Endpoint) -> str:
+    return named.name
 
 
 def _nothing() -> None:
     """There are no events to end."""
 
 
-def _endpoints(pairs: Pairs) -> tuple[Endpoint, ...]:
-    return tuple(sorted((Endpoint(name, tuple(types)) for name, types in pairs), key=lambda each: each.name))
+def _endpoints(pairs: Pairs, before: Sequence[Endpoint] = ()) -> tuple[Endpoint, ...]:
+    """As endpoints, by name; those of before where they are the same."""
+    known = {each.name: each for each in before}
+    found: list[Endpoint] = []
+    for name, kinds in pairs:
+        types, old = tuple(kinds), known.get(name)
+        found.append(old if old is not None and old.types == types else Endpoint(name, types))
+    return tuple(sorted(found, key=_name))
 
 
 def _actions(topics: Pairs) -> tuple[Endpoint, ...]:

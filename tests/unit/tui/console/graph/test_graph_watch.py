@@ -4,6 +4,7 @@ import itertools
 
 import pytest
 import rclpy
+from bot_console.tui.cli.live.session import graph_events
 from bot_console.tui.console.graph.watch import GraphWatch
 from rclpy.context import Context
 from std_msgs.msg import Float64
@@ -48,7 +49,7 @@ def test_it_looks_only_after_an_event(context, node):
     for _ in range(3):
         watch._tick()
     assert len(looks) == 1  # the first
-    events.changed()
+    events.changed(("n", "/"))
     watch._tick()
     watch._tick()
     assert len(looks) == 2
@@ -99,9 +100,27 @@ def test_each_topic_is_asked_about_once(context, node):
     assert asked == ["/speed"]
 
 
-def test_events_of_the_runtime_lead_to_a_look(context, node):
-    from bot_console.tui.cli.live.session import graph_events
+def test_only_the_node_that_an_event_names_is_asked_about(context, node):
+    others = [rclpy.create_node(f"n{number}", context=context) for number in range(3)]
+    watch = GraphWatch(node, lambda graph: None, graph_events)
+    watch.look()
+    asked, ask = [], watch._ask
+    watch._ask = lambda name, space: asked.append(name) or ask(name, space)
+    services = watch.info.services
+    publisher = others[1].create_publisher(Float64, "speed", 7)
+    watch.look()
+    assert asked == ["n1"] and "/speed" in {each.name for each in watch.info.topics}
+    assert watch.info.services is services
+    others[1].destroy_publisher(publisher)
+    others[2].destroy_node()
+    watch.look()
+    assert asked == ["n1", "n1"] and "/speed" not in {each.name for each in watch.info.topics}
+    assert "/n2" not in {each.name for each in watch.info.nodes}
+    assert "/n2/set_parameters" not in {each.name for each in watch.info.services}
+    watch.close()
 
+
+def test_events_of_the_runtime_lead_to_a_look(context, node):
     watch = GraphWatch(node, lambda graph: None, graph_events)
     watch.look()
     other = rclpy.create_node("late", context=context)
