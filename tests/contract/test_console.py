@@ -64,8 +64,8 @@ def test_logs_have_number_severity_node_and_text(rig: Rig) -> None:
         (LogFilter(Severity.FATAL, "node:robot"), SEVERITIES[3:]),
         (LogFilter(words="node:robot re:(warn|info)$"), SEVERITIES[:2]),
         (LogFilter(words="node:robot !warn"), (Severity.INFO, Severity.ERROR, Severity.FATAL)),
-        (LogFilter(words="node:robot", hidden_severities=frozenset({Severity.INFO})), SEVERITIES[1:]),
-        (LogFilter(hidden_nodes=frozenset({"robot"}), words="it is"), ()),
+        (LogFilter(words="node:robot", hidden=("sev:info",)), SEVERITIES[1:]),
+        (LogFilter(hidden=("node:=robot",), words="it is"), ()),
     ],
 )
 def test_logs_are_filtered(rig: Rig, which: LogFilter, left: tuple[Severity, ...]) -> None:

@@ -10,6 +10,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
+from bot_console.tui.console.logs.file import open_log
 from bot_console.tui.console.logs.search import matching
 from bot_console.tui.console.logs.store import LogStore
 from bot_console.tui.console.logs.view import SearchedView
@@ -28,7 +29,7 @@ from bot_console.tui.console.parameters.file import save
 from bot_console.tui.console.parameters.journal import Journal, Move, Step
 from bot_console.tui.console.parameters.origin import origin_text
 from bot_console.tui.console.parameters.profiles import differences
-from bot_console.tui.console.protocol import Answer, LogView, Stream
+from bot_console.tui.console.protocol import Answer, LogSource, LogView, Stream
 from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.console.values import refusal
 from fake_profiles import CLOSED, FakeProfiles
@@ -95,6 +96,9 @@ class FakeConsole(FakeProfiles, FakeSeries):
 
     def view_logs(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
         return FakeView(self.logs, which)
+
+    def open_log(self, path: str) -> LogSource:
+        return open_log(path)
 
     def clear_logs(self) -> None:
         self.logs.clear()

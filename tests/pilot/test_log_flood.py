@@ -9,7 +9,8 @@ import numpy as np
 from bot_console.tui.console.logs.store import LogStore
 from bot_console.tui.console.logs.view import LogViews
 from bot_console.tui.console.model import LogFilter, Severity
-from bot_console.tui.panes.logs.pane import LogRows, LogsPane
+from bot_console.tui.panes.logs.pane import LogsPane
+from bot_console.tui.panes.logs.rows import LogRows
 from fakes import START, FakeConsole
 from piloting import Session, run
 from samples import live

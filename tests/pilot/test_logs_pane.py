@@ -5,7 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 
 from bot_console.tui.console.model import Severity
-from bot_console.tui.panes.logs.pane import LogRows, LogsPane
+from bot_console.tui.panes.history.pane import HistoryPane
+from bot_console.tui.panes.logs.pane import LogsPane
+from bot_console.tui.panes.logs.rows import LogRows
+from bot_console.tui.panes.logs.rules import RuleBook
+from bot_console.tui.panes.plot.pane import PlotPane
+from fakes import START
 from piloting import Session, run
 from samples import empty, live
 
@@ -43,10 +48,12 @@ def test_severity_words_and_nodes_filter() -> None:
         await session.type("node:navigator !max")
         await session.press("enter")
         assert len(seqs(session)) == 2
-        await session.press("x")
-        assert len(seqs(session)) == 0 and "hidden: /robot_navigator" in session.text()
-        await session.press("escape")
-        assert len(seqs(session)) == 5
+        await session.press("x", "enter")
+        assert len(seqs(session)) == 0 and "1 rule hides" in session.text()
+        await session.press("t")
+        assert len(seqs(session)) == 5 and "filters off, t puts them back" in session.text()
+        await session.press("t", "escape")
+        assert len(seqs(session)) == 2, "a rule stays"
 
     run(live(), play)
 
@@ -94,3 +101,118 @@ def test_a_bad_pattern_is_explained_and_an_empty_log_is_calm() -> None:
         assert "regular expression" in session.text()
 
     run(empty(), play)
+
+
+def test_rules_hide_and_highlight_until_they_are_changed() -> None:
+    async def play(session: Session) -> None:
+        await session.press("2", "g", "plus", "enter")
+        assert "▌" in session.text() and "In violet: node:=" in session.text()
+        every = len(seqs(session))
+        await session.press("o")
+        shown = seqs(session)
+        assert 0 < len(shown) < every and "highlighted only" in session.text()
+        await session.press("o", "R", "c", "c", "c", "c", "c", "c")
+        assert "● hide" in session.text(), "behind the last colour it hides"
+        await session.press("space", "escape")
+        assert len(seqs(session)) == every, "it is off"
+        await session.press("R", "enter")
+        session.app.focused.value = "sev:["
+        await session.settle()
+        assert "severity '[' is none of" in session.text()
+        session.app.focused.value = "sev:info"
+        await session.press("enter", "space", "escape")
+        assert 0 < len(seqs(session)) < every
+
+    run(live(), play)
+    rules = RuleBook()
+    rules.read()
+    assert [each.text for each in rules.rules] == ["hide sev:info"], "they are there at the next start"
+
+
+def test_a_search_hides_nothing_and_goes_around() -> None:
+    async def play(session: Session) -> None:
+        pane = session.pane(LogsPane)
+        for number in range(3):
+            session.console.say(Severity.INFO, "talker", f"zebra {number}")
+            session.console.say(Severity.INFO, "talker", "horse")
+        await session.press("2", "s")
+        await session.type("zebra")
+        await session.press("enter")
+        rows = pane.query_one(LogRows)
+
+        def stands_on() -> str:
+            record = rows.record
+            return record.text if record else ""
+
+        assert stands_on() == "zebra 2" and "match 3 of 3 zebra" in session.text()
+        assert len(seqs(session)) == len(range(session.console.logs.state.end))
+        places = []
+        for key in ("n", "n", "N", "N", "N"):
+            await session.press(key)
+            places.append(stands_on())
+        assert places == ["zebra 0", "zebra 1", "zebra 0", "zebra 2", "zebra 1"]
+        await session.press("slash")
+        await session.type("!zebra")
+        await session.press("enter", "s")
+        await session.type("zebra")
+        await session.press("enter")
+        assert "Nothing here matches zebra" in session.text()
+
+    run(live(), play)
+
+
+def test_repeats_are_one_line_with_their_number() -> None:
+    async def play(session: Session) -> None:
+        await session.press("2")
+        before = len(seqs(session))
+        for _ in range(134):
+            session.console.say(Severity.WARN, "talker", "again")
+        await session.press("r")
+        assert "x134 again" in session.text() and len(seqs(session)) == before + 1
+        session.console.say(Severity.WARN, "talker", "again")
+        await session.settle()
+        assert "x135 again" in session.text() and len(seqs(session)) == before + 1
+        await session.press("r")
+        assert len(seqs(session)) == before + 135
+
+    run(live(), play)
+
+
+def test_a_saved_log_is_read_in_its_place(tmp_path: Path) -> None:
+    path = tmp_path / "run.txt"
+    path.write_text("[WARN] [1700000000.5] [/arm]: saved\nin two lines\n")
+
+    async def play(session: Session) -> None:
+        pane = session.pane(LogsPane)
+        await session.press("2", "O")
+        session.app.focused.value = str(tmp_path / "none.txt")
+        await session.press("enter")
+        assert "no such file" in session.text()
+        session.app.clear_notifications()
+        await session.press("O")
+        session.app.focused.value = str(path)
+        await session.press("enter")
+        while not seqs(session):
+            pane.tick()
+            await session.pilot.pause()
+        assert "saved⏎ in two lines" in session.text() and "O goes back" in session.text()
+        await session.press("O")
+        assert "saved" not in session.text() and len(seqs(session)) == 5
+
+    run(live(), play)
+
+
+def test_what_was_before_a_line_and_its_moment_in_the_plot() -> None:
+    async def play(session: Session) -> None:
+        cursor = session.app.time_cursor
+        await session.press("2", "g", "b")
+        assert "max_speed: 1.0 → 10.0, refused: too fast" in session.text()
+        await session.type("0.7")
+        await session.press("enter")
+        assert session.pane(HistoryPane).display and cursor.stamp == START - 12 * 10**9
+        await session.press("2", "g", "p")
+        assert session.pane(PlotPane).display and cursor.stamp == START
+        await session.press("2", "escape")
+        assert cursor.stamp is None
+
+    run(live(), play)

@@ -6,7 +6,7 @@ from dataclasses import replace
 from types import MappingProxyType
 
 import pytest
-from bot_console.tui.panes.logs.pane import LogRows
+from bot_console.tui.panes.logs.rows import LogRows
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.screens.confirm import ConfirmScreen

@@ -160,15 +160,20 @@ class LogRecord:
 
 @dataclass(frozen=True, slots=True)
 class LogFilter:
-    """Which records to show: a minimum severity, excluded severities and nodes, and words.
+    """Which records to show: those of a least severity that pass the words, and how.
 
-    `words` follows one grammar in every pane: blanks mean AND, `!word` excludes, `re:regex`, `node:name`, `sev:>=warn`.
+    `words`, as every text of `hidden` and `only`, follows one grammar in every pane: blanks mean AND, `!word` excludes,
+    `re:regex`, `node:name`, `sev:>=warn`, `at:file.py:12`, `time:14:03..14:05`.
     """
 
     minimum: Severity = Severity.UNSET
     words: str = ""
-    hidden_nodes: frozenset[str] = frozenset()
-    hidden_severities: frozenset[Severity] = frozenset()
+    hidden: tuple[str, ...] = ()
+    """What passes one of these is not shown."""
+    only: tuple[str, ...] = ()
+    """What passes none of these is not shown; empty: all is."""
+    folded: bool = False
+    """Whether a row of equal records is shown as one, its newest."""
 
 
 @dataclass(frozen=True, slots=True)

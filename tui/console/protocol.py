@@ -18,6 +18,7 @@ from bot_console.tui.console.model import (
     LaunchArgument,
     LogFilter,
     LogRecord,
+    LogState,
     ProfileDifference,
     SetOutcome,
     Severity,
@@ -58,6 +59,10 @@ class LogNumbers(Protocol):
         """The index of the first that is not below a number."""
         ...
 
+    def count(self, index: int, /) -> int:
+        """How many equal records the one at an index stands for."""
+        ...
+
 
 @dataclass(frozen=True, slots=True)
 class LogFindings:
@@ -77,6 +82,36 @@ class LogView(Protocol):
 
     def look(self) -> LogFindings:
         """What was found so far; the same object until there is more."""
+        ...
+
+
+class LogSource(Protocol):
+    """Records to be shown in the Logs pane: those of the system, or of a file."""
+
+    @property
+    def name(self) -> str:
+        """What it is, for a heading; empty for the system."""
+        ...
+
+    @property
+    def state(self) -> LogState:
+        """What is kept; the same object until there is more."""
+        ...
+
+    def record(self, seq: int) -> LogRecord | None:
+        """The record of that number, or None when it has fallen out or has not come yet."""
+        ...
+
+    def view(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
+        """Search for what passes a filter, and go on as records come; ends the search whose place it takes."""
+        ...
+
+    def clear(self) -> None:
+        """Forget all records; numbers go on."""
+        ...
+
+    def close(self) -> None:
+        """Read no more."""
         ...
 
 
@@ -108,6 +143,10 @@ class ConsoleReading(Protocol):
 
     def view_logs(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
         """Search for what passes a filter, and go on as records come; ends the search whose place it takes."""
+        ...
+
+    def open_log(self, path: str) -> LogSource:
+        """Read a saved log, and go on as it grows; raises `ValueError` with the reason where that cannot be done."""
         ...
 
     def changes(self, after: int = 0) -> Sequence[Change]:

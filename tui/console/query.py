@@ -1,22 +1,25 @@
 """The filter grammar that every pane speaks.
 
     filter  = words with blanks between; all of them must hold
-    word    = [!] [node: | sev: | re:] text            `!` turns any word around
+    word    = [!] [node: | sev: | at: | time: | re:] text            `!` turns any word around
     text    = without blanks, or "in quotes with blanks"
 
-`node:` looks at the node's name, in either spelling (`arm.left.zoo`, `/arm/left/zoo`); `sev:` at a log line's severity
-(`warn`, `>=warn`, `<error`, `info,fatal`); `re:` is a regular expression over the text; a plain word may stand in the
-text or in the node's name. Nothing looks at upper or lower case.
+`node:` looks at the node's name, in either spelling (`arm.left.zoo`, `/arm/left/zoo`), `node:=` at the whole of it;
+`sev:` at a log line's severity (`warn`, `>=warn`, `<error`, `info,fatal`), `at:` at where it was logged (`file.py`,
+`file.py:12`, a function), `time:` at when (see `spans`); `re:` is a regular expression over the text; a plain word may
+stand in the text or in the node's name. Nothing looks at upper or lower case.
 """
 
 from __future__ import annotations
 
 import re
+import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 from bot_console.tui.console.logs.patterns import Pattern
-from bot_console.tui.console.model import Severity
+from bot_console.tui.console.logs.spans import Span, parse_span
+from bot_console.tui.console.model import LogRecord, Severity
 
 SEVERITY_WORDS: Mapping[str, Severity] = {
     "unset": Severity.UNSET,
@@ -28,19 +31,43 @@ SEVERITY_WORDS: Mapping[str, Severity] = {
     "fatal": Severity.FATAL,
 }
 ALL = frozenset(Severity)
-_WORD = re.compile(r'(!?)(?:(node|sev|re):)?(?:"([^"]*)"(?=\s|$)|(\S*))(?:\s+|$)')
+_WORD = re.compile(r'(!?)(?:(node|sev|at|time|re):)?(?:"([^"]*)"(?=\s|$)|(\S*))(?:\s+|$)')
 
 
 @dataclass(frozen=True, slots=True)
 class NodeTerm:
-    """A part of a node's name, in the spelling with dots."""
+    """A part of a node's name, in the spelling with dots; or the whole of it."""
 
     part: str
     exclude: bool = False
+    whole: bool = False
 
     def stands_in(self, node: str) -> bool:
         """Whether it is a part of the name."""
-        return self.part in dotted(node)
+        return self.part == dotted(node) if self.whole else self.part in dotted(node)
+
+
+@dataclass(frozen=True, slots=True)
+class PlaceTerm:
+    """A part of a file's or function's name, and a line where one was given."""
+
+    part: str
+    line: int | None
+    exclude: bool = False
+
+    def stands_in(self, file: str, function: str, line: int) -> bool:
+        """Whether it means this place."""
+        return (self.line is None or self.line == line) and (
+            self.part in file.lower() or self.part in function.lower() if self.part else self.line is not None
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class SpanTerm:
+    """A span of time."""
+
+    span: Span
+    exclude: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,11 +81,13 @@ class TextTerm:
 
 @dataclass(frozen=True, slots=True)
 class Query:
-    """A parsed filter."""
+    """A parsed filter. Severities, places and spans say something of log lines only."""
 
     nodes: tuple[NodeTerm, ...] = ()
     texts: tuple[TextTerm, ...] = ()
     severities: frozenset[Severity] = ALL
+    places: tuple[PlaceTerm, ...] = ()
+    spans: tuple[SpanTerm, ...] = ()
 
     @property
     def terms(self) -> tuple[NodeTerm | TextTerm, ...]:
@@ -71,10 +100,21 @@ class Query:
         return Query(nodes, tuple(each for each in self.texts if each.exclude is exclude))
 
     def matches(self, text: str, node: str = "") -> bool:
-        """Whether a text, belonging to a node, passes; severities are not looked at."""
+        """Whether a text, belonging to a node, passes; what only log lines have is not looked at."""
         if any(term.stands_in(node) is term.exclude for term in self.nodes):
             return False
         return all(self._found(term, text, node) is not term.exclude for term in self.texts)
+
+    def passes(self, record: LogRecord) -> bool:
+        """Whether a log line passes."""
+        return (
+            record.severity in self.severities
+            and all(each.span.holds(record.stamp) is not each.exclude for each in self.spans)
+            and all(
+                each.stands_in(record.file, record.function, record.line) is not each.exclude for each in self.places
+            )
+            and self.matches(record.text, record.node)
+        )
 
     @staticmethod
     def _found(term: TextTerm, text: str, node: str) -> bool:
@@ -87,9 +127,11 @@ def dotted(node: str) -> str:
 
 
 def parse(text: str) -> Query:
-    """Parse a filter; raises `ValueError` with a readable text for a bad pattern or severity."""
+    """Parse a filter; raises `ValueError` with a readable text for a bad pattern, severity or time."""
     nodes: list[NodeTerm] = []
     texts: list[TextTerm] = []
+    places: list[PlaceTerm] = []
+    spans: list[SpanTerm] = []
     severities = ALL
     for sign, field, quoted, bare in _WORD.findall(text.strip()):
         word = quoted or bare
@@ -102,12 +144,28 @@ def parse(text: str) -> Query:
             wanted = _severities(word)
             severities = severities - wanted if exclude else severities & wanted
         elif field == "node":
-            nodes.append(NodeTerm(_part(word), exclude))
+            nodes.append(_node(word, exclude))
+        elif field == "at":
+            places.append(_place(word, exclude))
+        elif field == "time":
+            spans.append(SpanTerm(parse_span(word, time.time_ns()), exclude))
         elif field == "re":
             texts.append(TextTerm(Pattern(word), None, exclude))
         else:
             texts.append(_plain(word, exclude))
-    return Query(tuple(nodes), tuple(texts), severities)
+    return Query(tuple(nodes), tuple(texts), severities, tuple(places), tuple(spans))
+
+
+def _node(word: str, exclude: bool) -> NodeTerm:
+    name = word.removeprefix("=")
+    return NodeTerm(_part(word), exclude) if name in (word, "") else NodeTerm(dotted(name), exclude, whole=True)
+
+
+def _place(word: str, exclude: bool) -> PlaceTerm:
+    name, colon, line = word.rpartition(":")
+    if colon and line.isdecimal() and len(line) < 10:
+        return PlaceTerm(name.lower(), int(line), exclude)
+    return PlaceTerm(word.lower(), None, exclude)
 
 
 def _part(word: str) -> str:

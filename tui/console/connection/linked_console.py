@@ -7,6 +7,7 @@ from concurrent.futures import Future
 from threading import Event
 
 from bot_console.tui.console.connection.no_console import CLOSED, refused_profile
+from bot_console.tui.console.logs.file import open_log
 from bot_console.tui.console.logs.search import matching
 from bot_console.tui.console.logs.store import LogStore
 from bot_console.tui.console.logs.view import LogViews
@@ -25,7 +26,7 @@ from bot_console.tui.console.model import (
 )
 from bot_console.tui.console.node import ConsoleNode
 from bot_console.tui.console.parameters.shelf import Shelf
-from bot_console.tui.console.protocol import Answer, LogView, Samples
+from bot_console.tui.console.protocol import Answer, LogSource, LogView, Samples
 from bot_console.tui.console.sights.model import Sights
 from bot_console.tui.console.traffic import Traffic
 
@@ -88,6 +89,10 @@ class LinkedConsole:
     def view_logs(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
         """Search for what passes a filter."""
         return self._views.open(which, instead_of)
+
+    def open_log(self, path: str) -> LogSource:
+        """Read a saved log."""
+        return open_log(path)
 
     def clear_logs(self) -> None:
         """Forget all log records."""

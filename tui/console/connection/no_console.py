@@ -17,7 +17,7 @@ from bot_console.tui.console.model import (
     Severity,
     Value,
 )
-from bot_console.tui.console.protocol import Answer, ConsoleReading, LogFindings, LogView, Samples, Stream
+from bot_console.tui.console.protocol import Answer, ConsoleReading, LogFindings, LogSource, LogView, Samples, Stream
 from bot_console.tui.console.sights.idle import IdleSights
 from bot_console.tui.console.sights.model import Sights
 from bot_console.tui.console.topics.idle import IdleTraffic
@@ -31,6 +31,9 @@ OpenView = Callable[[LogFilter], "LogView | None"]
 
 class _NoNumbers(tuple[int, ...]):
     def place(self, number: int) -> int:
+        return 0
+
+    def count(self, index: object) -> int:
         return 0
 
 
@@ -72,6 +75,10 @@ class NothingKnown:
         """A view that waits for the log."""
         return EarlyView(which, self._open_view)
 
+    def open_log(self, path: str) -> LogSource:
+        """It is too early for that."""
+        raise ValueError(STARTING)
+
     def changes(self, after: int = 0) -> Sequence[Change]:
         """Nothing has changed."""
         return ()
@@ -105,6 +112,7 @@ class NoConsole:
         self.log = known.log
         self.matching_logs = known.matching_logs
         self.view_logs = known.view_logs
+        self.open_log = known.open_log
         self.changes = known.changes
         self.samples = known.samples
         self.plot_time = known.plot_time

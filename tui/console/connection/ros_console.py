@@ -32,7 +32,7 @@ from bot_console.tui.console.model import (
     Value,
 )
 from bot_console.tui.console.parameters.provenance import Learn, Provenance
-from bot_console.tui.console.protocol import Answer, Console, LogView, Samples
+from bot_console.tui.console.protocol import Answer, Console, LogSource, LogView, Samples
 from bot_console.tui.console.sights.model import Sights
 from bot_console.tui.console.traffic import Traffic
 
@@ -195,6 +195,10 @@ class RosConsole:
     def view_logs(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
         """Search for what passes a filter."""
         return self._now.view_logs(which, instead_of)
+
+    def open_log(self, path: str) -> LogSource:
+        """Read a saved log."""
+        return self._now.open_log(path)
 
     def clear_logs(self) -> None:
         """Forget all log records."""

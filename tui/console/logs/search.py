@@ -3,55 +3,115 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Generic, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 from bot_console.tui.console.logs.hits import hits
-from bot_console.tui.console.logs.store import LogSegment, LogStore
+from bot_console.tui.console.logs.spans import DAY, SECOND, Span, utc_offset
+from bot_console.tui.console.logs.store import LogSegment, LogStore, Table
 from bot_console.tui.console.model import LogFilter, Severity
-from bot_console.tui.console.query import NodeTerm, parse
+from bot_console.tui.console.query import parse
 
 Mask = npt.NDArray[np.bool_]
 Rows = npt.NDArray[np.int64]
+OFFSET_LASTS = 900 * SECOND
+"""Local time jumps against UTC at full quarters of an hour only."""
+
+T = TypeVar("T")
 
 
 class LogSearch:
     """A filter made ready; raises `ValueError` for one that does not parse."""
 
     def __init__(self, store: LogStore, which: LogFilter) -> None:
-        self._names = store.names
-        self._query = parse(which.words)
-        self._hidden_nodes = which.hidden_nodes
-        wanted = self._query.severities - which.hidden_severities
-        levels = [level for level in Severity if level in wanted and level >= which.minimum]
+        self._words = _Words(store, which.words, which.minimum)
+        self._hidden = [_Words(store, each) for each in which.hidden]
+        self._only = [_Words(store, each) for each in which.only]
+
+    def passing(self, segment: LogSegment, begin: int, end: int) -> Rows:
+        """Numbers, rising, of the records from index `begin` to before `end` of a segment that pass."""
+        mask = self._words.holding(segment, begin, end)
+        for each in self._hidden:
+            if not mask.any():
+                break
+            mask &= ~each.holding(segment, begin, end)
+        if self._only and mask.any():
+            wanted = np.zeros(end - begin, np.bool_)
+            for each in self._only:
+                wanted |= each.holding(segment, begin, end)
+            mask &= wanted
+        return np.flatnonzero(mask) + (begin + segment.first)
+
+
+class _Words:
+    """The words of one filter over a store, from a severity on."""
+
+    def __init__(self, store: LogStore, words: str, minimum: Severity = Severity.UNSET) -> None:
+        query = parse(words)
+        levels = [level for level in Severity if level in query.severities and level >= minimum]
         self._levels = np.zeros(256, np.bool_)
         self._levels[levels] = True
         self._least = levels[0] if levels and levels == [each for each in Severity if each >= levels[0]] else None
         """The severity from which on all pass, where it is as simple as that: a comparison is cheaper than a table."""
+        self._nodes = [(_Judged(store.names, each.stands_in), each.exclude) for each in query.nodes]
+        self._places = [
+            (_Judged(store.sites, lambda site, term=each: term.stands_in(*site)), each.exclude) for each in query.places
+        ]
+        self._spans = query.spans
+        self._texts = [(each, _Judged(store.names, each.name.stands_in) if each.name else None) for each in query.texts]
 
-    def passing(self, segment: LogSegment, begin: int, end: int) -> Rows:
-        """Numbers, rising, of the records from index `begin` to before `end` of a segment that pass."""
+    def holding(self, segment: LogSegment, begin: int, end: int) -> Mask:
+        """For each record from index `begin` to before `end` of a segment whether it passes."""
         severity = segment.severity[begin:end]
         mask = self._levels[severity] if self._least is None else severity >= self._least
         nodes = segment.node[begin:end]
-        if self._hidden_nodes:
-            mask &= self._by_name(lambda name: name not in self._hidden_nodes)[nodes]
-        for term in self._query.nodes:
-            mask &= self._standing_in(term)[nodes] != term.exclude
-        if self._query.texts and mask.any():
+        for judged, exclude in self._nodes:
+            mask &= judged.of(nodes) != exclude
+        for judged, exclude in self._places:
+            mask &= judged.of(segment.site[begin:end]) != exclude
+        for term in self._spans:
+            mask &= _within(term.span, segment.stamp[begin:end]) != term.exclude
+        if self._texts and mask.any():
             blob, ends = segment.texts(begin, end), segment.start[begin + 1 : end + 1] - segment.start[begin]
-            for term in self._query.texts:
+            for term, named in self._texts:
                 found = hits(term.pattern, blob, ends)
-                if term.name is not None:
-                    found |= self._standing_in(term.name)[nodes]
+                if named is not None:
+                    found |= named.of(nodes)
                 mask &= found != term.exclude
-        return np.flatnonzero(mask) + (begin + segment.first)
+        return mask
 
-    def _standing_in(self, term: NodeTerm) -> Mask:
-        return self._by_name(term.stands_in)
 
-    def _by_name(self, test: Callable[[str], bool]) -> Mask:
-        return np.array([test(name) for name in self._names.items], np.bool_)
+class _Judged(Generic[T]):
+    """What a test says of the items of a table, each looked at once."""
+
+    def __init__(self, table: Table[T], test: Callable[[T], bool]) -> None:
+        self._table = table
+        self._test = test
+        self._known = np.zeros(0, np.bool_)
+
+    def of(self, numbers: npt.NDArray[np.uint32]) -> Mask:
+        """What it says of items by their numbers."""
+        new = self._table.items[len(self._known) :]
+        if new:
+            self._known = np.append(self._known, np.array([self._test(each) for each in new], np.bool_))
+        return self._known[numbers]
+
+
+def _within(span: Span, stamps: Rows) -> Mask:
+    at = (stamps + _offsets(stamps)) % DAY if span.daily else stamps
+    if span.begin > span.end:
+        return (at >= span.begin) | (at < span.end)
+    return (at >= span.begin) & (at < span.end)
+
+
+def _offsets(stamps: Rows) -> Rows | int:
+    """What local time is ahead of UTC at each moment, in ns."""
+    quarters = stamps // OFFSET_LASTS
+    if not len(quarters) or quarters.min() == quarters.max():
+        return utc_offset(int(stamps[0])) if len(stamps) else 0
+    different, places = np.unique(quarters, return_inverse=True)
+    return np.array([utc_offset(int(each) * OFFSET_LASTS) for each in different], np.int64)[places]
 
 
 def matching(store: LogStore, which: LogFilter, after: int = 0, limit: int | None = None) -> list[int]:

@@ -1,6 +1,6 @@
 """Log records in columns: numpy for what is filtered by number, blobs of UTF-8 for the texts.
 
-About 70 bytes a record, and hardly anything for the garbage collector to walk (a list of a million record objects
+About 75 bytes a record, and hardly anything for the garbage collector to walk (a list of a million record objects
 stops every thread for 0.2 s at each full collection). Readers take no lock: a segment is only ever added to, and its
 `count` is written last.
 """
@@ -9,12 +9,14 @@ from __future__ import annotations
 
 import threading
 from types import MappingProxyType
-from typing import Generic, TypeVar
+from typing import Generic, TypeAlias, TypeVar
 
 import numpy as np
 from bot_console.tui.console.model import LogRecord, LogState, Severity
 
 T = TypeVar("T")
+Site: TypeAlias = "tuple[str, str, int]"
+"""File, function, line."""
 SEGMENT = 16_384
 CAPACITY = 63 * SEGMENT
 """A million, and one segment that is being filled."""
@@ -31,6 +33,8 @@ class LogSegment:
         self.severity = np.zeros(size, np.uint8)
         self.node = np.zeros(size, np.uint32)
         self.site = np.zeros(size, np.uint32)
+        self.key = np.zeros(size, np.int64)
+        """Equal for records of one node that say the same with one severity, and for hardly any others."""
         self.start = np.zeros(size + 1, np.int64)
         self._blob: bytes | bytearray = bytearray()
 
@@ -38,6 +42,7 @@ class LogSegment:
         """Add a record; one writer at a time."""
         index = self.count
         self.stamp[index], self.severity[index], self.node[index], self.site[index] = stamp, severity, node, site
+        self.key[index] = hash((node, severity, raw))
         self._blob += raw
         self._blob += b"\n"
         self.start[index + 1] = len(self._blob)
@@ -80,7 +85,7 @@ class LogStore:
         self._most = max(2, capacity // self._size)
         self.segments: tuple[LogSegment, ...] = (LogSegment(0, self._size),)
         self.names: Table[str] = Table()
-        self._sites: Table[tuple[str, str, int]] = Table()
+        self.sites: Table[Site] = Table()
         self._lock = threading.Lock()
         self._counts = dict.fromkeys(Severity, 0)
         self._dropped = 0
@@ -96,7 +101,7 @@ class LogStore:
             self._state = LogState(first, end, self._dropped, counts)
         return self._state
 
-    def add(self, stamp: int, severity: int, node: str, text: str, site: tuple[str, str, int] = ("", "", 0)) -> None:
+    def add(self, stamp: int, severity: int, node: str, text: str, site: Site = ("", "", 0)) -> None:
         """Append one record; `site` is file, function, line."""
         raw = text.encode("utf-8", "replace")
         level = _nearest(severity)
@@ -105,7 +110,7 @@ class LogStore:
             if segment.count == segment.size:
                 segment = self._roll()
             self._counts[level] += 1
-            segment.append(stamp, level, self.names.id(node), self._sites.id(site), raw)
+            segment.append(stamp, level, self.names.id(node), self.sites.id(site), raw)
 
     def _roll(self) -> LogSegment:
         kept = self.segments
@@ -126,7 +131,7 @@ class LogStore:
         index = seq - segment.first
         if index >= segment.count:
             return None
-        file, function, line = self._sites.items[int(segment.site[index])]
+        file, function, line = self.sites.items[int(segment.site[index])]
         severity = Severity(int(segment.severity[index]))
         node = self.names.items[int(segment.node[index])]
         return LogRecord(seq, int(segment.stamp[index]), severity, node, segment.text(index), file, function, line)

@@ -8,13 +8,12 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-import numpy as np
-import numpy.typing as npt
+from bot_console.tui.console.logs.numbers import Block, Folded, Numbers
 from bot_console.tui.console.logs.search import LogSearch
-from bot_console.tui.console.logs.store import LogStore
+from bot_console.tui.console.logs.store import LogSegment, LogStore
 from bot_console.tui.console.model import LogFilter
 from bot_console.tui.console.protocol import LogFindings, LogView
 
@@ -23,54 +22,12 @@ FIRST_SLICE = 2048
 BUDGET_S = 5.0
 """Processor time (s) that one filter may take for what was there when it was asked for."""
 
-Block = npt.NDArray[np.int64]
-
-
-class Numbers:
-    """Rising numbers in parts, to which older and newer ones are joined without copying all of them each time."""
-
-    def __init__(self, parts: Sequence[Block] = ()) -> None:
-        self._parts = tuple(each for each in parts if len(each))
-        self._ends: list[int] = np.cumsum([len(each) for each in self._parts], dtype=np.int64).tolist()
-
-    def __len__(self) -> int:
-        """How many there are."""
-        return self._ends[-1] if self._ends else 0
-
-    def __getitem__(self, index: int) -> int:
-        """The number at an index; raises `IndexError` beyond the ends."""
-        if not 0 <= index < len(self):
-            raise IndexError(index)
-        place = int(np.searchsorted(self._ends, index, side="right"))
-        return int(self._parts[place][index - (self._ends[place - 1] if place else 0)])
-
-    def place(self, number: int) -> int:
-        """The index of the first that is not below a number."""
-        return sum(int(np.searchsorted(each, number)) for each in self._parts)
-
-    def array(self) -> Block:
-        """All of them."""
-        return np.concatenate(self._parts) if self._parts else np.zeros(0, np.int64)
-
-    def joined(self, older: Block | None = None, newer: Block | None = None) -> Numbers:
-        """These with older ones before or newer ones behind."""
-        parts = [each for each in (older, *self._parts, newer) if each is not None]
-        while len(parts) > 1 and len(parts[-2]) <= 2 * len(parts[-1]):
-            parts[-2:] = [np.concatenate(parts[-2:])]
-        return Numbers(parts)
-
-    def since(self, first: int) -> Numbers:
-        """Those from a number on."""
-        if not self._parts or self._parts[0][0] >= first:
-            return self
-        return Numbers([each[np.searchsorted(each, first) :] for each in self._parts])
-
 
 @dataclass(frozen=True, slots=True)
 class Found(LogFindings):
     """Findings whose numbers can be joined to others."""
 
-    numbers: Numbers
+    numbers: Numbers | Folded
 
 
 class SearchedView:
@@ -82,7 +39,8 @@ class SearchedView:
         end = store.state.end
         self._spent = 0.0
         self._search: LogSearch | None = None
-        self._found: Found = Found(Numbers(), end, end)
+        self._folds = which.folded
+        self._found: Found = Found(Folded() if which.folded else Numbers(), end, end)
         try:
             self._search = LogSearch(store, which)
         except ValueError as error:
@@ -122,7 +80,8 @@ class SearchedView:
             count = segment.count
             if segment.first <= found.end < segment.first + count:
                 numbers = search.passing(segment, found.end - segment.first, count)
-                return replace(found, numbers=found.numbers.joined(newer=numbers), end=segment.first + count)
+                joined = found.numbers.joined(newer=numbers, keys=self._keys(segment, numbers))
+                return replace(found, numbers=joined, end=segment.first + count)
         return None
 
     def _older(self, search: LogSearch, found: Found) -> Found:
@@ -131,8 +90,13 @@ class SearchedView:
                 last = min(found.begin - segment.first, segment.count)
                 begin = max(0, last - FIRST_SLICE) if not len(found.numbers) else 0
                 numbers = search.passing(segment, begin, last)
-                return replace(found, numbers=found.numbers.joined(older=numbers), begin=segment.first + begin)
+                joined = found.numbers.joined(older=numbers, keys=self._keys(segment, numbers))
+                return replace(found, numbers=joined, begin=segment.first + begin)
         return replace(found, complete=True)
+
+    def _keys(self, segment: LogSegment, numbers: Block) -> Block | None:
+        """What tells records of a segment apart, where that is asked for."""
+        return segment.key[numbers - segment.first] if self._folds else None
 
 
 class LogViews:

@@ -2,122 +2,82 @@
 
 from __future__ import annotations
 
-from bisect import bisect_left, bisect_right
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
-from itertools import chain
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 from bot_console.tui import keymap
-from bot_console.tui.console.model import ConsoleSnapshot, LogFilter, LogRecord, LogState, Severity
-from bot_console.tui.console.protocol import Answer, Console, LogFindings, LogNumbers, LogView
+from bot_console.tui.console.model import ConsoleSnapshot, LogFilter, LogState, Severity
+from bot_console.tui.console.protocol import Answer, LogFindings, LogSource, LogView
 from bot_console.tui.files.save_file import save_file
-from bot_console.tui.format import LETTERS, clock_text, cut, harmless
+from bot_console.tui.format import LETTERS, harmless
 from bot_console.tui.panes.list_pane import ListPane
-from bot_console.tui.panes.logs.names import NodeNames
+from bot_console.tui.panes.logs.before import happened_before, options_of
+from bot_console.tui.panes.logs.filtering import Filtering
+from bot_console.tui.panes.logs.likeness import options_like
+from bot_console.tui.panes.logs.rows import LogRows
+from bot_console.tui.panes.logs.rules import RuleBook
+from bot_console.tui.panes.logs.rules_screen import RulesScreen
+from bot_console.tui.panes.logs.seeking import Seeker
+from bot_console.tui.panes.logs.source import LiveLog
 from bot_console.tui.screens.detail import DetailScreen
+from bot_console.tui.widgets.prompt.common import wrong_filter, wrong_path
 from bot_console.tui.widgets.prompt.line import Prompt
+from bot_console.tui.widgets.prompt.question import Choice, Line
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.words import Words
-from rich.segment import Segment
 from textual.app import ComposeResult
-
-LEVELS = (Severity.UNSET, Severity.INFO, Severity.WARN, Severity.ERROR)
-STYLES = {Severity.DEBUG: "dim", Severity.WARN: "warn", Severity.ERROR: "error", Severity.FATAL: "error"}
-NODE = 18
-
-
-class LogRows(RowList):
-    """The lines that pass the filter; holds their numbers only."""
-
-    def __init__(self, console: Console) -> None:
-        super().__init__()
-        self.console = console
-        self.numbers: LogNumbers | None = None
-        self.names = NodeNames()
-
-    def row_count(self) -> int:
-        """How many lines there are."""
-        return 0 if self.numbers is None else len(self.numbers)
-
-    def number(self, index: int) -> int:
-        """The number of the record on a line; -1 where there is none."""
-        return self.numbers[index] if self.numbers is not None and 0 <= index < len(self.numbers) else -1
-
-    def place(self, number: int) -> int:
-        """The line of the record with that number, or of the next one that is shown."""
-        return 0 if self.numbers is None else min(self.numbers.place(number), max(0, len(self.numbers) - 1))
-
-    def shows(self, number: int) -> bool:
-        """Whether the record with that number is among the lines."""
-        return self.number(self.place(number)) == number
-
-    def exchange(self, numbers: LogNumbers) -> None:
-        """Show other lines; what is seen stays where it is, as far as it is among them."""
-        top = self.scroll_offset.y
-        at, first = self.number(self.cursor), self.number(top)
-        self.numbers = numbers
-        if at >= 0:
-            self.set_reactive(RowList.cursor, self.place(at))
-        self.rows_changed()
-        if first >= 0 and self.place(first) != top:
-            self.scroll_to(y=self.place(first), animate=False, force=True)
-
-    def row(self, index: int, width: int) -> list[Segment]:
-        """One line: time, severity, node, text; one style for all of it."""
-        record = self.console.log(self.number(index))
-        if record is None:
-            return [Segment("")]
-        name = STYLES.get(record.severity)
-        style = self.get_component_rich_style(f"row-list--{name}", partial=True) if name else None
-        return [Segment(line_text(record, self.names.of(record.node), width), style)]
-
-
-def line_text(record: LogRecord, node: str, width: int) -> str:
-    """A record on one line; the time is left out where there is little room. The end of a node's name says most."""
-    time = f"{clock_text(record.stamp)} " if width >= 70 else ""
-    node = harmless(node)
-    node = "…" + node[1 - NODE :] if len(node) > NODE else node
-    text = harmless(record.text[: 4 * width])
-    return f"{time}{LETTERS[record.severity]} {cut(node, NODE, pad=True)} {text}"
-
-
-def rotated(numbers: Sequence[int], now: int, step: int = 1) -> Iterator[int]:
-    """Rising numbers, those above one of them first; with step -1 falling ones, those below it first."""
-    if step > 0:
-        at = bisect_right(numbers, now)
-        return chain(numbers[at:], numbers[:at])
-    at = bisect_left(numbers, now)
-    return chain(reversed(numbers[:at]), reversed(numbers[at:]))
 
 
 class LogsPane(ListPane):
-    """Log lines of all nodes."""
+    """Log lines of all nodes, or those of a file."""
 
     TITLE = "Logs"
     HELP = (
         "What the nodes log and print. The filter takes words (all must stand), !word (must not), node:name,\n"
-        "sev:>=warn and re:pattern. Scrolling up stops following; nothing is lost meanwhile, f follows again."
+        "sev:>=warn, at:file.py:12, time:14:03..14:05, time:-5m and re:pattern. s looks for words and hides nothing,\n"
+        "n and N go on. x hides, + highlights lines like the one at the cursor: rules that stay, R shows them.\n"
+        "Scrolling up stops following; nothing is lost meanwhile, f follows again."
     )
     BINDINGS = keymap.bindings("logs")
 
-    def __init__(self, *args: object, **kwargs: object) -> None:
-        super().__init__(*args, **kwargs)  # type: ignore[arg-type] -- handed on as they are
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self._source: LogSource = LiveLog(self.console)
         self._state = LogState()
-        self._which = LogFilter()
+        self._filtering = Filtering(RuleBook())
         self._view: LogView | None = None
         self._found: LogFindings | None = None
+        self._seeker = Seeker(self._view_of)
+        self._sought_for = ""
+        """What the seeker looks for, in words."""
         self._following = True
         self._looked_for: int | None = None
         """The record that was gone to by what was looked for: to stand on it is to read, not to follow."""
         self._moment: int | None = None
         """The moment to go to as soon as its lines are there."""
 
+    def _view_of(self, which: LogFilter, before: LogView | None) -> LogView:
+        return self._source.view(which, before)
+
     def compose(self) -> ComposeResult:
         """The lines, what is filtered, a prompt."""
-        yield LogRows(self.console)
+        yield LogRows(self._source, self._filtering.rules)
         yield Words(id="log-status")
         yield Prompt(id="log-prompt")
+
+    def on_mount(self) -> None:
+        """Read the rules that a person has made."""
+        super().on_mount()
+        rules = self._filtering.rules
+        rules.read()
+        for each in rules.problems:
+            self.notify(each, severity="warning")
+
+    def on_unmount(self) -> None:
+        """Read no file any more."""
+        super().on_unmount()
+        self._source.close()
 
     @property
     def _list(self) -> LogRows:
@@ -129,9 +89,9 @@ class LogsPane(ListPane):
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Take in what is new in the log."""
-        state = snapshot.logs
         if self._list.names.learn(snapshot.graph):
             self._list.refresh()
+        state = self._source.state
         if state is self._state:
             return
         self._state = state
@@ -139,14 +99,18 @@ class LogsPane(ListPane):
         self._tell()
 
     def tick(self) -> None:
-        """Take in what the search has found meanwhile."""
-        if self.display and self.is_mounted and self._take_in():
+        """Take in what the search has found meanwhile, and what a file has more."""
+        if not (self.display and self.is_mounted):
+            return
+        state = self._source.state
+        changed, self._state = state is not self._state and bool(self._source.name), state
+        if self._take_in() or self._go_on() or changed:
             self._tell()
 
     def _take_in(self) -> bool:
         """Show what was found; lines of the filter before stay until the search has something to show."""
         if self._view is None:
-            self._view = self.console.view_logs(self._which)
+            self._view = self._source.view(self._filtering.which())
         found = self._view.look()
         if found is self._found or not (len(found.numbers) or found.complete or found.problem):
             return False
@@ -177,28 +141,16 @@ class LogsPane(ListPane):
         if self._moment is None or not len(found.numbers):
             return
         self._following = False
-        self._list.cursor = self._place_of(found.numbers, self._moment)
+        self._list.cursor = self._list.place_at(self._moment)
         if found.complete:
             self._moment = None
 
-    def _place_of(self, numbers: LogNumbers, stamp: int) -> int:
-        """The line that was the newest one at a moment."""
-        low, high = 0, len(numbers)
-        while low < high:
-            middle = (low + high) // 2
-            record = self.console.log(numbers[middle])
-            if record is None or record.stamp <= stamp:
-                low = middle + 1
-            else:
-                high = middle
-        return max(0, low - 1)
-
-    def _search(self, which: LogFilter) -> None:
+    def _search(self) -> None:
         """Filter anew, over everything that is kept."""
-        self._which = which
-        self._view = self.console.view_logs(which, self._view)
+        self._view = self._source.view(self._filtering.which(), self._view)
         self._found = None
         self._take_in()
+        self._list.refresh()
         self._tell()
 
     def _tell(self) -> None:
@@ -212,16 +164,13 @@ class LogsPane(ListPane):
         # What was found may be newer than the snapshot: lines come all the time.
         end = max(state.end, self._found.end if self._found else 0)
         parts = [f"{self._list.row_count()} of {end - state.first}"]
-        if self._found is None or not self._found.complete:
+        if self._found is None or not self._found.complete or self._seeker.under_way:
             parts.append("searching")
         if not self._following:
             parts.append("paused, f follows")
-        if self._which.words:
-            parts.append(f"/{self._which.words}")
-        if self._which.minimum:
-            parts.append(f">= {self._which.minimum.name}")
-        if self._which.hidden_nodes:
-            parts.append("hidden: " + " ".join(sorted(map(self._list.names.of, self._which.hidden_nodes))))
+        if self._looked_for is not None and self._sought_for:
+            parts.append(f"{self._seeker.text()} {self._sought_for}")
+        parts += self._filtering.texts()
         if state.dropped:
             parts.append(f"{state.dropped} dropped")
         parts += [f"{LETTERS[each]} {counts[each]}" for each in reversed(Severity) if counts.get(each)]
@@ -236,9 +185,6 @@ class LogsPane(ListPane):
             self._following = following
             self._tell()
 
-    def _record(self) -> LogRecord | None:
-        return self.console.log(self._list.number(self._list.cursor))
-
     def action_follow(self) -> None:
         """Follow the newest line, or stop that."""
         self._following, self._looked_for = not self._following, None
@@ -248,68 +194,187 @@ class LogsPane(ListPane):
 
     def action_warnings(self) -> None:
         """Warnings and worse, or everything."""
-        wanted = Severity.UNSET if self._which.minimum is Severity.WARN else Severity.WARN
-        self._search(replace(self._which, minimum=wanted))
+        self._filtering.warnings()
+        self._search()
 
     def action_level(self) -> None:
         """The next minimum severity."""
-        at = LEVELS.index(self._which.minimum) if self._which.minimum in LEVELS else 0
-        self._search(replace(self._which, minimum=LEVELS[(at + 1) % len(LEVELS)]))
+        self._filtering.next_level()
+        self._search()
+
+    def action_fold(self) -> None:
+        """Show a row of equal lines as one, or each of them."""
+        self._filtering.folded = not self._filtering.folded
+        self._search()
+
+    def action_suspend_filters(self) -> None:
+        """Show everything for now, or put the filters back."""
+        filtering = self._filtering
+        if not filtering.off and not filtering.texts():
+            self.notify("Nothing is filtered; / asks for words, x hides lines like this one.")
+            return
+        filtering.off = not filtering.off
+        self._search()
+
+    def action_only_highlighted(self) -> None:
+        """Only what a rule highlights, or everything."""
+        filtering = self._filtering
+        if not filtering.only_highlighted and not filtering.rules.highlighted:
+            self.notify("No rule highlights anything; + highlights lines like this one.")
+            return
+        filtering.only_highlighted, filtering.off = not filtering.only_highlighted, False
+        self._search()
 
     def filter_is(self, words: str) -> None:
         """Show the lines that pass."""
-        self._search(replace(self._which, words=words))
+        self._filtering.words, self._filtering.off = words, False
+        self._search()
+
+    def action_clear_filter(self) -> None:
+        """Look at now again; or else take words and severity away."""
+        if self.time_cursor.stamp is not None:
+            self.time_cursor.move(None, self)
+            self.time_moved(None)
+            return
+        self._filtering.everything()
+        self._looked_for = None
+        super().action_clear_filter()
+
+    def action_alike(self, hide: bool) -> None:
+        """Ask what lines like the one at the cursor have in common; hide or highlight those from now on."""
+        record = self._list.record
+        if record is None:
+            return
+        label = "Hide lines like this one, by" if hide else "Highlight lines like this one, by"
+        find = partial(options_like, record, self._list.names.of(record.node))
+        self.ask(Choice(label, lambda words: self._add_rule(words, hide=hide), find=find))
+
+    def _add_rule(self, words: str, *, hide: bool) -> None:
+        rule, problem = self._filtering.rules.add(words, hide=hide)
+        self._filtering.off = False
+        self._search()
+        if problem:
+            self.notify(problem, severity="warning")
+        else:
+            self.notify(f"{'Hidden' if hide else f'In {rule.colour}'}: {words}\nR shows the rules, t everything.")
+
+    def action_rules(self) -> None:
+        """Show and change what is hidden and what stands out."""
+        self.host.push_screen(RulesScreen(self._filtering.rules, self._search))
 
     def stands_on_match(self, words: str) -> bool:
         """Every line that is shown matches the filter."""
         return True
 
+    def action_search(self) -> None:
+        """Ask for words to go to; nothing is hidden."""
+        self.ask(Line("search", self._look_for, text=self._sought, check=wrong_filter))
+
+    def _look_for(self, words: str) -> None:
+        """Go to the newest match where the newest line is followed, else to the next one."""
+        if words:
+            self._sought = words
+            self.find(words, -1 if self._following else 1)
+
     def find(self, words: str, step: int) -> bool:
-        """The next line shown that matches, found over the whole log at once."""
-        return self._go_to(LogFilter(words=words), step)
-
-    def action_exclude(self) -> None:
-        """Hide the lines of this line's node."""
-        record = self._record()
-        if record is not None:
-            self._search(replace(self._which, hidden_nodes=self._which.hidden_nodes | {record.node}))
-
-    def action_clear_filter(self) -> None:
-        """Take all filters away."""
-        self._which = LogFilter()
-        super().action_clear_filter()
+        """The next line shown that matches, found over the whole log beside the screen."""
+        return self._seek(words, Severity.UNSET, step)
 
     def action_next_error(self) -> None:
         """To the next error, from the top again after the last."""
-        if not self._go_to(LogFilter(minimum=Severity.ERROR), 1):
-            self.notify("No errors.")
+        self._seek("", Severity.ERROR, 1)
 
-    def _go_to(self, which: LogFilter, step: int) -> bool:
-        """The next of the lines shown that pass a filter, or the one before; whether there is any."""
+    def _seek(self, words: str, minimum: Severity, step: int) -> bool:
         rows = self._list
-        there = self.console.matching_logs(which, 0)
-        shown = (each for each in rotated(there, rows.number(rows.cursor), step) if rows.shows(each))
-        target = next(shown, None)
-        if target is not None:
-            self._looked_for, self._following = target, False
-            rows.cursor = rows.place(target)
-            self._tell()
-        return target is not None
+        # Seen from the end of the log upwards the line at the cursor is a match like others.
+        whole = step < 0 and self._following
+        at = rows.number(rows.cursor) + whole if step > 0 or whole else rows.first_of_row()
+        self._sought_for = words or "errors"
+        self._seeker.seek(self._filtering.narrowed_to(words, minimum), at, step)
+        self._go_on()
+        self._tell()
+        return True
+
+    def _go_on(self) -> bool:
+        """Go to what was looked for, as soon as it is found."""
+        target = self._seeker.look()
+        if target is None:
+            return False
+        if target < 0:
+            self.notify(f"Nothing here matches {self._sought_for}", severity="warning")
+        else:
+            self._looked_for, self._following, self._moment = target, False, None
+            self._list.cursor = self._list.place(target)
+        return True
 
     def action_detail(self) -> None:
         """Show the whole message."""
-        record = self._record()
+        record = self._list.named_record
         if record is not None:
-            self.host.push_screen(DetailScreen(replace(record, node=self._list.names.of(record.node))))
+            self.host.push_screen(DetailScreen(record))
+
+    def action_instant(self) -> None:
+        """Show the moment of the line in the plot, and in all panes that have time."""
+        record = self._list.record
+        if record is not None:
+            self._following = False
+            self.time_cursor.move(record.stamp, self)
+            self.post_message(self.PaneWanted("plot", ""))
+
+    def action_before(self) -> None:
+        """Show what happened just before the line, to go there."""
+        record = self._list.record
+        if record is None:
+            return
+        events = self.console.snapshot().launch.timeline
+        found = happened_before(record.stamp, self.console.changes(-(10**9)), events)
+        if not found:
+            self.notify("No parameter was changed and nothing launched before this line.")
+            return
+
+        def go(number: str) -> None:
+            happened = found[int(number)]
+            self._following = False
+            self.time_cursor.move(happened.stamp, self)
+            self.post_message(self.PaneWanted(happened.pane, ""))
+
+        find = partial(options_of, found, record.stamp)
+        self.ask(Choice(f"Before {record.text[:60]}", go, find=find, empty="Nothing of that kind happened before."))
+
+    def action_open_file(self) -> None:
+        """Ask for a saved log, or go back from one to what runs."""
+        if self._source.name:
+            self._read(LiveLog(self.console))
+        else:
+            self.ask(Line("read the log file", self._open, text="log.txt", check=wrong_path))
+
+    def _open(self, path: str) -> None:
+        try:
+            self._read(self.console.open_log(path.strip()))
+        except ValueError as error:
+            self.notify(str(error), severity="error")
+
+    def _read(self, source: LogSource) -> None:
+        """Show another log; the filter stays."""
+        self._source.close()
+        self._source = self._list.source = source
+        self.border_title = f"Logs of {harmless(Path(source.name).name)} · O goes back" if source.name else self.TITLE
+        self._state, self._view, self._found = LogState(), None, None
+        self._seeker.forget()
+        self._following, self._looked_for, self._moment = True, None, None
+        self._list.show_nothing()
+        self._state = source.state
+        self._search()
 
     def action_clear(self) -> None:
         """Clear the log."""
-        self.console.clear_logs()
-        self._search(self._which)
+        self._source.clear()
+        self._seeker.forget()
+        self._search()
 
     def action_copy(self) -> None:
         """Copy the message through the terminal (OSC 52)."""
-        record = self._record()
+        record = self._list.record
         if record is not None:
             self.host.copy_to_clipboard(record.text)
             self.notify("Copied.")
@@ -319,11 +384,6 @@ class LogsPane(ListPane):
         self.ask_file("save these lines to", "log.txt", self._save)
 
     def _save(self, path: Path) -> Answer:
-        records = (self.console.log(self._list.number(index)) for index in range(self._list.row_count()))
-        lines = [
-            f"[{each.severity.name}] [{each.stamp / 1e9:.9f}] [{self._list.names.of(each.node)}]: {each.text}"
-            for each in records
-            if each
-        ]
+        lines = self._list.saved_lines()
         save_file(path, "\n".join([*lines, ""]))
         return Answer(True, f"{len(lines)} lines saved to {path}")

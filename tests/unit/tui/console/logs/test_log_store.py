@@ -44,8 +44,12 @@ def test_a_record_comes_back_as_it_was_added() -> None:
         (LogFilter(words="re:^second"), [1]),
         (LogFilter(words="⚠"), [3]),
         (LogFilter(words="DÉTAIL"), [3]),
-        (LogFilter(hidden_nodes=frozenset({"safety_monitor"})), [0, 2]),
-        (LogFilter(hidden_severities=frozenset({Severity.INFO})), [1, 2, 3]),
+        (LogFilter(words="at:robot_node.py:12"), [0]),
+        (LogFilter(words="at:__init__ at::12"), [0]),
+        (LogFilter(words="!at:robot_node.py:1"), [0, 1, 2, 3]),
+        (LogFilter(hidden=("node:=safety_monitor",)), [0, 2]),
+        (LogFilter(hidden=("node:=safety", "sev:info")), [1, 2, 3]),
+        (LogFilter(only=("détail", "must")), [2, 3]),
     ],
 )
 def test_filters(which: LogFilter, found: list[int]) -> None:
@@ -58,9 +62,9 @@ def test_filtering_goes_on_where_it_stopped() -> None:
     assert matching(store, LogFilter(), limit=2) == [2, 3]
 
 
-@pytest.mark.parametrize("words", ["re:(", "sev:loud", "!re:*"])
+@pytest.mark.parametrize("words", ["re:(", "sev:loud", "!re:*", "time:25:00", "time:noon", "time:14:00..2026-11-22"])
 def test_a_filter_that_does_not_parse_says_so(words: str) -> None:
-    with pytest.raises(ValueError, match=r"regular expression|severity"):
+    with pytest.raises(ValueError, match=r"regular expression|severity|time"):
         matching(filled(), LogFilter(words=words))
 
 

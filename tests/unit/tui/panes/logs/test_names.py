@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bot_console.tui.console.model import GraphInfo, LogRecord, NodeInfo, Severity
 from bot_console.tui.panes.logs.names import NodeNames
-from bot_console.tui.panes.logs.pane import line_text
+from bot_console.tui.panes.logs.rows import line_text
 
 GRAPH = GraphInfo((NodeInfo("/arm/left/zoo"), NodeInfo("/arm"), NodeInfo("/talker")))
 

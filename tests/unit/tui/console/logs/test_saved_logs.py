@@ -1,0 +1,97 @@
+"""Saved logs: what their lines say, files that grow and are rotated."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+from bot_console.tui.console.logs.file import AT_ONCE, Tail, open_log
+from bot_console.tui.console.logs.saved import SavedLines
+from bot_console.tui.console.model import LogFilter, Severity
+
+SECOND = 10**9
+
+
+def records(*pieces: str) -> list[tuple[int, int, str, str]]:
+    found: list[tuple[int, int, str, str]] = []
+    lines = SavedLines(lambda *record: found.append(record), "run")
+    for each in pieces:
+        lines.feed(each)
+    lines.settle()
+    return found
+
+
+def test_lines_of_nodes_of_launch_and_of_nobody() -> None:
+    assert records(
+        "before\n[INFO] [12.5] [/arm]: one\n  File x\r\n\x1b[33m[WARNING] [1700000000.123456789] [a.b]: two\x1b[0m\n",
+        "1700000001.25 [ERROR] [launch]: three\n[INFO] no head\n",
+    ) == [
+        (0, Severity.INFO, "run", "before"),
+        (12 * SECOND + SECOND // 2, Severity.INFO, "/arm", "one\n  File x"),
+        (1_700_000_000_123_456_789, Severity.WARN, "a.b", "two"),
+        (1_700_000_001_250_000_000, Severity.ERROR, "launch", "three\n[INFO] no head"),
+    ]
+
+
+def test_a_time_that_no_clock_shows_is_the_last_one() -> None:
+    assert records("[INFO] [9999999999.9] [n]: x")[0][0] == 2**63 - 1
+
+
+def grown(tail: Tail) -> str:
+    return "".join(tail.more())
+
+
+def test_a_file_is_followed_over_rotation_and_truncation(tmp_path: Path) -> None:
+    path = tmp_path / "log"
+    path.write_text("a\nb")
+    tail = Tail(path)
+    assert grown(tail) == "a\n"
+    with path.open("a") as file:
+        file.write("b\nc\n")
+    assert grown(tail) == "bb\nc\n" and grown(tail) == ""
+    with path.open("a") as file:
+        file.write("last words")
+    os.rename(path, tmp_path / "log.1")
+    assert grown(tail) == "", "a line without an end may go on"
+    path.write_text("d\n")
+    assert grown(tail) == "last words\nd\n"
+    path.write_text("")
+    with path.open("a") as file:
+        file.write("e\n")
+    assert grown(tail) == ""  # as long as before: nobody can tell yet
+    path.write_text("")
+    assert grown(tail) == ""
+    with path.open("a") as file:
+        file.write("f\n")
+    assert grown(tail) == "f\n"
+    tail.close()
+
+
+def test_a_large_file_comes_in_pieces_of_whole_lines(tmp_path: Path) -> None:
+    path = tmp_path / "log"
+    path.write_text("x" * 999 + "\n" + ("y" * 999 + "\n") * (2 * AT_ONCE // 1000))
+    pieces = list(Tail(path).more())
+    assert len(pieces) > 2 and all(each.endswith("\n") for each in pieces) and "".join(pieces) == path.read_text()
+
+
+def test_it_is_filtered_as_the_log_is(tmp_path: Path) -> None:
+    path = tmp_path / "log"
+    path.write_text("".join(f"[INFO] [{number}.0] [n]: line {number}\n" for number in range(10)))
+    log = open_log(str(path))
+    try:
+        view = log.view(LogFilter(words="line !7"))
+        while len(view.look().numbers) < 9:
+            pass
+        assert log.record(7).stamp == 7 * SECOND and log.state.end == 10  # type: ignore[union-attr]
+    finally:
+        log.close()
+
+
+@pytest.mark.parametrize(
+    ("name", "why"), [("", "is a folder"), ("none", "no such file"), ("pipe", "no regular file"), ("\0", "zero byte")]
+)
+def test_what_cannot_be_read_says_why(tmp_path: Path, name: str, why: str) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(ValueError, match=why):
+        open_log(f"{tmp_path}/{name}")

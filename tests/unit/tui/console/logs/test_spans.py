@@ -1,0 +1,79 @@
+"""Spans of time in a filter: as local clocks show it, on any day, over midnight and the change of the clocks."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+
+import pytest
+from bot_console.tui.console.logs.search import matching
+from bot_console.tui.console.logs.spans import SECOND, parse_span
+from bot_console.tui.console.logs.store import LogStore
+from bot_console.tui.console.model import LogFilter, Severity
+from bot_console.tui.format import clock_text
+
+NOW = 1_792_913_400 * SECOND
+"""2026-10-25 07:30:00 in UTC: a day on which clocks in Berlin are put back."""
+
+
+@pytest.fixture(autouse=True)
+def berlin(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    with monkeypatch.context() as patch:
+        patch.setenv("TZ", "Europe/Berlin")
+        time.tzset()
+        yield
+    time.tzset()
+
+
+CLOCK = {
+    "14:03": lambda at: at[:5] == "14:03",
+    "02:30": lambda at: at[:5] == "02:30",
+    ">=23:59:30": lambda at: at >= "23:59:30",
+    "<0:01": lambda at: at < "00:01",
+    "<=00:01": lambda at: at < "00:02",
+    ">14:03": lambda at: at >= "14:04",
+    "23:59..00:00": lambda at: at >= "23:59" or at < "00:01",
+    "02:59:59..03:00:30": lambda at: "02:59:59" <= at < "03:00:31",
+    "14:03:00.250": lambda at: at == "14:03:00.250",
+}
+
+
+@pytest.mark.parametrize("written", CLOCK)
+def test_a_time_of_day_is_the_one_that_is_shown(written: str) -> None:
+    stamps = [NOW + step * 10 * SECOND + SECOND // 4 for step in range(-8640, 8640)]
+    store = LogStore(len(stamps) * 2)
+    for each in stamps:
+        store.add(each, Severity.INFO, "n", "x")
+    wanted = [number for number, each in enumerate(stamps) if CLOCK[written](clock_text(each))]
+    assert matching(store, LogFilter(words=f"time:{written}")) == wanted and wanted
+    span = parse_span(written, NOW)
+    assert [number for number, each in enumerate(stamps) if span.holds(each)] == wanted
+
+
+@pytest.mark.parametrize(
+    ("written", "begin", "end"),
+    [
+        ("-5m", NOW - 300 * SECOND, None),
+        ("-2h..-30min", NOW - 7200 * SECOND, NOW - 1800 * SECOND),
+        ("@12.5", 12_500_000_000, 12_600_000_000),
+        ("@12..@14", 12 * SECOND, 15 * SECOND),
+        ("<@12", 0, 12 * SECOND),
+        ("2026-10-25", 1_792_879_200 * SECOND, 1_792_969_200 * SECOND),
+        ("2026-10-25T08:30..", NOW, None),
+        ("=2026-10-25T08:30:00", NOW, NOW + SECOND),
+    ],
+)
+def test_moments_with_a_date(written: str, begin: int, end: int | None) -> None:
+    span = parse_span(written, NOW)
+    assert not span.daily and span.begin == begin
+    assert span.holds(begin) and not span.holds(begin - 1)
+    assert span.holds(end - 1) and not span.holds(end) if end is not None else span.holds(begin + 10**18)
+
+
+@pytest.mark.parametrize(
+    "written",
+    ["", "..", "24:00", "12:60", "1:2", "14:03.5", "2026-02-30", "2026-10-25T", "-5", "@", "14:00..@3", "x..y"],
+)
+def test_what_is_no_time_says_so(written: str) -> None:
+    with pytest.raises(ValueError, match=r"time '.*for instance 14:03"):
+        parse_span(written, NOW)

@@ -1,0 +1,144 @@
+"""A saved log read as the live one is: filtered, searched, and followed while it grows or is rotated."""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+from typing import BinaryIO
+
+from bot_console.tui.console.logs.saved import SavedLines
+from bot_console.tui.console.logs.store import LogStore
+from bot_console.tui.console.logs.view import LogViews
+from bot_console.tui.console.model import LogFilter, LogRecord, LogState
+from bot_console.tui.console.protocol import LogView
+from bot_console.tui.files.save_file import NotSaved, typed_path
+
+PERIOD = 0.25
+"""Seconds between two looks whether the file has grown."""
+AT_ONCE = 1 << 18
+"""Bytes that are read at once: others get the processor in between."""
+
+
+class LogFile:
+    """The records of a file; `tui.console.protocol.LogSource`."""
+
+    def __init__(self, path: Path) -> None:
+        """Raises `OSError` where the file cannot be read."""
+        self.name = str(path)
+        self._store = LogStore()
+        self._views = LogViews(self._store)
+        self._lines = SavedLines(self._store.add, path.stem)
+        self._tail = Tail(path)
+        self._closed = threading.Event()
+        threading.Thread(target=self._read, name="log file", daemon=True).start()
+
+    def _read(self) -> None:
+        while not self._closed.is_set():
+            if not self.take_in():
+                self._closed.wait(PERIOD)
+        self._tail.close()
+
+    def take_in(self) -> bool:
+        """Read what there is more; whether there was any."""
+        any_more = False
+        for text in self._tail.more():
+            any_more = True
+            self._lines.feed(text)
+            if self._closed.is_set():
+                break
+        self._lines.settle()
+        return any_more
+
+    @property
+    def state(self) -> LogState:
+        """What is kept."""
+        return self._store.state
+
+    def record(self, seq: int) -> LogRecord | None:
+        """The record of that number."""
+        return self._store.record(seq)
+
+    def view(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
+        """Search for what passes a filter."""
+        return self._views.open(which, instead_of)
+
+    def clear(self) -> None:
+        """Forget all records; the file stays as it is."""
+        self._store.clear()
+
+    def close(self) -> None:
+        """Read no more."""
+        self._closed.set()
+        self._views.close()
+
+
+class Tail:
+    """What is in a file, then what is added to it, also where another file takes its name meanwhile."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._file: BinaryIO | None = path.open("rb")
+        self._rest = b""
+
+    def more(self) -> Iterator[str]:
+        """Pieces of whole lines, as far as there are any now."""
+        yield from self._whole_lines()
+        if self._file is None or self._was_replaced(self._file):
+            yield from self._whole_lines()  # what came between the last look and the rotation
+            if self._rest:
+                rest, self._rest = self._rest, b""
+                yield rest.decode("utf-8", "replace") + "\n"
+            if self._open_again():
+                yield from self._whole_lines()
+
+    def _whole_lines(self) -> Iterator[str]:
+        while self._file is not None and (data := self._file.read(AT_ONCE)):
+            lines, end, self._rest = (self._rest + data).rpartition(b"\n")
+            if end:
+                yield (lines + end).decode("utf-8", "replace")
+
+    def _was_replaced(self, file: BinaryIO) -> bool:
+        """Whether the name leads to another file now, or the file was cut."""
+        try:
+            there = os.stat(self._path)
+        except OSError:
+            return False  # between the two halves of a rotation
+        here = os.fstat(file.fileno())
+        if (there.st_dev, there.st_ino) != (here.st_dev, here.st_ino):
+            return True
+        if here.st_size < file.tell():
+            file.seek(0)
+            self._rest = b""
+        return False
+
+    def _open_again(self) -> bool:
+        self.close()
+        try:
+            self._file = self._path.open("rb")
+        except OSError:
+            return False
+        return True
+
+    def close(self) -> None:
+        """Let go of the file."""
+        if self._file is not None:
+            self._file.close()
+            self._file = None
+
+
+def open_log(text: str) -> LogFile:
+    """Read the log that a person names; raises `ValueError` with the reason."""
+    try:
+        path = typed_path(text)
+    except NotSaved as error:
+        raise ValueError(str(error)) from None
+    try:
+        if path.is_dir():
+            raise ValueError(f"{path} is a folder; name a file in it")
+        if path.exists() and not path.is_file():
+            raise ValueError(f"{path} is no regular file")
+        return LogFile(path)
+    except OSError as error:
+        raise ValueError(f"{path}: {(error.strerror or str(error)).lower()}") from None

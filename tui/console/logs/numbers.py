@@ -1,0 +1,113 @@
+"""Numbers of log records that pass a filter, rising: each for itself, or a row of equal records as one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+Block = npt.NDArray[np.int64]
+
+
+class Numbers:
+    """Rising numbers in parts, to which older and newer ones are joined without copying all of them each time."""
+
+    def __init__(self, parts: Sequence[Block] = ()) -> None:
+        self._parts = tuple(each for each in parts if len(each))
+        self._ends: list[int] = np.cumsum([len(each) for each in self._parts], dtype=np.int64).tolist()
+
+    def __len__(self) -> int:
+        """How many there are."""
+        return self._ends[-1] if self._ends else 0
+
+    def __getitem__(self, index: int) -> int:
+        """The number at an index; raises `IndexError` beyond the ends."""
+        if not 0 <= index < len(self):
+            raise IndexError(index)
+        place = int(np.searchsorted(self._ends, index, side="right"))
+        return int(self._parts[place][index - (self._ends[place - 1] if place else 0)])
+
+    def place(self, number: int) -> int:
+        """The index of the first that is not below a number."""
+        return sum(int(np.searchsorted(each, number)) for each in self._parts)
+
+    def count(self, index: int) -> int:
+        """One: each stands for itself."""
+        return 1
+
+    def array(self) -> Block:
+        """All of them."""
+        return np.concatenate(self._parts) if self._parts else np.zeros(0, np.int64)
+
+    def joined(self, older: Block | None = None, newer: Block | None = None, keys: Block | None = None) -> Numbers:
+        """These with older ones before or newer ones behind; what they say (`keys`) makes no difference."""
+        parts = [each for each in (older, *self._parts, newer) if each is not None]
+        while len(parts) > 1 and len(parts[-2]) <= 2 * len(parts[-1]):
+            parts[-2:] = [np.concatenate(parts[-2:])]
+        return Numbers(parts)
+
+    def since(self, first: int) -> Numbers:
+        """Those from a number on."""
+        if not self._parts or self._parts[0][0] >= first:
+            return self
+        return Numbers([each[np.searchsorted(each, first) :] for each in self._parts])
+
+
+class Folded:
+    """Rising numbers in which a row of equal records is one: its newest."""
+
+    def __init__(self, every: Numbers | None = None, begins: Numbers | None = None, ends: tuple[int, int] = (0, 0)):
+        """`begins` are the first of each row, `ends` the keys of the very first and the very last record."""
+        self._every = every or Numbers()
+        self._begins = begins or Numbers()
+        self._ends = ends
+
+    def __len__(self) -> int:
+        """How many rows there are."""
+        return len(self._begins)
+
+    def __getitem__(self, index: int) -> int:
+        """The newest number of a row; raises `IndexError` beyond the ends."""
+        if not 0 <= index < len(self):
+            raise IndexError(index)
+        return self._every[self._behind(index) - 1]
+
+    def _behind(self, index: int) -> int:
+        """Where, among all, the row after this one begins."""
+        return self._every.place(self._begins[index + 1]) if index + 1 < len(self) else len(self._every)
+
+    def place(self, number: int) -> int:
+        """The index of the first row whose newest is not below a number."""
+        before = self._begins.place(number + 1)
+        return before - 1 if before and self[before - 1] >= number else before
+
+    def count(self, index: int) -> int:
+        """How many equal records a row has; raises `IndexError` beyond the ends."""
+        return self._behind(index) - self._every.place(self._begins[index])
+
+    def joined(self, older: Block | None = None, newer: Block | None = None, keys: Block | None = None) -> Folded:
+        """These with older ones before or newer ones behind; equal records have equal `keys`."""
+        block = older if older is not None else newer
+        if block is None or keys is None or not len(block):
+            return self
+        begins = block[np.concatenate(([True], keys[1:] != keys[:-1]))]
+        first, last = int(keys[0]), int(keys[-1])
+        if not len(self):
+            return Folded(Numbers([block]), Numbers([begins]), (first, last))
+        if older is not None:
+            rest = self._begins.since(self._begins[0] + 1) if last == self._ends[0] else self._begins
+            return Folded(self._every.joined(older=block), rest.joined(older=begins), (first, self._ends[1]))
+        if first == self._ends[1]:
+            begins = begins[1:]
+        return Folded(self._every.joined(newer=block), self._begins.joined(newer=begins), (self._ends[0], last))
+
+    def since(self, first: int) -> Folded:
+        """Those from a number on; of a row that reaches over it what is left."""
+        every = self._every.since(first)
+        begins = self._begins.since(first)
+        if every is self._every or not len(every):
+            return self if every is self._every else Folded()
+        if not len(begins) or begins[0] != every[0]:
+            begins = begins.joined(older=np.array([every[0]], np.int64))
+        return Folded(every, begins, self._ends)

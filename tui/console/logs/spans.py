@@ -1,0 +1,117 @@
+"""Spans of time that a filter names: `14:03..14:05`, `>=14:03:20.5`, `2026-11-22T14:03`, `-5m`, `@12.5`.
+
+A time without a date is one of any day, in local time: a log may be read on another day than it was written.
+"""
+
+from __future__ import annotations
+
+import re
+import time
+from dataclasses import dataclass
+
+SECOND = 10**9
+DAY = 86_400 * SECOND
+ALWAYS = 2**63 - 1
+EXAMPLES = (
+    "14:03, 14:03:20.5, 2026-11-22T14:03, -5m (before now), @12.5 (seconds since the epoch), 14:03..14:05, >=14:03"
+)
+_CLOCK = re.compile(
+    r"(?:(?P<date>\d{4}-\d\d-\d\d)(?:[Tt](?=\d)|$))?(?:(?P<clock>\d{1,2}:\d\d(?::\d\d)?)(?:\.(?P<part>\d{1,9}))?)?"
+)
+_AGO = re.compile(r"-(\d{1,9}(?:\.\d{1,9})?)(ms|s|min|m|h|d)")
+_EPOCH = re.compile(r"@(\d{1,10})(?:\.(\d{1,9}))?")
+_UNITS = {"ms": SECOND // 1000, "s": SECOND, "m": 60 * SECOND, "min": 60 * SECOND, "h": 3600 * SECOND, "d": DAY}
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """From `begin` to before `end`, in ns: since the epoch, or of each local day where it is `daily`."""
+
+    begin: int
+    end: int
+    daily: bool = False
+
+    def holds(self, stamp: int) -> bool:
+        """Whether a moment (ns since the epoch) lies in it; a daily span may reach over midnight."""
+        at = (stamp + utc_offset(stamp)) % DAY if self.daily else stamp
+        if self.begin > self.end:
+            return at >= self.begin or at < self.end
+        return self.begin <= at < self.end
+
+
+@dataclass(frozen=True, slots=True)
+class _Point:
+    """A moment as exactly as it was written: `14:03` is a whole minute."""
+
+    begin: int
+    end: int
+    daily: bool = False
+    ago: bool = False
+
+
+def utc_offset(stamp: int) -> int:
+    """What local time is ahead of UTC at a moment (ns since the epoch), in ns."""
+    return time.localtime(stamp // SECOND).tm_gmtoff * SECOND
+
+
+def parse_span(text: str, now: int) -> Span:
+    """The span that a text names; `now` (ns since the epoch) is what `-5m` counts from. Raises `ValueError`."""
+    first, dots, last = text.partition("..")
+    if dots:
+        begin, end = (_point(each, now) if each else None for each in (first, last))
+        known = [each for each in (begin, end) if each is not None]
+        if not known or len({each.daily for each in known}) > 1:
+            raise ValueError(f"time '{text}': both ends with a date, or both without; for instance {EXAMPLES}")
+        return _between(begin.begin if begin else None, end.end if end else None, known[0].daily)
+    sign = next((each for each in (">=", "<=", ">", "<", "=") if text.startswith(each)), "")
+    point = _point(text[len(sign) :], now)
+    if sign in ("", "=") and not point.ago:
+        return Span(point.begin, point.end, point.daily)
+    if sign.startswith("<"):
+        return _between(None, point.end if sign == "<=" else point.begin, point.daily)
+    return _between(point.end if sign == ">" else point.begin, None, point.daily)
+
+
+def _between(begin: int | None, end: int | None, daily: bool) -> Span:
+    return Span(0 if begin is None else begin, (DAY if daily else ALWAYS) if end is None else end, daily)
+
+
+def _point(text: str, now: int) -> _Point:
+    ago = _AGO.fullmatch(text)
+    if ago:
+        moment = now - int(float(ago[1]) * _UNITS[ago[2]])
+        return _Point(moment, moment, ago=True)
+    epoch = _EPOCH.fullmatch(text)
+    if epoch:
+        return _sized(int(epoch[1]) * SECOND, epoch[2] or "")
+    found = _CLOCK.fullmatch(text)
+    if not found or not (found["date"] or found["clock"]):
+        raise ValueError(f"time '{text}' is none; for instance {EXAMPLES}")
+    try:
+        return _on_a_clock(found["date"], found["clock"], found["part"] or "")
+    except (ValueError, OverflowError):
+        raise ValueError(f"time '{text}' is on no clock and in no calendar; for instance {EXAMPLES}") from None
+
+
+def _sized(begin: int, part: str, whole: int = SECOND) -> _Point:
+    """A moment with so many digits behind the second."""
+    return _Point(
+        begin + int(part.ljust(9, "0")), begin + int(part.ljust(9, "0")) + (10 ** (9 - len(part)) if part else whole)
+    )
+
+
+def _on_a_clock(date: str | None, clock: str | None, part: str) -> _Point:
+    hours, minutes, *seconds = (int(each) for each in (clock or "0:00").split(":"))
+    if hours > 23 or minutes > 59 or (seconds and seconds[0] > 59) or (part and not seconds):
+        raise ValueError
+    of_day = (hours * 3600 + minutes * 60 + (seconds[0] if seconds else 0)) * SECOND
+    unit = SECOND if seconds else 60 * SECOND
+    if date is None:
+        point = _sized(of_day, part, unit)
+        return _Point(point.begin, point.end, daily=True)
+    day = time.strptime(date, "%Y-%m-%d")
+    begin = int(time.mktime((*day[:3], hours, minutes, seconds[0] if seconds else 0, 0, 0, -1))) * SECOND
+    if clock:
+        return _sized(begin, part, unit)
+    year, month, number = day[:3]
+    return _Point(begin, int(time.mktime((year, month, number + 1, 0, 0, 0, 0, 0, -1))) * SECOND)  # 23 to 25 hours

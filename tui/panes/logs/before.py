@@ -1,0 +1,56 @@
+"""What happened just before a log line: changes of parameters and events of the launch, the newest first."""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from bot_console.tui.console.model import Change, LaunchEvent
+from bot_console.tui.format import value_text
+from bot_console.tui.widgets.prompt.question import Option
+
+MOST = 20
+HISTORY, LAUNCH = "history", "launch"
+
+
+@dataclass(frozen=True)
+class Happened:
+    """Something that happened, and the pane that tells more of it."""
+
+    stamp: int
+    text: str
+    pane: str
+
+
+def happened_before(stamp: int, changes: Iterable[Change], events: Iterable[LaunchEvent]) -> list[Happened]:
+    """The last things that happened up to a moment (ns since the epoch), the newest first."""
+    known = [
+        *(Happened(each.stamp, _change_text(each), HISTORY) for each in changes if each.stamp <= stamp),
+        *(Happened(each.stamp, f"launch: {each.text}", LAUNCH) for each in events if each.stamp <= stamp),
+    ]
+    return heapq.nlargest(MOST, known, key=lambda each: each.stamp)
+
+
+def options_of(found: Sequence[Happened], stamp: int, typed: str) -> list[Option]:
+    """Those whose words have what was typed, each with how long before the moment it was."""
+    words = typed.lower().split()
+    return [
+        Option(each.text, f"{_ago(stamp - each.stamp)} before · {each.pane}", str(index))
+        for index, each in enumerate(found)
+        if all(word in each.text.lower() for word in words)
+    ]
+
+
+def _change_text(change: Change) -> str:
+    verb = "" if change.accepted else f", refused: {change.reason}"
+    return f"{change.node} {change.name}: {value_text(change.old)} → {value_text(change.new)}{verb}"
+
+
+def _ago(duration: int) -> str:
+    seconds = duration / 1e9
+    if seconds < 10:
+        return f"{seconds:.2f} s"
+    if seconds < 120:
+        return f"{seconds:.0f} s"
+    return f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.0f} h"

@@ -1,0 +1,122 @@
+"""The lines of the log as they are drawn."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import ClassVar
+
+from bot_console.tui.console.model import LogRecord, Severity
+from bot_console.tui.console.protocol import LogNumbers, LogSource
+from bot_console.tui.format import LETTERS, clock_text, cut, harmless
+from bot_console.tui.panes.logs.names import NodeNames
+from bot_console.tui.panes.logs.rules import COLOURS, RuleBook
+from bot_console.tui.widgets.row_list import RowList
+from rich.segment import Segment
+
+STYLES = {Severity.DEBUG: "dim", Severity.WARN: "warn", Severity.ERROR: "error", Severity.FATAL: "error"}
+NODE = 18
+MARK = "▌"
+"""Stands before the text of a line that a rule highlights: not every terminal has colours."""
+
+
+class LogRows(RowList):
+    """The lines that pass the filter; holds their numbers only."""
+
+    COMPONENT_CLASSES: ClassVar[set[str]] = {f"log-rows--{each}" for each in COLOURS}
+
+    def __init__(self, source: LogSource, rules: RuleBook) -> None:
+        super().__init__()
+        self.source = source
+        self.rules = rules
+        self.numbers: LogNumbers | None = None
+        self.names = NodeNames()
+
+    def row_count(self) -> int:
+        """How many lines there are."""
+        return 0 if self.numbers is None else len(self.numbers)
+
+    def number(self, index: int) -> int:
+        """The number of the record on a line; -1 where there is none."""
+        return self.numbers[index] if self.numbers is not None and 0 <= index < len(self.numbers) else -1
+
+    def place(self, number: int) -> int:
+        """The line of the record with that number, or of the next one that is shown."""
+        return 0 if self.numbers is None else min(self.numbers.place(number), max(0, len(self.numbers) - 1))
+
+    def place_at(self, stamp: int) -> int:
+        """The line that was the newest one at a moment (ns since the epoch)."""
+        low, high = 0, self.row_count()
+        while low < high:
+            middle = (low + high) // 2
+            record = self.source.record(self.number(middle))
+            if record is None or record.stamp <= stamp:
+                low = middle + 1
+            else:
+                high = middle
+        return max(0, low - 1)
+
+    @property
+    def record(self) -> LogRecord | None:
+        """The record at the cursor."""
+        return self.source.record(self.number(self.cursor))
+
+    @property
+    def named_record(self) -> LogRecord | None:
+        """The record at the cursor, its node spelled as the graph does."""
+        record = self.record
+        return replace(record, node=self.names.of(record.node)) if record else None
+
+    def saved_lines(self) -> list[str]:
+        """All lines as ROS 2 writes them to a file."""
+        records = (self.source.record(self.number(index)) for index in range(self.row_count()))
+        return [
+            f"[{each.severity.name}] [{each.stamp // 10**9}.{each.stamp % 10**9:09d}] "
+            f"[{self.names.of(each.node)}]: {each.text}"
+            for each in records
+            if each is not None
+        ]
+
+    def first_of_row(self) -> int:
+        """The number of the record before which those above the cursor end; equal ones stand in one row."""
+        return self.number(self.cursor - 1) + 1 if self.cursor else 0
+
+    def show_nothing(self) -> None:
+        """Begin anew: another log is shown."""
+        self.numbers = None
+        self.set_reactive(RowList.cursor, 0)
+        self.rows_changed()
+
+    def exchange(self, numbers: LogNumbers) -> None:
+        """Show other lines; what is seen stays where it is, as far as it is among them."""
+        top = self.scroll_offset.y
+        at, first = self.number(self.cursor), self.number(top)
+        self.numbers = numbers
+        if at >= 0:
+            self.set_reactive(RowList.cursor, self.place(at))
+        self.rows_changed()
+        if first >= 0 and self.place(first) != top:
+            self.scroll_to(y=self.place(first), animate=False, force=True)
+
+    def row(self, index: int, width: int) -> list[Segment]:
+        """One line: time, severity, node, text; one style for all of it."""
+        record = self.source.record(self.number(index))
+        if record is None or self.numbers is None:
+            return [Segment("")]
+        colour = self.rules.colour_of(record)
+        name = f"log-rows--{colour}" if colour else f"row-list--{STYLES.get(record.severity, '')}"
+        style = self.get_component_rich_style(name, partial=True) if colour or record.severity in STYLES else None
+        text = line_text(record, self.names.of(record.node), width, self.numbers.count(index), marked=bool(colour))
+        return [Segment(text, style)]
+
+
+def line_text(record: LogRecord, node: str, width: int, count: int = 1, *, marked: bool = False) -> str:
+    """A record on one line; the time is left out where there is little room. The end of a node's name says most.
+
+    `count` is how many equal records the line stands for, `marked` whether a rule highlights it.
+    """
+    time = f"{clock_text(record.stamp)} " if width >= 70 else ""
+    node = harmless(node)
+    node = "…" + node[1 - NODE :] if len(node) > NODE else node
+    times = f"x{count} " if count > 1 else ""
+    text = harmless(record.text[: 4 * width])
+    return f"{time}{LETTERS[record.severity]} {cut(node, NODE, pad=True)}{MARK if marked else ' '}{times}{text}"

@@ -1,0 +1,126 @@
+"""What of the log is hidden or stands out: rules, one a line, in the words of the filter, kept in the user's folder."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from bot_console.tui.console.model import LogRecord
+from bot_console.tui.console.query import Query, parse
+from bot_console.tui.files.folders import config_folder
+from bot_console.tui.files.save_file import NotSaved, save_file
+
+COLOURS = ("violet", "green", "blue", "lime", "orange", "red")
+HIDE, OFF = "hide", "off"
+LARGEST = 100_000
+"""Bytes of a file of rules; of a larger one nothing is read."""
+HEAD = f"""\
+# Rules of the log, one a line: `{HIDE}` or a colour ({", ".join(COLOURS)}), then the words of a filter.
+# `{OFF}` in front of a rule switches it off. `R` in the Logs pane shows and changes them.
+"""
+
+
+@dataclass(frozen=True)
+class Rule:
+    """Lines that pass the words are hidden, or shown in a colour."""
+
+    words: str
+    colour: str = ""
+    """One of `COLOURS`; empty: hidden."""
+    on: bool = True
+
+    @property
+    def text(self) -> str:
+        """The rule as a line of the file."""
+        return f"{'' if self.on else f'{OFF} '}{self.colour or HIDE} {self.words}"
+
+
+def rule_of(line: str) -> Rule:
+    """The rule that a line of the file says; raises `ValueError` with what is wrong."""
+    off, _, rest = line.strip().partition(" ")
+    kind, _, words = (rest.strip() if off == OFF else line.strip()).partition(" ")
+    words = words.strip()
+    if kind != HIDE and kind not in COLOURS:
+        raise ValueError(f"a rule begins with {HIDE}, {', '.join(COLOURS)}, not with '{kind[:40]}'")
+    if not words:
+        raise ValueError(f"the rule '{kind}' has no words")
+    parse(words)
+    return Rule(words, "" if kind == HIDE else kind, off != OFF)
+
+
+class RuleBook:
+    """All rules, and the file that keeps them."""
+
+    def __init__(self, path: Path | None = None) -> None:
+        self.path = path or config_folder() / "log-rules.txt"
+        self.rules: tuple[Rule, ...] = ()
+        self.problems: list[str] = []
+        self._strange: list[str] = []
+        """Lines that say nothing here: a person may have meant something, so they stay in the file."""
+        self._marks: tuple[tuple[Query, str], ...] = ()
+
+    def read(self) -> None:
+        """Read the file; what cannot be used is named in `problems`. Never raises."""
+        try:
+            with self.path.open("rb") as file:
+                content = file.read(LARGEST + 1)
+        except FileNotFoundError:
+            return
+        except OSError as error:
+            self.problems = [f"{self.path}: {error.strerror or error}"]
+            return
+        if len(content) > LARGEST:
+            self.problems = [f"{self.path}: larger than {LARGEST} bytes; no file of rules is"]
+            return
+        found: list[Rule] = []
+        for number, line in enumerate(content.decode("utf-8", "replace").splitlines(), 1):
+            if line.strip() and not line.startswith("#"):
+                try:
+                    found.append(rule_of(line))
+                except ValueError as error:
+                    self._strange.append(line)
+                    self.problems.append(f"{self.path}:{number}: {error}")
+        self._take(found)
+
+    def change(self, rules: Sequence[Rule]) -> str:
+        """Have these rules from now on, and keep them; what came in the way of keeping, else empty."""
+        self._take(rules)
+        lines = [HEAD, *(f"{each.text}\n" for each in rules), *(f"{each}\n" for each in self._strange)]
+        try:
+            save_file(self.path, "".join(lines))
+        except NotSaved as error:
+            return f"these rules are for now only: {error}"
+        return ""
+
+    def add(self, words: str, *, hide: bool) -> tuple[Rule, str]:
+        """One more rule, in a colour that no other has where there is one left; and what `change` says."""
+        used = [each.colour for each in self.rules]
+        colour = "" if hide else min(COLOURS, key=used.count)
+        rule = Rule(words, colour)
+        same = [each for each in self.rules if each.words != words or bool(each.colour) is hide]
+        return rule, self.change([*same, rule])
+
+    def _take(self, rules: Sequence[Rule]) -> None:
+        self.rules = tuple(rules)
+        self._marks = tuple((parse(each.words), each.colour) for each in rules if each.on and each.colour)
+
+    @property
+    def hidden(self) -> tuple[str, ...]:
+        """The words of what is hidden."""
+        return tuple(each.words for each in self.rules if each.on and not each.colour)
+
+    @property
+    def highlighted(self) -> tuple[str, ...]:
+        """The words of what stands out."""
+        return tuple(each.words for each in self.rules if each.on and each.colour)
+
+    def colour_of(self, record: LogRecord) -> str:
+        """The colour of a line, by the first rule that it passes; empty where it has none."""
+        return next((colour for query, colour in self._marks if query.passes(record)), "")
+
+
+def turned(rule: Rule) -> Rule:
+    """The same rule in the next colour; hiding comes behind the last one."""
+    kinds = (*COLOURS, "")
+    return replace(rule, colour=kinds[(kinds.index(rule.colour) + 1) % len(kinds)])

@@ -1,0 +1,139 @@
+"""The rules of the log: what is hidden and what stands out, switched, changed and deleted."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import ClassVar
+
+from bot_console.tui import keymap
+from bot_console.tui.format import counted, harmless
+from bot_console.tui.panes.logs.rules import COLOURS, HIDE, Rule, RuleBook, turned
+from bot_console.tui.widgets.item_list import ItemList
+from bot_console.tui.widgets.prompt.common import wrong_filter
+from bot_console.tui.widgets.prompt.line import Prompt, asks
+from bot_console.tui.widgets.prompt.question import Line
+from bot_console.tui.widgets.words import Words
+from rich.segment import Segment
+from rich.text import Text
+from textual.app import ComposeResult
+from textual.binding import BindingType
+from textual.containers import Vertical
+from textual.screen import ModalScreen
+
+HINT = "space on/off · enter words · c colour · a add · d delete · esc closes"
+
+
+class RuleRows(ItemList[Rule]):
+    """One rule a line."""
+
+    COMPONENT_CLASSES: ClassVar[set[str]] = {f"log-rows--{each}" for each in COLOURS}
+
+    def row(self, index: int, width: int) -> list[Segment]:
+        """Whether it is on, what it does, its words."""
+        rule = self.rows[index]
+        name = f"log-rows--{rule.colour}" if rule.colour and rule.on else "row-list--dim"
+        style = self.get_component_rich_style(name, partial=True) if not rule.on or rule.colour else None
+        return [Segment(f" {'●' if rule.on else '○'} {rule.colour or HIDE:<7} {harmless(rule.words)}", style)]
+
+
+class RulesScreen(ModalScreen[None]):
+    """Every change acts at once and is kept."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("rules")]
+    DEFAULT_CSS = """
+    RulesScreen { align: center middle; }
+    RulesScreen Vertical { width: 90%; max-width: 110; height: 60%; background: $panel; border: round $primary;
+                           padding: 0 1; }
+    RulesScreen RowList { background: $panel; }
+    RulesScreen Words { background: $panel; padding: 0; }
+    """
+
+    def __init__(self, book: RuleBook, changed: Callable[[], object]) -> None:
+        super().__init__()
+        self._book = book
+        self._changed = changed
+
+    def compose(self) -> ComposeResult:
+        """The rules, what is said of them, a field for words."""
+        with Vertical() as box:
+            box.border_title = Text("Rules of the log")
+            box.border_subtitle = HINT
+            yield RuleRows(self._book.rules)
+            yield Words(id="rules-state")
+            yield Prompt(id="rules-prompt")
+
+    @property
+    def _list(self) -> RuleRows:
+        return self.query_one(RuleRows)
+
+    def on_mount(self) -> None:
+        """The list takes the keys."""
+        self._list.focus()
+        self._tell()
+
+    def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
+        """No key of the list acts while words are typed."""
+        return not asks(self) and super().check_action(action, parameters)
+
+    def _tell(self, problem: str = "") -> None:
+        empty = "" if self._book.rules else "No rules: in the log x hides lines like one, + highlights them."
+        count = f"{counted(len(self._book.rules), 'rule')}, kept in {self._book.path}"
+        self.query_one("#rules-state", Words).say(problem or empty or count)
+
+    def _exchange(self, before: Rule | None, after: Rule | None) -> None:
+        """Put a rule in the place of another; None: there is none."""
+        rules = [each for each in self._book.rules if each != before or after is not None]
+        rules = [after if each == before and after else each for each in rules]
+        if before is None and after is not None:
+            rules.append(after)
+        problem = self._book.change(rules)
+        self._list.exchange(self._book.rules)
+        self._changed()
+        self._tell(problem)
+
+    def action_switch(self) -> None:
+        """Switch the rule off, or on again."""
+        rule = self._list.current
+        if rule is not None:
+            self._exchange(rule, replace(rule, on=not rule.on))
+
+    def action_colour(self) -> None:
+        """The next colour; behind the last one the lines are hidden."""
+        rule = self._list.current
+        if rule is not None:
+            self._exchange(rule, turned(rule))
+
+    def action_delete(self) -> None:
+        """Delete the rule."""
+        if self._list.current is not None:
+            self._exchange(self._list.current, None)
+
+    def action_edit(self) -> None:
+        """Change the words of the rule; ask for a first one where there is none."""
+        rule = self._list.current
+        if rule is None:
+            self.action_add()
+        else:
+            self._ask("words", rule.words, lambda words: self._exchange(rule, replace(rule, words=words)))
+
+    def action_add(self) -> None:
+        """Ask for the words of one more rule, which highlights."""
+
+        def add(words: str) -> None:
+            _, problem = self._book.add(words, hide=False)
+            self._list.exchange(self._book.rules)
+            self._list.action_end(1)
+            self._changed()
+            self._tell(problem)
+
+        self._ask("highlight lines with", "", add)
+
+    def _ask(self, label: str, words: str, then: Callable[[str], object]) -> None:
+        self.query_one(Prompt).ask(
+            Line(label, lambda typed: then(typed.strip()), text=words, check=lambda typed: _wrong(typed.strip()))
+        )
+
+
+def _wrong(words: str) -> str:
+    return wrong_filter(words) if words else "type the words of a filter"

@@ -1,0 +1,35 @@
+"""The log of the system as the pane reads it."""
+
+from __future__ import annotations
+
+from bot_console.tui.console.model import LogFilter, LogRecord, LogState
+from bot_console.tui.console.protocol import Console, LogView
+
+
+class LiveLog:
+    """What the nodes of the system log; `tui.console.protocol.LogSource`."""
+
+    name = ""
+
+    def __init__(self, console: Console) -> None:
+        self._console = console
+
+    @property
+    def state(self) -> LogState:
+        """What is kept."""
+        return self._console.snapshot().logs
+
+    def record(self, seq: int) -> LogRecord | None:
+        """The record of that number."""
+        return self._console.log(seq)
+
+    def view(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
+        """Search for what passes a filter."""
+        return self._console.view_logs(which, instead_of)
+
+    def clear(self) -> None:
+        """Forget all records."""
+        self._console.clear_logs()
+
+    def close(self) -> None:
+        """The system goes on."""
