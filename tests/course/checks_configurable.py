@@ -79,8 +79,12 @@ def parameters_are_listed(page: Page, row: Row) -> None:
 
 @row(49)
 def the_value_of_the_command_line_is_there(page: Page, row: Row) -> None:
+    """The node is asked: what it is changed to afterwards is there, too."""
     starts(page, 47)
     assert page.ask(row.command).stdout == "Double value is: 2.5\n"
+    assert page.ask(row.command.replace("max_speed", "safety_distance")).stdout == "Double value is: 0.8\n"
+    page.ask(f"ros2 param set {NODE} max_speed 1.25")
+    assert page.ask(row.command).stdout == "Double value is: 1.25\n"
 
 
 @row(50)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from pathlib import Path
 
 import yaml
@@ -150,7 +149,32 @@ def the_system_loads(page: Page, row: Row) -> None:
     assert re.search(r"    'config_file':\n        .*\n        \(default: '.*robot_config.yaml'\)\n", shown)
 
 
-@row(61, 97, complete=True)
+NAMESPACES = """from launch import LaunchDescription
+from launch.actions import GroupAction
+from launch_ros.actions import Node, PushRosNamespace
+
+def robot(namespace):
+    return Node(package='my_package', executable='configurable_robot', namespace=namespace,
+                remappings=[('/cmd_vel', 'drive'), ('/scan', '/lidar')])
+
+def generate_launch_description():
+    return LaunchDescription([robot('one'), GroupAction([PushRosNamespace('fleet'), robot('two')])])
+"""
+
+
+@row(61)
+def namespaces_and_remappings_are_configured(page: Page, row: Row) -> None:
+    """No listing of the page has a namespace: two of its robots, each in one, drive on topics of their own."""
+    file = page.scratch / "namespaces.launch.py"
+    file.write_text(NAMESPACES, "utf-8")
+    launched(page, f"ros2 launch {file}")
+    assert nodes(page) == ["/fleet/two/configurable_robot", "/one/configurable_robot"]
+    topics = page.ask("ros2 topic list").stdout.split()
+    assert {"/one/drive", "/fleet/two/drive", "/lidar"} <= set(topics)
+    assert not {"/cmd_vel", "/scan", "/drive"} & set(topics)
+
+
+@row(97, complete=True)
 def topics_are_remapped(page: Page, row: Row) -> None:
     launched(page, page.row(105).command)
     info = page.ask("ros2 node info /robot_navigator").stdout
@@ -241,36 +265,9 @@ def our_launch_file_starts_the_node(page: Page, row: Row) -> None:
     runs_all_four(page, "ros2 launch intelligent_robot robot_system.launch.py")
 
 
-def profile_values(page: Page, profile: str) -> Sequence[str]:
-    launch = runs_all_four(page, f"ros2 launch intelligent_robot robot_system.launch.py profile:={profile}")
-    found = [
-        page.value(f"/{node}", name)
-        for node, name in (("robot_navigator", "max_speed"), ("safety_monitor", "warning_distance"))
-    ]
-    page.stop(launch)
-    return found
-
-
-@row(299, 334, 335, 336, own=True)
-def the_profile_sets_all_nodes(page: Page, row: Row) -> None:
-    assert profile_values(page, "indoor") != profile_values(page, "competition")
-
-
 @row(321, 322, 323, own=True)
 def the_launch_file_is_there(page: Page, row: Row) -> None:
     name = re.search(r"[\w.]+\.py", row.text)
     assert name is not None
     launched(page, f"ros2 launch intelligent_robot {name[0]}")
     assert "/robot_navigator" in nodes(page)
-
-
-@row(346, own=True)
-def each_profile_drives_otherwise(page: Page, row: Row) -> None:
-    """The fastest command (m/s) in the first seconds of each differs."""
-    fastest = set()
-    for profile in ("indoor", "outdoor", "warehouse", "competition"):
-        launch = launched(page, f"ros2 launch intelligent_robot robot_system.launch.py profile:={profile}")
-        echo = page.ask("ros2 topic echo /cmd_vel --csv", stop_after=2.0)
-        fastest.add(max(float(line.split(",")[0]) for line in echo.stdout.splitlines()))
-        page.stop(launch)
-    assert len(fastest) == 4

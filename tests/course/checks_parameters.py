@@ -66,10 +66,33 @@ def step_1_runs_as_printed(page: Page, row: Row) -> None:
     starts_as_printed(page, "simple_robot_step1", 2.0, speed="1.0")
 
 
-@row(13, 16, 22, 33, 47, 53, 133, 145)
-def the_command_starts_a_node(page: Page, row: Row) -> None:
+STARTED: dict[int, tuple[str, dict[str, str]]] = {
+    13: ("/simple_robot", {"speed": "1.0"}),
+    16: ("/simple_robot", {"speed": "2.5"}),
+    22: ("/simple_robot", {"speed": "3.0", "robot_name": "Explorer", "enable_safety": "False"}),
+    33: ("/simple_robot", {"speed": "1.0", "robot_name": "MyRobot", "enable_safety": "True"}),
+    47: ("/configurable_robot", {"max_speed": "2.5", "safety_distance": "0.8", "detection_threshold": "150"}),
+    53: ("/configurable_robot", {"max_speed": "2.0", "safety_distance": "0.6", "detection_threshold": "120"}),
+    133: ("/simple_robot", {"speed": "1.0", "robot_name": "TestBot", "enable_safety": "True"}),
+}
+"""The node that a command starts, with all that its words and files say, and defaults beside them."""
+
+
+@row(*STARTED)
+def the_command_starts_its_node_with_every_value(page: Page, row: Row) -> None:
     starts(page, row.number)
-    assert page.ask("ros2 node list").stdout.startswith("/")
+    node, values = STARTED[row.number]
+    assert page.ask("ros2 node list").stdout == f"{node}\n"
+    assert {name: page.value(node, name) for name in values} == values
+
+
+@row(145)
+def the_command_starts_the_publisher(page: Page, row: Row) -> None:
+    starts(page, row.number)
+    assert page.ask("ros2 node list").stdout == "/data_publisher\n"
+    said = page.ask("ros2 topic echo /robot_speed --field data", stop_after=1.0).stdout.replace("---", "").split()
+    assert len(said) >= 9
+    assert all(1.0 <= float(each) <= 3.0 for each in said)
 
 
 @row(14)
@@ -151,9 +174,15 @@ def safety_is_told(page: Page, row: Row) -> None:
 
 
 @row(34, 37)
-def set_answers(page: Page, row: Row) -> None:
+def only_the_value_within_is_set(page: Page, row: Row) -> None:
     starts(page, STEP_3)
-    assert page.ask(row.command).exit == 0
+    answer = page.ask(row.command)
+    if row.number == 34:
+        assert (answer.stdout, page.value("/simple_robot", "speed")) == ("", "1.0")
+        assert answer.stderr == "Setting parameter failed: Speed must be between 0.1 and 5.0, got 10.0\n"
+    else:
+        assert (answer.stdout, answer.stderr) == ("Set parameter successful\n", "")
+        assert page.value("/simple_robot", "speed") == "2.5"
 
 
 @row(35, 38)

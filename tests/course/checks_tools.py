@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from course.checks_parameters import starts
-from course.page import Page, logs
+from course.page import Page, logs, make_workspace
 from course.rows import COURSE, Row
 from course.table import row
 
@@ -23,14 +23,16 @@ def a_wild_speed_is_an_error(page: Page, row: Row) -> None:
     assert logs(robot)[-1] == ("ERROR", "simple_robot", "Speed must be between 0.1 and 5.0, got 100.0")
 
 
-@row(361)
-def an_unknown_package_is_told(page: Page, row: Row) -> None:
-    """The package's name is quoted as real `ros2 run` does it (N25)."""
-    answer = page.ask("ros2 run no_package robot")
-    assert (answer.stderr, answer.exit) == (
-        f"{row.command.partition(': ')[2]}\n".replace("my_package", "no_package"),
-        1,
-    )
+@row(361, own=True)
+def the_package_that_is_not_there_is_told(page: Page, row: Row) -> None:
+    """`ros2 run` says no more than that, `ros2 launch` more after it (N25); once it is there, the lines start it."""
+    stated, commands = row.command.partition(": ")[2], (page.row(13).command, page.row(65).command)
+    ran, launched = (page.ask(each) for each in commands)
+    assert (ran.stderr, ran.stdout, ran.exit) == (f"{stated}\n", "", 1)
+    assert (launched.exit, stated in launched.stdout + launched.stderr) == (1, True)
+    page.work_on(make_workspace(page.scratch))
+    assert [page.start(each, 1.5).exit for each in commands] == [None, None]
+    assert page.ask("ros2 node list").stdout == "/my_robot\n/simple_robot\n"
 
 
 @row(365)
@@ -98,25 +100,40 @@ class Robot(Node):
 rclpy.init()
 rclpy.spin(Robot())"""
 PARTS = {370: "declare", 371: "callback", 372: "update", 373: "use"}
+INSTEAD = {370: "pass", 371: "pass", 372: "pass", 373: "twist.linear.x = 1.0"}
+"""What stands there where a part was forgotten: nothing, or a number in place of the member."""
 
 
-def speed_after_change(page: Page, left_out: str) -> str:
-    parts = {part: page.row(number).command if part != left_out else "pass" for number, part in PARTS.items()}
+def driven(page: Page) -> str:
+    return page.ask("ros2 topic echo /cmd_vel --once --field linear.x").stdout.split()[0]
+
+
+def change(page: Page, left_out: int) -> tuple[str, str, str]:
+    """The robot's speed before a change to 2.5 m/s, the answer to that, and the speed afterwards."""
+    parts = {part: INSTEAD[each] if each == left_out else page.row(each).command for each, part in PARTS.items()}
     robot = page.python(FOUR.format(**parts))
-    page.ask("ros2 param set /robot speed 2.5")
-    speed = page.ask("ros2 topic echo /cmd_vel --once --field linear.x").stdout.split()[0]
-    page.stop(robot)
-    return speed
+    before = driven(page)
+    answer = page.ask("ros2 param set /robot speed 2.5")
+    assert robot.exit is None, robot.stderr
+    return before, answer.stdout + answer.stderr, driven(page)
 
 
-@row(370, 371, 372, 373)
-def without_this_the_change_has_no_effect(page: Page, row: Row) -> None:
-    assert speed_after_change(page, PARTS[row.number]) != "2.5"
+@row(370)
+def what_is_not_declared_cannot_be_changed(page: Page, row: Row) -> None:
+    before, answer, after = change(page, row.number)
+    assert "Setting parameter failed" in answer
+    assert (before, after) == ("1.0", "1.0")
+
+
+@row(371, 372, 373)
+def without_this_the_change_is_taken_and_has_no_effect(page: Page, row: Row) -> None:
+    assert change(page, row.number) == ("1.0", "Set parameter successful\n", "1.0")
+    assert page.value("/robot", "speed") == "2.5"
 
 
 @row(374)
 def with_all_four_the_change_takes_effect(page: Page, row: Row) -> None:
-    assert speed_after_change(page, "") == "2.5"
+    assert change(page, 0) == ("1.0", "Set parameter successful\n", "2.5")
 
 
 @row(375)

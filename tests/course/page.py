@@ -127,6 +127,10 @@ class Page:
         """What `ros2 param get --hide-type` prints."""
         return self.ask(f"ros2 param get {node} {parameter} --hide-type").stdout.strip()
 
+    def work_on(self, folder: Path) -> None:
+        """The packages of another workspace, for the rest of the test."""
+        discover.use(discover.Workspace([folder / "src"]))
+
     def work_in(self, folder: str) -> None:
         """`cd`, for the rest of the test."""
         os.chdir(folder)

@@ -165,8 +165,9 @@ def _launch_test(words: Words) -> int:
 
 
 def _colcon(words: Words) -> int:
-    print("Nothing has to be built: packages of the workspace are read from their sources.")
-    return 0
+    from bot_console.tui.cli.verbs.colcon import run
+
+    return run(words)
 
 
 def _lint(words: Words) -> int:

@@ -10,6 +10,7 @@ from concurrent.futures import Future
 
 from bot_console.runtime.process import NodeProcess
 from bot_console.tui.cli.started_lines import launched_by
+from bot_console.tui.cli.verbs.colcon import answers
 from bot_console.tui.console.lines import RunningLine, goes_on
 from bot_console.tui.console.protocol import Launcher, Stream
 
@@ -50,7 +51,7 @@ class Ros2CommandLine:
     def _done(self, line: str) -> str:
         words = _words(line)
         if words[:1] == ["colcon"]:
-            return "Nothing has to be built: packages of the workspace are read from their sources."
+            return "\n".join(answers(words[1:]))
         wanted = launched_by(words) if self._launcher is not None else None
         if wanted is None or self._launcher is None:
             return _printed_by(words)

@@ -27,8 +27,11 @@ def test_a_refusal_is_printed_too():
     assert "invalid choice" in Ros2CommandLine().run("ros2 nosuch").result(PATIENCE)
 
 
-def test_colcon_has_nothing_to_do():
-    assert "Nothing has to be built" in Ros2CommandLine().run("colcon build").result(PATIENCE)
+def test_colcon_has_nothing_to_do_and_names_the_packages_that_are_not_there():
+    line = "colcon build --symlink-install --packages-select bot_console_robot typo --event-handlers log-"
+    unknown, answer = Ros2CommandLine().run(line).result(PATIENCE).splitlines()
+    assert unknown == "ignoring unknown package 'typo' in --packages-select"
+    assert answer.startswith("Nothing has to be built")
 
 
 def test_a_quotation_mark_without_its_twin_is_told():
