@@ -21,6 +21,10 @@ INTERFACES = ("_actions", "_interfaces", "_msg", "_msgs", "_srvs")
 
 KNOWN: dict[str, tuple[str, str]] = {
     "cv2": (PIP, "'bot-console[opencv]' (or opencv-python-headless)"),
+    "image_transport_py": (
+        CPP,
+        "the plugins of image_transport; cv_bridge and `ros2 run image_transport republish` are here",
+    ),
     "moveit": (CPP, "the planners of MoveIt"),
     "moveit_py": (CPP, "the planners of MoveIt"),
     "open3d": (PIP, "open3d"),
@@ -38,7 +42,6 @@ KNOWN: dict[str, tuple[str, str]] = {
     for name in (
         "diagnostic_updater",
         "image_geometry",
-        "image_transport_py",
         "laser_geometry",
         "nav2_common",
         "urdf_parser_py",

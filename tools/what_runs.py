@@ -33,7 +33,6 @@ PARTS = {
     "launch_testing": "actions that run GTest or pytest, JUnit files; `bot-console test` runs test files",
     "message_filters": "`LatestTimeSynchronizer`, input aligner",
     "tf2_geometry_msgs": "`PyKDL` types",
-    "tf2_ros": "`BufferClient`, `BufferServer`",
     "tf_transformations": "`Arcball`, `clip_matrix`, `orthogonalization_matrix`",
 }
 """What is missing of packages that are here."""

@@ -9,6 +9,7 @@ from tf2_py import (
     TransformException,
 )
 from tf2_ros.buffer import Buffer
+from tf2_ros.buffer_client import BufferClient
 from tf2_ros.buffer_interface import (
     BufferInterface,
     ConvertRegistration,
@@ -24,6 +25,7 @@ from tf2_ros.transform_listener import TransformListener
 
 __all__ = [
     "Buffer",
+    "BufferClient",
     "BufferInterface",
     "ConnectivityException",
     "ConvertRegistration",

@@ -59,7 +59,12 @@ EXECUTABLES: Mapping[str, Mapping[str, str]] = {
         ("subscriber_lambda", "subscriber_member_function", "subscriber_old_school"),
         "demo_nodes.listener:main_minimal",
     ),
+    "image_transport": {
+        "list_transports": "image_transport.republish:list_transports",
+        "republish": "image_transport.republish:main",
+    },
     "tf2_ros": {
+        "buffer_server": "tf2_tools.buffer_server:main",
         "static_transform_publisher": "tf2_tools.static_transform_publisher:main",
         "tf2_echo": "tf2_tools.tf2_echo:main",
     },

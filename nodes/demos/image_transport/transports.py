@@ -1,0 +1,47 @@
+"""How images travel: as they are on the topic itself, or compressed on `TOPIC/compressed`, which needs OpenCV."""
+
+from __future__ import annotations
+
+import importlib.util
+from typing import Any
+
+from cv_bridge import CvBridge
+from sensor_msgs.msg import CompressedImage, Image
+
+RAW, COMPRESSED = "raw", "compressed"
+TRANSPORTS: dict[str, type] = {RAW: Image, COMPRESSED: CompressedImage}
+"""The messages of each transport."""
+_BRIDGE = CvBridge()
+
+
+def topic_of(base: str, transport: str) -> str:
+    """The topic that a transport uses for the images of another one."""
+    return base if transport == RAW else f"{base}/{transport}"
+
+
+def available() -> list[str]:
+    """The transports that work here."""
+    return [RAW, COMPRESSED] if importlib.util.find_spec("cv2") else [RAW]
+
+
+def encoded(image: Image, transport: str) -> Any:
+    """An image as a transport sends it; raises `CvBridgeError` for encodings that JPEG has no place for."""
+    if transport == RAW:
+        return image
+    target = "mono8" if image.encoding.startswith("mono") else "bgr8"
+    message = _BRIDGE.cv2_to_compressed_imgmsg(_BRIDGE.imgmsg_to_cv2(image, target))
+    message.header = image.header
+    message.format = f"{image.encoding}; jpeg compressed {target if target == 'bgr8' else ''}"
+    return message
+
+
+def decoded(message: Any, transport: str) -> Image:
+    """The image that a transport has sent; raises `CvBridgeError` for data that is none."""
+    if transport == RAW:
+        return message
+    pixels = _BRIDGE.compressed_imgmsg_to_cv2(message)
+    image = _BRIDGE.cv2_to_imgmsg(pixels, "bgr8" if pixels.ndim == 3 else "mono8", header=message.header)
+    wanted = message.format.partition(";")[0].strip() if ";" in message.format else ""
+    if wanted and wanted != image.encoding:
+        image = _BRIDGE.cv2_to_imgmsg(_BRIDGE.imgmsg_to_cv2(image, wanted), wanted, header=message.header)
+    return image

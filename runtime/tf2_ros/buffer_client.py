@@ -1,0 +1,123 @@
+"""A buffer of transforms that asks another process, which runs `tf2_ros buffer_server`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from bot_console.runtime.process import current
+from geometry_msgs.msg import TransformStamped
+from rclpy.action import ActionClient
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.task import Future
+from rclpy.time import Time
+from tf2_msgs.action import LookupTransform
+from tf2_msgs.msg import TF2Error
+from tf2_py import (
+    ConnectivityException,
+    ExtrapolationException,
+    InvalidArgumentException,
+    LookupException,
+    TimeoutException,
+    TransformException,
+)
+from tf2_ros.buffer_interface import NOW, BufferInterface
+
+PADDING = Duration(seconds=2)
+"""How much longer than a look-up's own time-out the server may take to answer."""
+ERRORS: dict[int, type[TransformException]] = {
+    TF2Error.LOOKUP_ERROR: LookupException,
+    TF2Error.CONNECTIVITY_ERROR: ConnectivityException,
+    TF2Error.EXTRAPOLATION_ERROR: ExtrapolationException,
+    TF2Error.INVALID_ARGUMENT_ERROR: InvalidArgumentException,
+    TF2Error.TIMEOUT_ERROR: TimeoutException,
+    TF2Error.TRANSFORM_ERROR: TransformException,
+}
+
+
+class BufferClient(BufferInterface):
+    """Asks the action `ns` of a server. The node has to be spun in another thread than the one that asks.
+
+    What asks raises the server's exception, or `TimeoutException` where no server is there or it does not answer.
+    """
+
+    def __init__(self, node: Node, ns: str, check_frequency: float = 10.0, timeout_padding: Duration = PADDING) -> None:
+        super().__init__()
+        self.node = node
+        self.action_client = ActionClient(node, LookupTransform, action_name=ns)
+        self.check_frequency = check_frequency
+        self.timeout_padding = timeout_padding
+
+    def lookup_transform(
+        self, target_frame: str, source_frame: str, time: Time, timeout: Duration = NOW
+    ) -> TransformStamped:
+        """What takes points of `source_frame` to `target_frame` at a time; the server waits as long as `timeout`."""
+        if not isinstance(time, Time):
+            raise TypeError("Must pass a rclpy.time.Time object.")
+        goal = LookupTransform.Goal(target_frame=target_frame, source_frame=source_frame, advanced=False)
+        goal.source_time, goal.timeout = time.to_msg(), timeout.to_msg()
+        return self._ask(goal)
+
+    def lookup_transform_full(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+        timeout: Duration = NOW,
+    ) -> TransformStamped:
+        """From `source_frame` at one time to `target_frame` at another, by way of a frame that did not move."""
+        goal = LookupTransform.Goal(target_frame=target_frame, source_frame=source_frame, advanced=True)
+        goal.source_time, goal.timeout = source_time.to_msg(), timeout.to_msg()
+        goal.target_time, goal.fixed_frame = target_time.to_msg(), fixed_frame
+        return self._ask(goal)
+
+    def can_transform(self, target_frame: str, source_frame: str, time: Time, timeout: Duration = NOW) -> bool:
+        """Whether `lookup_transform` answers within the time-out."""
+        try:
+            self.lookup_transform(target_frame, source_frame, time, timeout)
+        except TransformException:
+            return False
+        return True
+
+    def can_transform_full(
+        self,
+        target_frame: str,
+        target_time: Time,
+        source_frame: str,
+        source_time: Time,
+        fixed_frame: str,
+        timeout: Duration = NOW,
+    ) -> bool:
+        """Whether `lookup_transform_full` answers within the time-out."""
+        try:
+            self.lookup_transform_full(target_frame, target_time, source_frame, source_time, fixed_frame, timeout)
+        except TransformException:
+            return False
+        return True
+
+    def _ask(self, goal: Any) -> TransformStamped:
+        if not self.action_client.server_is_ready():
+            raise TimeoutException("The BufferServer is not ready.")
+        patience = Duration.from_msg(goal.timeout).nanoseconds + self.timeout_padding.nanoseconds
+        deadline = current().clock.steady_ns() + patience
+        handle = _settled(self.action_client.send_goal_async(goal), deadline)
+        if not handle.accepted:
+            raise TimeoutException("The BufferServer has not accepted the goal.")
+        result = _settled(handle.get_result_async(), deadline).result
+        error = result.error
+        if error.error != TF2Error.NO_ERROR:
+            raise ERRORS.get(error.error, TransformException)(error.error_string)
+        return result.transform
+
+
+def _settled(future: Future[Any], deadline: int) -> Any:
+    """The result of a future; raises `TimeoutException` at a steady time in ns."""
+    wakeup = current().clock.wakeup()
+    future.add_done_callback(lambda _: wakeup.set())
+    if not future.done():
+        wakeup.wait(deadline)
+    if not future.done():
+        raise TimeoutException("The BufferServer has not answered in time: it hangs, or nobody spins this node.")
+    return future.result()

@@ -1,0 +1,80 @@
+"""Transforms between programs: one looks them up for others, which ask as if it were their own buffer."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+import pytest
+from systems import Program, System, system
+
+
+@pytest.fixture
+def running() -> Iterator[System]:
+    with system() as found:
+        yield found
+
+
+ASKING = """
+import threading, rclpy, tf2_geometry_msgs, tf2_ros
+from geometry_msgs.msg import PointStamped
+from rclpy.duration import Duration
+from rclpy.time import Time
+rclpy.init()
+node = rclpy.create_node("asking")
+buffer = tf2_ros.BufferClient(node, "tf2_buffer_server")
+threading.Thread(target=rclpy.spin, args=(node,), daemon=True).start()
+buffer.action_client.wait_for_server({wait})
+began = node.get_clock().now()
+try:
+    print({ask})
+except tf2_ros.TransformException as error:
+    print(type(error).__name__, error)
+print("after", round((node.get_clock().now() - began).nanoseconds * 1e-9, 1))
+"""
+
+
+def asking(running: System, ask: str, wait: float = 5.0) -> Program:
+    return running.finish(running.python("-c", ASKING.format(ask=ask, wait=wait)))
+
+
+def static(running: System, parent: str, child: str, x: float) -> None:
+    words = ["--frame-id", parent, "--child-frame-id", child, "--x", str(x)]
+    running.executable("tf2_ros", "static_transform_publisher", *words)
+
+
+def test_a_buffer_in_another_process_answers(running: System) -> None:
+    running.executable("tf2_ros", "buffer_server")
+    static(running, "map", "base", 1.5)
+    running.run(0.5)
+    ask = "buffer.lookup_transform('map', 'base', Time()).transform.translation.x"
+    assert asking(running, ask).stdout == "1.5\nafter 0.0\n"
+    full = "buffer.lookup_transform_full('base', Time(), 'map', Time(), 'map').transform.translation.x"
+    assert asking(running, full).stdout == "-1.5\nafter 0.0\n"
+    there = "PointStamped(header=buffer.lookup_transform('map', 'base', Time()).header)"
+    assert "x=-1.5" in asking(running, f"buffer.transform({there}, 'base').point").stdout
+
+
+def test_it_waits_for_a_transform_that_comes_within_the_time_out(running: System) -> None:
+    running.executable("tf2_ros", "buffer_server")
+    running.run(0.5)
+    ask = "buffer.can_transform('map', 'base', Time(), Duration(seconds=5))"
+    asked = running.python("-c", ASKING.format(ask=ask, wait=5.0))
+    running.run(2.0)
+    static(running, "map", "base", 1.5)
+    assert re.match(r"True\nafter 2\.[01]\n", running.finish(asked).stdout)
+
+
+def test_what_does_not_come_is_told_with_its_reason(running: System) -> None:
+    running.executable("tf2_ros", "buffer_server")
+    running.run(0.5)
+    ask = "buffer.lookup_transform('map', 'base', Time(), Duration(seconds=1))"
+    assert asking(running, ask).stdout == (
+        'LookupException "map" passed to lookupTransform argument target_frame does not exist. \nafter 1.0\n'
+    )
+    assert asking(running, "buffer.can_transform('map', 'base', Time())").stdout == "False\nafter 0.0\n"
+
+
+def test_nobody_who_answers(running: System) -> None:
+    ask = "buffer.lookup_transform('map', 'base', Time())"
+    assert asking(running, ask, 0.5).stdout == "TimeoutException The BufferServer is not ready.\nafter 0.0\n"
