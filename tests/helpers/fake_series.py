@@ -7,6 +7,7 @@ from typing import Any
 
 from bot_console.tui.console.model import Value
 from bot_console.tui.console.protocol import Answer, Samples
+from bot_console.tui.console.robot.robot_model import Pose
 from fake_profiles import CLOSED
 
 START = 1_700_000_000_000_000_000
@@ -20,6 +21,8 @@ class FakeSeries:
     now: float
     series: dict[str, tuple[list[float], list[float]]]
     unplottable: dict[str, str]
+    past: dict[int, Pose]
+    """Where the robot was, by moment."""
     _watched: dict[str, set[str]]
     """Who wants each path."""
 
@@ -57,6 +60,9 @@ class FakeSeries:
 
     def plot_time(self, stamp: int | None = None) -> float:
         return self.now if stamp is None else self.now + (stamp - START) / 1e9
+
+    def pose_at(self, stamp: int) -> Pose | None:
+        return self.past.get(stamp)
 
     def plottable(self) -> Sequence[str]:
         return sorted(self.series)

@@ -71,6 +71,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
         self.journal: list[Change] = []
         self.differences: dict[str, tuple[ProfileDifference, ...]] = {}
         """What profiles would change, where that is scripted; else it follows from their values."""
+        self.past = {}
         self.now = 60.0
         self.closed = False
         self._steps = Journal()

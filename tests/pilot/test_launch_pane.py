@@ -10,6 +10,7 @@ from bot_console.tui.panes.launch.rows import ProcessRows
 from bot_console.tui.screens.confirm import ConfirmScreen
 from bot_console.tui.screens.launch_arguments import ArgumentsScreen
 from bot_console.tui.screens.picker import PickerScreen
+from fakes import START
 from piloting import Session, run
 from samples import arguments, empty, faulty, launched, live
 from textual.widgets import Input
@@ -84,6 +85,11 @@ def test_details_and_timeline() -> None:
         assert "crashed, last exit code 1" in text and "/telemetry_publisher" in text
         await session.press("escape", "t")
         assert "simulator-6 started, pid 4109" in session.text()
+        await session.type("simulator-6")
+        await session.press("enter")
+        assert session.app.time_cursor.stamp == START + 10**9, "plot, log and world look at that moment"
+        shown = "\n".join(session.lines()[-8:])
+        assert "◆" in shown and "simulator-6 started" in shown and "telemetry_publisher-4 ended" not in shown
 
     run(live(), play, (100, 30))
 

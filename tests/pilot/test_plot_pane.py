@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import csv
 import math
+from datetime import datetime
 from pathlib import Path
+from xml.etree import ElementTree
 
+import pytest
 from bot_console.tui.panes.plot.pane import PlotPane
+from fakes import START
 from piloting import Session, run
 from samples import LIMIT, NEAREST, SPEED, empty, faulty, live
 
@@ -30,7 +34,7 @@ def test_a_curve_is_added_by_its_path_with_completion_and_removed() -> None:
     async def play(session: Session) -> None:
         await session.press("4", "a")
         await session.type("telemetry")
-        await session.press("right", "enter")
+        await session.press("enter")
         assert plot(session).paths == [SPEED, LIMIT, NEAREST]
         await session.press("x")
         assert plot(session).paths == [SPEED, LIMIT]
@@ -45,7 +49,7 @@ def test_what_cannot_be_plotted_is_refused_with_the_reason() -> None:
     async def play(session: Session) -> None:
         session.console.unplottable["/scan"] = "name a field of /scan as well, for instance /scan/range_max"
         await session.press("4", "a")
-        await session.type("scan")
+        await session.type("/scan")
         await session.press("enter")
         assert "name a field of /scan" in " ".join(session.text().split())
         assert "/scan" not in plot(session).paths
@@ -129,7 +133,7 @@ def test_strips_show_one_trace_below_each_name() -> None:
 
 def test_samples_and_picture_are_saved(tmp_path: Path) -> None:
     async def play(session: Session) -> None:
-        for key, name in (("e", "p.csv"), ("S", "p.html"), ("S", "p.txt")):
+        for key, name in (("e", "p.csv"), ("S", "p.html"), ("S", "p.txt"), ("S", "p.svg")):
             await session.press("4", key)
             session.app.focused.value = str(tmp_path / name)
             await session.press("enter")
@@ -140,7 +144,13 @@ def test_samples_and_picture_are_saved(tmp_path: Path) -> None:
 
     run(live(), play, (100, 30))
     rows = list(csv.reader((tmp_path / "p.csv").open()))
-    assert rows[0] == ["series", "time", "value"] and len(rows) == 1 + 900 + 2
+    assert rows[0] == ["series", "time", "seconds", "value"] and len(rows) == 1 + 600 + 1, "what is seen, and no more"
+    at = datetime.fromisoformat(rows[1][1])
+    assert at.tzinfo is not None and at.timestamp() == pytest.approx(float(rows[1][2])) == pytest.approx(
+        START / 1e9 - 30
+    )
+    words = [each.text for each in ElementTree.parse(tmp_path / "p.svg").iter("{http://www.w3.org/2000/svg}text")]
+    assert SPEED in words and LIMIT in words
     assert "<" in (tmp_path / "p.html").read_text()
     assert any(0x2800 < ord(letter) < 0x2900 for letter in (tmp_path / "p.txt").read_text())
 
@@ -151,3 +161,60 @@ def test_an_empty_plot_says_what_to_do() -> None:
         assert "Press a" in session.text()
 
     run(empty(), play)
+
+
+def test_an_expression_is_completed_added_and_refused_in_words() -> None:
+    async def play(session: Session) -> None:
+        await session.press("4", "a")
+        await session.type("deg(" + SPEED + ") - /tele")
+        assert f"deg({SPEED}) - {NEAREST}" in session.text()
+        await session.press("enter")
+        assert plot(session).paths[-1] == f"deg({SPEED}) - {NEAREST}"
+        await session.press("a")
+        await session.type("sine(/x)")
+        assert "none of derivative" in session.text()
+
+    run(live(), play, (120, 40))
+
+
+def test_the_cursor_tells_values_and_moves_for_everybody() -> None:
+    async def play(session: Session) -> None:
+        await session.press("4", "c")
+        before = session.app.time_cursor.stamp
+        assert before is not None and "◆" in session.text()
+        await session.press("left", "shift+left")
+        assert session.app.time_cursor.stamp < before
+        timeline = plot(session)._timeline
+        assert timeline.curves[0].at(timeline.cursor) != timeline.curves[0].latest
+        value = f"{timeline.curves[0].at(timeline.cursor):.3f}"
+        assert value in session.text()
+        await session.press("c")
+        assert session.app.time_cursor.stamp is None and timeline.paused_at is None
+
+    run(live(), play, (120, 40))
+
+
+def test_thresholds_axes_and_forms_are_kept_under_a_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("BOT_CONSOLE_USER_DIR", str(tmp_path))
+
+    async def play(session: Session) -> None:
+        await session.press("4", "T")
+        await session.type("> 0.1")
+        await session.press("enter")
+        assert f"! {SPEED} > 0.1" in session.text()
+        await session.press("down", "Y")
+        assert "right axis" in session.text() and "├" in session.text()
+        await session.press("w")
+        await session.type("drive")
+        await session.press("enter", "X", "p", "enter")
+        first, second = plot(session)._timeline.curves
+        assert (first.path, second.path, second.right) == (SPEED, LIMIT, True)
+        assert [each.text for each in first.thresholds] == ["> 0.1"]
+        await session.press("f", "f")
+        assert "rate" in session.text() and "20.0/s" in session.text()
+        await session.press("f", "up", "v")
+        assert f"against {SPEED}" in session.text()
+        await session.press("t")
+        assert "header time" in session.text()
+
+    run(live(), play, (120, 40))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from bot_console.tui.console.robot.robot_model import Pose, Turtle, TurtleField, WorldInfo
+from fakes import START
 from piloting import Session, run
 from samples import empty, faulty, live, world
 
@@ -77,3 +78,22 @@ def test_turtles_alone_need_no_key() -> None:
         assert "No map and no pose yet" in session.text()
 
     run(empty(), play)
+
+
+def test_the_robot_stands_where_it_was_at_the_moment_that_is_looked_at() -> None:
+    system = live()
+    system[0].past[START] = Pose(2.0, 1.0, 0.0)
+
+    async def play(session: Session) -> None:
+        await session.press("5")
+        session.app.time_cursor.move(START)
+        await session.settle()
+        assert "◆" in session.text() and "x    2.0  y    1.0" in session.text()
+        session.app.time_cursor.move(START - 1)
+        await session.settle()
+        assert "is not known" in session.text()
+        session.app.time_cursor.move(None)
+        await session.settle()
+        assert "◆" not in session.text() and "x    5.0" in session.text()
+
+    run(system, play, (100, 30))

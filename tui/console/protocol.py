@@ -26,6 +26,7 @@ from bot_console.tui.console.model import (
 )
 
 if TYPE_CHECKING:
+    from bot_console.tui.console.robot.robot_model import Pose
     from bot_console.tui.console.sights.model import Sights
     from bot_console.tui.console.traffic import Traffic
 
@@ -159,6 +160,10 @@ class ConsoleReading(Protocol):
 
     def plot_time(self, stamp: int | None = None) -> float:
         """Where a moment (ns since the epoch; None is now) lies on the time axis of all series, in s."""
+        ...
+
+    def pose_at(self, stamp: int) -> Pose | None:
+        """Where the robot was at a moment (ns since the epoch); None where that is not known."""
         ...
 
     def plottable(self) -> Sequence[str]:

@@ -27,6 +27,7 @@ from bot_console.tui.console.model import (
 from bot_console.tui.console.node import ConsoleNode
 from bot_console.tui.console.parameters.shelf import Shelf
 from bot_console.tui.console.protocol import Answer, LogSource, LogView, Samples
+from bot_console.tui.console.robot.robot_model import Pose
 from bot_console.tui.console.sights.model import Sights
 from bot_console.tui.console.traffic import Traffic
 
@@ -142,6 +143,10 @@ class LinkedConsole:
     def plot_time(self, stamp: int | None = None) -> float:
         """Where a moment lies on the time axis of all series."""
         return self._node.plots.axis_time(stamp)
+
+    def pose_at(self, stamp: int) -> Pose | None:
+        """Where the robot was at a moment."""
+        return self._node.world.past.at(stamp)
 
     def plottable(self) -> Sequence[str]:
         """Paths that can be plotted."""

@@ -18,6 +18,7 @@ from bot_console.tui.console.model import (
     Value,
 )
 from bot_console.tui.console.protocol import Answer, ConsoleReading, LogFindings, LogSource, LogView, Samples, Stream
+from bot_console.tui.console.robot.robot_model import Pose
 from bot_console.tui.console.sights.idle import IdleSights
 from bot_console.tui.console.sights.model import Sights
 from bot_console.tui.console.topics.idle import IdleTraffic
@@ -91,6 +92,10 @@ class NothingKnown:
         """The begin of the axis."""
         return 0.0
 
+    def pose_at(self, stamp: int) -> Pose | None:
+        """Nobody knows."""
+        return None
+
     def plottable(self) -> Sequence[str]:
         """Nothing can be plotted."""
         return ()
@@ -116,6 +121,7 @@ class NoConsole:
         self.changes = known.changes
         self.samples = known.samples
         self.plot_time = known.plot_time
+        self.pose_at = known.pose_at
         self.plottable = known.plottable
         self.profile_differences = known.profile_differences
 

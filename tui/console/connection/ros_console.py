@@ -33,6 +33,7 @@ from bot_console.tui.console.model import (
 )
 from bot_console.tui.console.parameters.provenance import Learn, Provenance
 from bot_console.tui.console.protocol import Answer, Console, LogSource, LogView, Samples
+from bot_console.tui.console.robot.robot_model import Pose
 from bot_console.tui.console.sights.model import Sights
 from bot_console.tui.console.traffic import Traffic
 
@@ -248,6 +249,10 @@ class RosConsole:
     def plot_time(self, stamp: int | None = None) -> float:
         """Where a moment lies on the time axis of all series."""
         return self._now.plot_time(stamp)
+
+    def pose_at(self, stamp: int) -> Pose | None:
+        """Where the robot was at a moment."""
+        return self._now.pose_at(stamp)
 
     def plottable(self) -> Sequence[str]:
         """Paths that can be plotted."""

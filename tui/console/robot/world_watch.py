@@ -6,6 +6,7 @@ The topics are found by type, so that a robot in a namespace, or another make of
 from __future__ import annotations
 
 import math
+import time
 from collections import deque
 from collections.abc import Callable
 from typing import Any
@@ -13,6 +14,7 @@ from typing import Any
 import numpy as np
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.offered import OfferedSubscription
+from bot_console.tui.console.robot.past_poses import PastPoses, heading
 from bot_console.tui.console.robot.robot_model import GridMap, Pose, WorldInfo
 from bot_console.tui.console.robot.turtle_watch import TurtleWatch
 from nav_msgs.msg import OccupancyGrid, Odometry
@@ -43,6 +45,7 @@ class WorldWatch:
         self._odometry: Odometry | None = None
         self._scan: LaserScan | None = None
         self._trail: deque[tuple[float, float]] = deque(maxlen=TRAIL)
+        self.past = PastPoses()
         self._turtles = TurtleWatch(node)
         self._fresh = False
         self._info = WorldInfo()
@@ -77,7 +80,7 @@ class WorldWatch:
 
     def _on_map(self, message: OccupancyGrid) -> None:
         meta = message.info
-        origin = Pose(meta.origin.position.x, meta.origin.position.y, _heading(meta.origin.orientation))
+        origin = Pose(meta.origin.position.x, meta.origin.position.y, heading(meta.origin.orientation))
         cells = np.asarray(message.data, np.int8).tobytes()  # -1, unknown, is the byte 255
         self._map = GridMap(meta.width, meta.height, meta.resolution, origin, cells)
         self._trail.clear()
@@ -87,6 +90,7 @@ class WorldWatch:
         place = message.pose.pose.position
         if not self._trail or math.dist(self._trail[-1], (place.x, place.y)) >= TRAIL_STEP:
             self._trail.append((place.x, place.y))
+        self.past.add(time.time_ns(), message.pose.pose)
         self._odometry = message
         self._fresh = True
 
@@ -107,7 +111,7 @@ class WorldWatch:
         pose, speed, turn = None, 0.0, 0.0
         if odometry:
             place = odometry.pose.pose
-            pose = Pose(place.position.x, place.position.y, _heading(place.orientation))
+            pose = Pose(place.position.x, place.position.y, heading(place.orientation))
             speed, turn = odometry.twist.twist.linear.x, odometry.twist.twist.angular.z
         hits, nearest = _hits(scan, pose) if scan else ((), None)
         source = self._subscriptions.get("nav_msgs/msg/Odometry")
@@ -133,12 +137,6 @@ def _best(offered: set[str], wanted: tuple[str, ...]) -> str:
 
 def _rank(token: str, wanted: tuple[str, ...]) -> int:
     return wanted.index(token) if token in wanted else len(wanted)
-
-
-def _heading(orientation: Any) -> float:
-    """The yaw of a quaternion, in rad."""
-    q = orientation
-    return math.atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z))
 
 
 def _hits(scan: LaserScan, pose: Pose | None) -> tuple[tuple[tuple[float, float], ...], float | None]:

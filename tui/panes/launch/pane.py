@@ -101,9 +101,17 @@ class LaunchPane(ListPane):
 
     def _show_events(self) -> None:
         info = self._info or LaunchInfo()
-        newest = info.timeline[-EVENTS:]
-        lines: list[Line] = [((event_text(each), STYLES.get(each.severity, "dim")),) for each in newest]
+        stamp = self.time_cursor.stamp
+        until = [each for each in info.timeline if stamp is None or each.stamp <= stamp]
+        lines: list[Line] = [((event_text(each), STYLES.get(each.severity, "dim")),) for each in until[-EVENTS:]]
+        if stamp is not None:
+            lines = [*lines[1 - EVENTS :], ((f"◆ {clock_text(stamp)}", "accent"),)]
         self.query_one("#launch-events", Picture).set_lines(lines)
+
+    def time_moved(self, stamp: int | None) -> None:
+        """Show the events up to another moment."""
+        if self.is_mounted:
+            self._show_events()
 
     def _tell(self) -> None:
         info, row = self._info or LaunchInfo(), self._list.current
@@ -157,10 +165,19 @@ class LaunchPane(ListPane):
             self.host.push_screen(FactsScreen(row.process.label, facts(row.process, self._info or LaunchInfo())))
 
     def action_timeline(self) -> None:
-        """Show all launch events, the newest first."""
-        events = (self._info or LaunchInfo()).timeline
-        lines = [event_text(each) for each in reversed(events)] or ["nothing yet"]
-        self.host.push_screen(FactsScreen("Launch events", [("Newest first", lines)]))
+        """All launch events, the newest first; one of them is the moment to look at."""
+        events = {str(each.seq): each for each in reversed((self._info or LaunchInfo()).timeline)}
+
+        def find(typed: str) -> Sequence[Option]:
+            options = [Option(event_text(each), value=seq) for seq, each in events.items()]
+            return [each for each in options if typed.strip().lower() in each.title.lower()]
+
+        def look(seq: str) -> None:
+            self.time_cursor.move(events[seq].stamp, self)
+            self.time_moved(events[seq].stamp)
+
+        hint = "words of an event; enter shows its moment in log, plot and world"
+        self.ask(Choice("Launch events", look, find=find, hint=hint, empty="Nothing of that kind has happened."))
 
     def action_do(self, verb: str) -> None:
         """Start, stop, restart or kill what is at the cursor."""

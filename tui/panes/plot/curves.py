@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 from bot_console.tui.console.protocol import Console
+from bot_console.tui.panes.plot.thresholds import Threshold
 
 Array = npt.NDArray[np.float64]
 MOST = 20_000
@@ -29,6 +30,9 @@ class Curve:
     problem: str = ""
     headers: Array = field(default_factory=_empty)
     """The times in the headers of the messages; NaN where a message has none."""
+    right: bool = False
+    """Whether it is measured on the right axis."""
+    thresholds: tuple[Threshold, ...] = ()
     by_header: bool = False
     """Whether samples lie where their headers say, instead of where they came."""
 

@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any, ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, JournalState
-from bot_console.tui.console.protocol import Answer
 from bot_console.tui.format import clock_text, cut
 from bot_console.tui.opening import matching
-from bot_console.tui.panes.pane import Pane
-from bot_console.tui.panes.plot.parts import DEFAULTS, WINDOWS, Timeline, limits_of, wrong_limits
+from bot_console.tui.panes.plot.parts import DEFAULTS, WINDOWS, Timeline
+from bot_console.tui.panes.plot.questions import PlotQuestions
 from bot_console.tui.panes.plot.responses import Responses, wrong_formula
 from bot_console.tui.widgets.picture import Line, Picture
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Line as Asked
 from textual.app import ComposeResult
+
+FORMS = ("framed", "strips", "lines")
 
 LEAST_FRAME = 8
 """Lines from which on a frame with axes leaves room for the trace."""
@@ -28,15 +28,16 @@ SCORED = ("rise", "overshoot", "settling", "error")
 EMPTY = "No curves. Press a and name one: /topic/field, or /node:parameter."
 
 
-class PlotPane(Pane):
+class PlotPane(PlotQuestions):
     """Curves over time."""
 
     TITLE = "Plot"
     HELP = (
-        "Numbers over time: a field of a topic such as /odom/twist.twist.linear.x or /scan/ranges[0], or a parameter\n"
-        "such as /robot_navigator:max_speed. ▲ on the time axis marks a changed parameter, ✗ a refused one. A value\n"
-        "that is not finite leaves a gap. Space pauses the picture; left and right then move through time. , and . go\n"
-        "from mark to mark and say what was changed there. o lays the responses to set A and set B over each other,\n"
+        "Numbers over time: a field of a topic such as /odom/twist.twist.linear.x or min(/scan/ranges), a parameter\n"
+        "such as /robot_navigator:max_speed, or an expression: /a/x - /b/x, derivative(/a/x), mean(/a/x, 1 s).\n"
+        "▲ on the time axis marks a changed parameter, ✗ a refused one, ! a crossed threshold. A value that is not\n"
+        "finite leaves a gap. Space pauses; c sets a cursor that left and right move. , and . go from mark to mark\n"
+        "and say what was changed there. o lays the responses to set A and set B over each other,\n"
         "with rise time (10 to 90 %), overshoot, settling time (5 %) and steady error against the reference."
     )
     BINDINGS = keymap.bindings("plot")
@@ -46,9 +47,7 @@ class PlotPane(Pane):
         super().__init__(*args, **kwargs)
         self._timeline = Timeline(self.console)
         self._responses = Responses(self.console)
-        self._chosen = 0
-        self._strips = False
-        self._touched = False
+        self._form = "framed"
         self._expected: list[str] = []
         self._journal: JournalState | None = None
         self._graph: object = None
@@ -64,11 +63,6 @@ class PlotPane(Pane):
     def focus_target(self) -> None:
         """The pane itself takes the keys."""
         self.focus()
-
-    @property
-    def paths(self) -> list[str]:
-        """What is plotted."""
-        return [each.path for each in self._timeline.curves]
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Plot the speed when there is one and nothing else was asked for; mark new changes."""
@@ -103,7 +97,7 @@ class PlotPane(Pane):
         known = self.console.plottable()
         topics = {each.name for each in snapshot.graph.topics}
         for wanted in tuple(self._expected):
-            found = matching(wanted, known)
+            found = matching(wanted, known) or _worked_out(wanted, known)
             if found or wanted in topics:
                 self._expected.remove(wanted)
                 for path in found or [wanted]:  # of which the latter is refused with the reason
@@ -122,8 +116,10 @@ class PlotPane(Pane):
         picture, legend = self.query_one("#plot-picture", Picture), self.query_one("#plot-legend", Picture)
         curves = self._timeline.curves
         width, height = picture.size
-        strips = self._strips or self.size.height < LEAST_FRAME + len(curves)
-        below = 0 if strips else min(len(curves), 6)
+        form = self._form
+        if form == "framed" and self.size.height < LEAST_FRAME + len(curves):
+            form = "strips"
+        below = min(len(curves), 6) if form == "framed" else 0
         if legend.styles.height is None or legend.styles.height.value != below:
             legend.styles.height = below
         self.caption(self._status())
@@ -135,8 +131,8 @@ class PlotPane(Pane):
         if self._responses.shown:
             picture.set_lines(self._responses.draw(curves, self._chosen, self._timeline.window, (width, height)))
         else:
-            picture.set_lines(self._lines(width, height, strips))
-        if not strips:
+            picture.set_lines(self._lines(width, height, form))
+        if below:
             from bot_console.tui.panes.plot.view import legend as line
 
             axes = self._timeline.axes(width)
@@ -145,14 +141,20 @@ class PlotPane(Pane):
                 [line(each, axes, width, at == self._chosen) for at, each in enumerate(curves)][first : first + 6]
             )
 
-    def _lines(self, width: int, height: int, strips: bool) -> Sequence[Line]:
+    def _lines(self, width: int, height: int, form: str) -> Sequence[Line]:
         # NumPy is imported after the first frame: it is a third of the start-up time.
         from bot_console.tui.panes.plot import view as plot_view
+        from bot_console.tui.panes.plot.pictures import against, sparklines
 
         timeline = self._timeline
-        axes = timeline.axes(width if strips else width - plot_view.LABEL)
-        if strips:
+        axes = timeline.axes(width - plot_view.LABEL if form == "framed" else width)
+        if form == "strips":
             return plot_view.strips(timeline.curves, axes, width, height, self._chosen)
+        if form == "lines":
+            return sparklines.sparklines(timeline.curves, axes, width, height, self._chosen)
+        base = next((each for each in timeline.curves if each.path == timeline.against), None)
+        if base is not None and len(timeline.curves) > 1:
+            return against.against(base, timeline.curves, axes, width, height)
         return plot_view.framed(timeline.curves, timeline.marks, axes, width, height)
 
     def time_moved(self, stamp: int | None) -> None:
@@ -168,8 +170,8 @@ class PlotPane(Pane):
             self.notify("No further change of a parameter is marked.")
             return
         stamps = {self.console.plot_time(each.stamp): each.stamp for each in self.console.changes()}
-        self.time_cursor.move(stamps.get(time), self)
-        self.time_moved(stamps.get(time))
+        if (stamp := stamps.get(time)) is not None:
+            self._look_at(stamp)
 
     def action_now(self) -> None:
         """Look at what is now again."""
@@ -207,7 +209,11 @@ class PlotPane(Pane):
         timeline = self._timeline
         if self._responses.shown:
             return self._responses.caption(timeline.curves, self._chosen)
-        parts = [f"{timeline.window:g} s"]
+        parts = [*timeline.crossed(), f"{timeline.window:g} s"]
+        if timeline.by_header:
+            parts.append("header time")
+        if timeline.against:
+            parts.append(f"against {timeline.against}" if len(self.paths) > 1 else "against: add a second curve")
         if timeline.cursor is not None:
             parts.append(self._at_cursor())
         if timeline.paused_at is not None:
@@ -223,47 +229,12 @@ class PlotPane(Pane):
         event.stop()
         self.draw()
 
-    def action_add(self) -> None:
-        """Ask for a path."""
-        known = [each for each in self.console.plottable() if each.isprintable()]
-        self.ask(Asked("plot", self._add_all, text="/", suggestions=known))
-
-    def _add_all(self, paths: str) -> None:
-        from bot_console.tui.panes.plot.formula import split
-
-        for path in split(paths):
-            self.add(path)
-
-    def add(self, path: str) -> None:
-        """Plot a path, or say why not."""
-        self._touched = True
-        path = path.strip()
-        if not path or path in self.paths:
-            return
-        answer = self._timeline.add(path)
-        if answer.ok:
-            self._chosen = len(self.paths) - 1
-        else:
-            self.notify(answer.text, title="Not plotted", severity="warning", markup=False)
-        self.tick(force=True)
-
     def action_remove(self) -> None:
         """Remove the chosen curve."""
         self._touched = True
         if self.paths:
-            self._drop(self._chosen)
+            self._timeline.remove(self._chosen)
             self._chosen = max(0, min(self._chosen, len(self.paths) - 1))
-        self.draw()
-
-    def _drop(self, at: int) -> None:
-        self._timeline.remove(at)
-
-    def action_remove_all(self) -> None:
-        """Remove all curves."""
-        self._touched = True
-        while self.paths:
-            self._drop(0)
-        self._chosen = 0
         self.draw()
 
     def action_pause(self) -> None:
@@ -277,8 +248,25 @@ class PlotPane(Pane):
         self._timeline.window = WINDOWS[max(0, min(at, len(WINDOWS) - 1))]
         self.draw()
 
+    def action_cursor(self) -> None:
+        """A cursor at the newest sample, or none again."""
+        if self._timeline.cursor is None:
+            self._look_at(self._timeline.beside_cursor(0, self._across()))
+        else:
+            self.action_now()
+
+    def _across(self) -> int:
+        return self.query_one("#plot-picture", Picture).size.width
+
+    def _look_at(self, stamp: int) -> None:
+        self.time_cursor.move(stamp, self)
+        self.time_moved(stamp)
+
     def action_shift(self, step: int) -> None:
-        """Move through time, which pauses."""
+        """Move the cursor; where there is none the window, which pauses."""
+        if self._timeline.cursor is not None:
+            self._look_at(self._timeline.beside_cursor(step, self._across()))
+            return
         if self._timeline.paused_at is None:
             self._timeline.pause()
         self._timeline.shift(step)
@@ -290,8 +278,26 @@ class PlotPane(Pane):
         self.draw()
 
     def action_form(self) -> None:
-        """Framed plot, or strips."""
-        self._strips = not self._strips
+        """Framed plot, a strip for each curve, or a line for each."""
+        self._form = FORMS[(FORMS.index(self._form) + 1) % len(FORMS)]
+        self.draw()
+
+    def action_right_axis(self) -> None:
+        """Measure the chosen curve on the other axis."""
+        if self.paths:
+            curve = self._timeline.curves[self._chosen]
+            curve.right = not curve.right
+            self.draw()
+
+    def action_against(self) -> None:
+        """The chosen curve in place of time, or time again."""
+        path = self.paths[self._chosen] if self.paths else ""
+        self._timeline.against = "" if self._timeline.against == path else path
+        self.draw()
+
+    def action_header_time(self) -> None:
+        """Place samples by the headers of messages, or by when these came."""
+        self._timeline.time_of(by_header=not self._timeline.by_header)
         self.draw()
 
     def action_clear(self) -> None:
@@ -299,32 +305,13 @@ class PlotPane(Pane):
         self._timeline.clear()
         self.draw()
 
-    def action_limits(self) -> None:
-        """Ask for the limits of the values."""
-        now = self._timeline.limits
-        text = f"{now[0]:g} {now[1]:g}" if now else ""
-        label = "least and greatest value (empty: automatic)"
-        self.ask(Asked(label, self._limit, text=text, check=wrong_limits))
 
-    def _limit(self, text: str) -> None:
-        self._timeline.limits = limits_of(text)
-        self.draw()
+def _worked_out(wanted: str, known: Sequence[str]) -> list[str]:
+    """An expression, as soon as all that it needs is there."""
+    from bot_console.tui.panes.plot.formula import Formula, read
 
-    def action_export(self) -> None:
-        """Ask where the samples go."""
-        self.ask_file("save samples to", "plot.csv", self._save_samples)
-
-    def action_picture(self) -> None:
-        """Ask where the picture goes."""
-        self.ask_file("save picture to (.txt .html)", "plot.html", self._save_picture)
-
-    def _save_samples(self, path: Path) -> Answer:
-        from bot_console.tui.panes.plot.save import samples
-
-        return Answer(True, f"{samples(path, self._timeline.curves)} samples saved to {path}")
-
-    def _save_picture(self, path: Path) -> Answer:
-        from bot_console.tui.panes.plot.save import picture
-
-        picture(path, self._timeline.curves, self._timeline.axes(120))
-        return Answer(True, f"picture saved to {path}")
+    try:
+        formula = read(wanted)
+    except ValueError:
+        return []
+    return [wanted] if isinstance(formula, Formula) and all(each in known for each in formula.paths) else []

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from bot_console.tui.console.model import Change
 from bot_console.tui.console.protocol import Answer, Console
 from bot_console.tui.format import value_text
+from bot_console.tui.panes.plot.thresholds import first_crossed
 
 if TYPE_CHECKING:
     from bot_console.tui.panes.plot.curves import Curve
@@ -36,6 +37,8 @@ class Timeline:
     def __init__(self, console: Console) -> None:
         self._console = console
         self.curves: list[Curve] = []
+        self.against = ""
+        """The path of the curve that is drawn in place of time; empty: time."""
         self.by_header = False
         """Whether samples lie where the headers of their messages say."""
         self._sources: dict[str, Curve] = {}
@@ -91,8 +94,9 @@ class Timeline:
 
     def remove(self, at: int) -> None:
         """Forget a curve, and its samples where no other one needs them."""
-        paths = self._uses.pop(self.curves.pop(at).path)
-        self._forget(paths)
+        curve = self.curves.pop(at)
+        self.against = "" if self.against == curve.path else self.against
+        self._forget(self._uses.pop(curve.path))
 
     def _forget(self, paths: Sequence[str]) -> None:
         needed = {path for paths in self._uses.values() for path in paths}
@@ -123,6 +127,10 @@ class Timeline:
         if self.paused_at is not None:
             self.new_samples += sum(each.cursor for each in self._sources.values()) - before
         return changed
+
+    def set_window(self, seconds: float) -> None:
+        """The length of the window that is nearest to so many seconds."""
+        self.window = min(WINDOWS, key=lambda each: abs(each - seconds))
 
     def marks_of(self, changes: Sequence[Change]) -> None:
         """Mark parameter changes and refusals."""
@@ -160,6 +168,30 @@ class Timeline:
         """Hold the window where it is, or let it follow again."""
         self.paused_at = self.newest() if self.paused_at is None else None
         self.new_samples = 0
+
+    def stamp_of(self, time: float) -> int:
+        """The moment (ns since the epoch) of a time of the axis."""
+        return round((time - self._console.plot_time(0)) * 1e9)
+
+    def wall(self, time: float) -> float:
+        """The same in s."""
+        return self.stamp_of(time) / 1e9
+
+    def beside_cursor(self, step: int, across: int) -> int:
+        """The moment so many cells beside the cursor, or where there is none before the newest sample."""
+        axes = self.axes(across)
+        at = self.cursor if self.cursor is not None else min(self.newest(), axes.end)
+        return self.stamp_of(at + step * self.window / max(1, across))
+
+    def crossed(self) -> list[str]:
+        """What lies beyond one of its thresholds, at the cursor or else now."""
+        found: list[str] = []
+        for each in self.curves:
+            value = each.latest if self.cursor is None else each.at(self.cursor)
+            over = first_crossed(each.thresholds, value)
+            if over is not None:
+                found.append(f"! {each.path} {over.text}")
+        return found
 
     def shift(self, step: int) -> None:
         """Move a held window by a tenth of its length."""

@@ -1,38 +1,59 @@
-"""A plot as a file: its samples as CSV, its picture drawn by plotext with axes and legend."""
+"""A plot as a file: the samples that are seen as CSV, the picture as SVG, PNG, HTML or text."""
 
 from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from bot_console.tui.files.save_file import save_file
 from bot_console.tui.panes.plot.curves import Curve
-from bot_console.tui.panes.plot.view import Axes
+from bot_console.tui.panes.plot.view import Axes, Mark
 
 SIZE = (120, 34)
 """Cells of the saved picture."""
 
 
-def samples(path: Path, curves: Sequence[Curve]) -> int:
-    """Write every sample as `series,time,value` (time in s); gives their number; raises `NotSaved`."""
+def samples(path: Path, curves: Sequence[Curve], axes: Axes, wall: Callable[[float], float]) -> int:
+    """Write what is seen as `series,time,seconds,value`; gives the number of samples; raises `NotSaved`.
+
+    `time` is that of the clock on the wall with its zone, `seconds` the same since the epoch, by `wall`.
+    """
     count = 0
     file = io.StringIO(newline="")
     writer = csv.writer(file)
-    writer.writerow(["series", "time", "value"])
+    writer.writerow(["series", "time", "seconds", "value"])
     for curve in curves:
-        for time, value in zip(curve.times.tolist(), curve.values.tolist(), strict=True):
-            writer.writerow([curve.path, f"{time:.6f}", repr(value)])
+        times, values = curve.samples()
+        inside = (times >= axes.start) & (times <= axes.end)
+        for time, value in zip(times[inside].tolist(), values[inside].tolist(), strict=True):
+            seconds = wall(time)
+            moment = datetime.fromtimestamp(seconds).astimezone().isoformat(timespec="microseconds")
+            writer.writerow([curve.path, moment, f"{seconds:.6f}", repr(value)])
             count += 1
     save_file(path, file.getvalue())
     return count
 
 
-def picture(path: Path, curves: Sequence[Curve], axes: Axes) -> None:
-    """Write what is seen as `.html`, else as plain text; raises `NotSaved`."""
+def picture(
+    path: Path, curves: Sequence[Curve], marks: Sequence[Mark], axes: Axes, wall: Callable[[float], float]
+) -> None:
+    """Write what is seen as `.svg`, `.png` or `.html`, else as plain text; raises `NotSaved`."""
+    if path.suffix in (".svg", ".png"):
+        from bot_console.tui.panes.plot.pictures import files
+        from bot_console.tui.panes.plot.pictures.sheet import sheet
+
+        page = sheet(curves, marks, axes, wall)
+        (files.write_svg if path.suffix == ".svg" else files.write_png)(path, page)
+    else:
+        _by_plotext(path, curves, axes)
+
+
+def _by_plotext(path: Path, curves: Sequence[Curve], axes: Axes) -> None:
     # plotext takes longer to import than all panes together, and is needed here alone.
     import plotext  # pyright: ignore[reportMissingTypeStubs] -- it has no stubs
 

@@ -10,11 +10,16 @@ import numpy as np
 import numpy.typing as npt
 from bot_console.tui.format import harmless
 from bot_console.tui.panes.plot.curves import Curve, Reach, reach
+from bot_console.tui.panes.plot.thresholds import first_crossed
+from bot_console.tui.panes.plot.window_facts import window_facts
 from bot_console.tui.widgets.braille import BrailleCanvas, layered
 from bot_console.tui.widgets.picture import Line
 
 LABEL = 9
 """Cells of the value axis with its labels."""
+
+WIDE = 130
+"""Cells from which on the legend says more of each curve."""
 
 HUGE = 1e300
 """Values beyond are drawn here, so that the difference of two values is always a number."""
@@ -54,18 +59,53 @@ class Axes:
 
 
 def framed(curves: Sequence[Curve], marks: Sequence[Mark], axes: Axes, width: int, height: int) -> list[Line]:
-    """All curves on common axes; `height` is at least 4 lines, two of them below the picture."""
-    across, down = max(4, width - LABEL), max(2, height - 2)
-    reaches = [_reach(curve, axes, across) for curve in curves]
-    low, high = axes.limits or limits(reaches)
-    layers = [_canvas(each, low, high, across, down) for each in reaches]
-    rows = layered(layers, [_style(curve) for curve in curves], across, down)
-    labels = _labels(low, high, down)
+    """All curves in one frame; `height` is at least 4 lines, two of them below the picture.
+
+    Curves of the right axis have limits of their own, told on the right; `axes.limits` are those of the left one.
+    """
+    right = [each.right for each in curves]
+    both = any(right) and not all(right)
+    across, down = max(4, width - LABEL * (2 if both else 1)), max(2, height - 2)
+    reaches = [reach_of(curve, axes, across) for curve in curves]
+    left_limits = axes.limits or limits(
+        [each for each, other in zip(reaches, right, strict=True) if not (both and other)]
+    )
+    right_limits = limits([each for each, other in zip(reaches, right, strict=True) if other]) if both else left_limits
+    spans = [right_limits if other else left_limits for other in right]
+    layers = [canvas(each, *span, across, down) for each, span in zip(reaches, spans, strict=True)]
+    dotted = [_dotted(curve, *span, across, down) for curve, span in zip(curves, spans, strict=True)]
+    styles = [style_of(curve) for curve in curves]
+    rows = layered([*layers, *dotted], [*styles, *styles], across, down)
+    labels, others = labels_of(*left_limits, down), labels_of(*right_limits, down) if both else {}
     lines: list[Line] = []
     for row, pieces in enumerate(rows):
         edge = "┤" if row in labels else "│"
-        lines.append(((f"{labels.get(row, ''):>{LABEL - 2}} {edge}", "dim"), *pieces))
-    return [*lines, *_time_axis(marks, axes, across)]
+        line: Line = ((f"{labels.get(row, ''):>{LABEL - 2}} {edge}", "dim"), *pieces)
+        if both:
+            line = (*line, (f"{'├' if row in others else '│'} {others.get(row, ''):<{LABEL - 2}}", "dim"))
+        lines.append(line)
+    return [*lines, *_time_axis(marks, axes, across, _excursions(curves, reaches))]
+
+
+def _dotted(curve: Curve, low: float, high: float, across: int, down: int) -> npt.NDArray[np.uint8]:
+    """The thresholds of a curve as dotted lines."""
+    dots = BrailleCanvas(across, down)
+    for each in curve.thresholds:
+        if low <= each.value <= high:
+            row = (high - each.value) / (high - low) * (down * 4 - 1)
+            dots.points(np.arange(0, across * 2, 4), np.full(-(-across * 2 // 4), row))
+    return dots.codes()
+
+
+def _excursions(curves: Sequence[Curve], reaches: Sequence[Reach]) -> list[int]:
+    """The cells in which a curve begins to lie beyond one of its thresholds."""
+    begins: set[int] = set()
+    for curve, seen in zip(curves, reaches, strict=True):
+        for each in curve.thresholds:
+            with np.errstate(invalid="ignore"):
+                beyond = seen.high > each.value if each.above else seen.low < each.value
+            begins.update((np.flatnonzero(beyond & ~np.append(False, beyond[:-1])) // 2).tolist())
+    return sorted(begins)
 
 
 def strips(curves: Sequence[Curve], axes: Axes, width: int, height: int, chosen: int) -> list[Line]:
@@ -73,21 +113,28 @@ def strips(curves: Sequence[Curve], axes: Axes, width: int, height: int, chosen:
     lines: list[Line] = []
     room = max(2, height // max(1, len(curves)))
     for at, curve in enumerate(curves):
-        seen = _reach(curve, axes, width)
+        seen = reach_of(curve, axes, width)
         low, high = axes.limits or limits([seen])
         lines.append(legend(curve, axes, width, at == chosen))
-        rows = layered([_canvas(seen, low, high, width, room - 1)], [_style(curve)], width, room - 1)
+        rows = layered([canvas(seen, low, high, width, room - 1)], [style_of(curve)], width, room - 1)
         lines += [tuple(row) for row in rows]
     return lines[:height]
 
 
-def _style(curve: Curve) -> str:
+def style_of(curve: Curve) -> str:
+    """The style of a curve's colour."""
     return f"curve-{curve.colour % 6}"
 
 
-def _reach(curve: Curve, axes: Axes, across: int) -> Reach:
+def reach_of(curve: Curve, axes: Axes, across: int) -> Reach:
+    """What of a curve is seen in so many cells."""
     times, values = curve.between(axes.start, axes.end)
     return reach(times, values.clip(-HUGE, HUGE), axes.start, axes.end, across * 2)
+
+
+def limits_of_values(several: Sequence[npt.NDArray[np.float64]]) -> tuple[float, float]:
+    """Limits that hold all values, at round numbers."""
+    return limits([Reach(each.clip(-HUGE, HUGE), each.clip(-HUGE, HUGE)) for each in several])
 
 
 def limits(reaches: Sequence[Reach]) -> tuple[float, float]:
@@ -110,7 +157,7 @@ def tick_step(span: float, most: int) -> float:
     return next((each * power for each in (1, 2, 5) if each * power >= raw), 10 * power)
 
 
-def _canvas(seen: Reach, low: float, high: float, across: int, down: int) -> npt.NDArray[np.uint8]:
+def canvas(seen: Reach, low: float, high: float, across: int, down: int) -> npt.NDArray[np.uint8]:
     """Braille codes of one trace, by row and column of cells."""
     canvas = BrailleCanvas(across, down)
     dots = down * 4
@@ -124,7 +171,7 @@ def _canvas(seen: Reach, low: float, high: float, across: int, down: int) -> npt
     return canvas.codes()
 
 
-def _labels(low: float, high: float, down: int) -> dict[int, str]:
+def labels_of(low: float, high: float, down: int) -> dict[int, str]:
     """The text of each labelled row."""
     step = tick_step(high - low, max(2, down // 3))
     labels: dict[int, str] = {}
@@ -147,8 +194,8 @@ def short_number(value: float, step: float = 0.0) -> str:
     return next(form for form in forms if len(form) <= 7 or form is forms[-1])
 
 
-def _time_axis(marks: Sequence[Mark], axes: Axes, across: int) -> list[Line]:
-    """The axis with ticks and marks, and its labels: seconds before the right edge."""
+def _time_axis(marks: Sequence[Mark], axes: Axes, across: int, beyond: Sequence[int] = ()) -> list[Line]:
+    """The axis with ticks and marks, `!` where a threshold is crossed, and labels: seconds before the right edge."""
     span = axes.end - axes.start
     step = tick_step(span, max(2, across // 12))
     axis = ["─"] * across
@@ -167,6 +214,8 @@ def _time_axis(marks: Sequence[Mark], axes: Axes, across: int) -> list[Line]:
     for mark in marks:
         if (column := axes.column(mark.time, across)) is not None:
             axis[column] = "✗" if mark.refused else ("▲" if axis[column] != "✗" else "✗")
+    for column in beyond:
+        axis[column] = "!" if axis[column] in "─┬" else axis[column]
     edge = " " * (LABEL - 1) + "╰"
     at = None if axes.cursor is None else axes.column(axes.cursor, across)
     if at is None:
@@ -177,24 +226,35 @@ def _time_axis(marks: Sequence[Mark], axes: Axes, across: int) -> list[Line]:
 
 
 def legend(curve: Curve, axes: Axes, width: int, chosen: bool) -> Line:
-    """Name, newest value, and least, greatest and mean value of what is seen."""
-    start, style = ("▸ " if chosen else "  "), _style(curve)
-    latest = "" if curve.latest is None else short_number(curve.latest)
-    facts = "  " + (harmless(curve.problem) or (_facts(curve, axes) if width >= 60 else ""))
+    """Name, value at the cursor, else the newest one, and what the samples that are seen amount to."""
+    start, style = ("▸ " if chosen else "  "), style_of(curve)
+    facts = "  " + (harmless(curve.problem) or (_facts(curve, axes, width) if width >= 60 else ""))
     if curve.latest is None and not curve.problem:
         facts = "  waiting for the first sample"
     room = max(8, width - len(start) - 2 - 9 - len(facts))
-    path = harmless(curve.path)
+    path = harmless(curve.path) + ("  right axis" if curve.right else "")
     name = path if len(path) <= room else "…" + path[-room + 1 :]
-    return ((start, "strong"), ("━ " + name.ljust(min(room, 48)), style), (f"{latest:>8} ", "strong"), (facts, "dim"))
+    over = first_crossed(curve.thresholds, _value(curve, axes))
+    value = (f"{legend_value(curve, axes):>8} ", "error" if over else "strong")
+    return ((start, "strong"), ("━ " + name.ljust(min(room, 48)), style), value, (facts, "dim"))
 
 
-def _facts(curve: Curve, axes: Axes) -> str:
-    times, values = curve.between(axes.start, axes.end)
-    seen = values[(times >= axes.start) & (times <= axes.end)]
-    fine = seen[np.isfinite(seen)]
-    if not len(fine):
+def _value(curve: Curve, axes: Axes) -> float | None:
+    return curve.latest if axes.cursor is None else curve.at(axes.cursor)
+
+
+def legend_value(curve: Curve, axes: Axes) -> str:
+    """The value at the cursor, else the newest one; `!` before one beyond a threshold."""
+    value = _value(curve, axes)
+    over = "!" if first_crossed(curve.thresholds, value) else ""
+    return over + ("" if value is None else short_number(value))
+
+
+def _facts(curve: Curve, axes: Axes, width: int) -> str:
+    facts = window_facts(curve, axes.start, axes.end)
+    if facts is None:
         return "no numbers in this window"
-    lowest, highest, mean = (short_number(float(each)) for each in (fine.min(), fine.max(), fine.mean()))
-    gaps = len(seen) - len(fine)
-    return f"min {lowest}  max {highest}  mean {mean}" + (f"  {gaps} not finite" if gaps else "")
+    text = f"min {short_number(facts.low)}  max {short_number(facts.high)}  mean {short_number(facts.mean)}"
+    if width >= WIDE:
+        text += f"  σ {short_number(facts.std)}" + (f"  {short_number(facts.rate, 0.1)} Hz" if facts.rate else "")
+    return text + (f"  {facts.gaps} not finite" if facts.gaps else "")

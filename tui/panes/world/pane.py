@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.console.robot.robot_model import TurtleField, WorldInfo
+from bot_console.tui.console.robot.robot_model import Pose, TurtleField, WorldInfo
+from bot_console.tui.format import clock_text
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.words import Words
@@ -41,7 +42,7 @@ class WorldMap(Picture):
         """Draw a world."""
         # Ranges are noisy, so hits flicker all over the map: they are what costs bytes.
         self._age = (self._age + 1) % HITS_EVERY
-        keep = self._age and self._world.hits
+        keep = self._age and self._world.hits and world.hits
         self._world = replace(world, hits=self._world.hits) if keep else world
         self.draw()
 
@@ -92,6 +93,7 @@ class WorldPane(Pane):
     TITLE = "World"
     HELP = (
         "The map, the robot as an arrow, where it has been, and where its LIDAR beams end. + zooms in, f shows all. "
+        "While another moment is looked at (plot, log, history) it stands where it was then. "
         "A field of turtlesim shows with its turtles and what they draw; n shows the next place."
     )
     BINDINGS = keymap.bindings("world")
@@ -102,6 +104,8 @@ class WorldPane(Pane):
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
         self._world: WorldInfo | None = None
+        self._then: Pose | None = None
+        """Where the robot was at the moment that is looked at; None: now, or nobody knows."""
         self._snapshot = ConsoleSnapshot()
         self.can_focus = True
 
@@ -121,8 +125,20 @@ class WorldPane(Pane):
             self._facts()
         if snapshot.world is not self._world:
             self._world = snapshot.world
-            self.query_one(WorldMap).show(snapshot.world)
-            self._facts()
+            self._draw()
+
+    def _draw(self) -> None:
+        world = self._world or WorldInfo()
+        if self._then is not None:
+            world = replace(world, pose=self._then, hits=())
+        self.query_one(WorldMap).show(world)
+        self._facts()
+
+    def time_moved(self, stamp: int | None) -> None:
+        """Show where the robot was at another moment."""
+        self._then = None if stamp is None else self.console.pose_at(stamp)
+        if self.is_mounted:
+            self._draw()
 
     def on_picture_resized(self, event: Picture.Resized) -> None:
         """Draw for the new size."""
@@ -140,10 +156,14 @@ class WorldPane(Pane):
             text = snapshot.capabilities.world or "No map and no pose yet: no node publishes OccupancyGrid or Odometry."
             text = snapshot.problem or text
         else:
-            pose = world.pose
+            pose = self._then or world.pose
             near = "free" if world.nearest is None else f"{world.nearest:.1f} m"
             where = f"x {pose.x:6.1f}  y {pose.y:6.1f}" if pose else "pose unknown"
             text = f"{where}  {world.speed:+.1f} m/s  nearest {near}  {drawn.scale}{more}"
+            stamp = self.time_cursor.stamp
+            if stamp is not None:
+                known = f"{where}  " if self._then else "where the robot was then is not known  "
+                text = f"◆ {clock_text(stamp)}  {known}{drawn.scale}{more}"
         self.query_one("#world-facts", Words).say(text)
 
     def action_next_place(self) -> None:

@@ -1,0 +1,39 @@
+"""What is suggested for what was typed."""
+
+from __future__ import annotations
+
+from bot_console.tui.panes.plot.suggestions import suggested
+
+KNOWN = (
+    "/n:max_speed",
+    "/odom/pose.pose.position.x",
+    "/odom/twist.twist.linear.x",
+    "/scan/ranges[0]",
+    "/scan/ranges.min()",
+)
+
+
+def titles(typed: str) -> list[str]:
+    return [each.title for each in suggested(KNOWN, typed)]
+
+
+def test_paths_by_their_letters_numbers_first() -> None:
+    assert titles("") == list(KNOWN)
+    assert titles("scanr")[:2] == ["/scan/ranges[0]", "/scan/ranges.min()"]
+    assert titles("twist") == ["/odom/twist.twist.linear.x"]
+    assert titles("/odom/pose.pose.position.x")[0] == "/odom/pose.pose.position.x"
+
+
+def test_an_element_or_a_part_is_taken_as_typed() -> None:
+    assert titles("/scan/ranges[17]") == ["/scan/ranges[17]"]
+    assert titles("/scan/ranges[1:9].max()") == ["/scan/ranges[1:9].max()"]
+
+
+def test_the_last_path_of_an_expression_is_completed_and_its_brackets_closed() -> None:
+    assert "deg(/n:max_speed - /odom/twist.twist.linear.x)" in titles("deg(/n:max_speed - /odtw")
+    assert titles("/n:max_speed * 2") == ["/n:max_speed * 2"]
+
+
+def test_what_is_wrong_is_said() -> None:
+    (option,) = suggested(KNOWN, "sine(/q)")
+    assert option.about.startswith("✗ 'sine' is none of")

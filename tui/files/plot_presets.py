@@ -1,0 +1,88 @@
+"""Curves that are kept under a name, in the user's folder: one JSON file each."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any, cast
+
+from bot_console.tui.files.folders import config_folder
+from bot_console.tui.files.save_file import save_file
+
+LARGEST = 1_000_000
+"""Bytes of a file that is looked at."""
+MOST_CURVES = 200
+
+
+class NoPreset(ValueError):
+    """There are no curves of that name; the text says why."""
+
+
+@dataclass(frozen=True)
+class KeptCurve:
+    """A curve as a person asked for it."""
+
+    curve: str
+    right: bool = False
+    thresholds: str = ""
+
+
+@dataclass(frozen=True)
+class Preset:
+    """Curves, the length of the window (s), the limits of the values, and the curve in place of time."""
+
+    curves: tuple[KeptCurve, ...]
+    window: float = 30.0
+    limits: str = ""
+    against: str = ""
+
+
+def preset_names() -> Sequence[str]:
+    """The names that there are."""
+    return sorted(each.stem for each in _folder().glob("*.json"))
+
+
+def wrong_name(text: str) -> str:
+    """Why a text cannot be a name; empty when it can."""
+    fits = re.fullmatch(r"[\w][\w .-]{0,59}", text.strip())
+    return "" if fits else "letters, digits, blanks, dots and dashes make a name"
+
+
+def keep_preset(name: str, preset: Preset) -> Path:
+    """Keep curves under a name, in place of those that had it; raises `NotSaved`."""
+    path = _folder() / f"{name.strip()}.json"
+    save_file(path, json.dumps(asdict(preset), indent=1, ensure_ascii=False) + "\n")
+    return path
+
+
+def read_preset(name: str) -> Preset:
+    """The curves of a name; raises `NoPreset`."""
+    path = _folder() / f"{name}.json"
+    try:
+        with path.open("rb") as file:
+            data: Any = json.loads(file.read(LARGEST))
+        curves = tuple(_curve(each) for each in data["curves"][:MOST_CURVES])
+        return Preset(curves, float(data["window"]), _text(data, "limits"), _text(data, "against"))
+    except OSError as error:
+        raise NoPreset(f"{path}: {error.strerror or error}") from None
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
+        raise NoPreset(f"{path}: holds no curves ({error})") from None
+
+
+def _curve(data: Any) -> KeptCurve:
+    found = cast("dict[str, Any]", data)
+    return KeptCurve(_text(found, "curve"), bool(found.get("right")), _text(found, "thresholds"))
+
+
+def _text(data: dict[str, Any], name: str) -> str:
+    value = data.get(name, "")
+    if not isinstance(value, str):
+        raise ValueError(f"{name} is a text")
+    return value
+
+
+def _folder() -> Path:
+    return config_folder() / "plots"

@@ -1,0 +1,181 @@
+"""What the plot asks a person for: curves, limits, thresholds, names and files."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from pathlib import Path
+
+from bot_console.tui.console.protocol import Answer
+from bot_console.tui.files import plot_presets
+from bot_console.tui.files.plot_presets import KeptCurve, NoPreset, Preset
+from bot_console.tui.files.save_file import NotSaved
+from bot_console.tui.panes.pane import Pane
+from bot_console.tui.panes.plot.parts import Timeline, limits_of, wrong_limits
+from bot_console.tui.panes.plot.thresholds import thresholds_of, thresholds_text, wrong_thresholds
+from bot_console.tui.widgets.prompt.question import Choice, Option
+from bot_console.tui.widgets.prompt.question import Line as Asked
+
+ACROSS = 120
+"""Cells of the window that is saved."""
+
+
+class PlotQuestions(Pane):
+    """A plot's curves, and the questions about them."""
+
+    _timeline: Timeline
+    _chosen = 0
+    _touched = False
+
+    def draw(self) -> None:
+        """Draw what there is."""
+        raise NotImplementedError
+
+    def tick(self, force: bool = False) -> None:
+        """Fetch new samples, and draw."""
+        raise NotImplementedError
+
+    @property
+    def paths(self) -> list[str]:
+        """What is plotted."""
+        return [each.path for each in self._timeline.curves]
+
+    def action_add(self) -> None:
+        """Ask for curves."""
+        from bot_console.tui.panes.plot.suggestions import suggested
+
+        known = [each for each in self.console.plottable() if each.isprintable()]
+        self.ask(
+            Choice(
+                "Plot",
+                self._add_all,
+                find=partial(suggested, known),
+                hint="letters of a path, or an expression such as /a/x - /b/x or mean(/a/x, 1 s)",
+                empty="No number has these letters.",
+            )
+        )
+
+    def _add_all(self, paths: str) -> None:
+        from bot_console.tui.panes.plot.formula import split
+
+        for path in split(paths):
+            self.add(path)
+
+    def add(self, path: str) -> bool:
+        """Plot a path or an expression, or say why not."""
+        self._touched = True
+        path = path.strip()
+        if not path or path in self.paths:
+            return True
+        answer = self._timeline.add(path)
+        if answer.ok:
+            self._chosen = len(self.paths) - 1
+        else:
+            self.notify(answer.text, title="Not plotted", severity="warning", markup=False)
+        self.tick(force=True)
+        return answer.ok
+
+    def action_remove_all(self) -> None:
+        """Remove all curves."""
+        self._touched = True
+        while self.paths:
+            self._timeline.remove(0)
+        self._chosen = 0
+        self.draw()
+
+    def action_limits(self) -> None:
+        """Ask for the limits of the values."""
+        label = "least and greatest value (empty: automatic)"
+        self.ask(Asked(label, self._limit, text=self._limits_text(), check=wrong_limits))
+
+    def _limits_text(self) -> str:
+        now = self._timeline.limits
+        return f"{now[0]:g} {now[1]:g}" if now else ""
+
+    def _limit(self, text: str) -> None:
+        self._timeline.limits = limits_of(text)
+        self.draw()
+
+    def action_thresholds(self) -> None:
+        """Ask for the thresholds of the chosen curve."""
+        if not self.paths:
+            return
+        curve = self._timeline.curves[self._chosen]
+
+        def take(text: str) -> None:
+            curve.thresholds = thresholds_of(text)
+            self.draw()
+
+        text = thresholds_text(curve.thresholds)
+        self.ask(Asked("too much is (> 1.5, < 0.2; empty: nothing)", take, text=text, check=wrong_thresholds))
+
+    def action_export(self) -> None:
+        """Ask where the samples go."""
+        self.ask_file("save samples to", "plot.csv", self._save_samples)
+
+    def action_picture(self) -> None:
+        """Ask where the picture goes."""
+        self.ask_file("save picture to (.svg .png .html .txt)", "plot.svg", self._save_picture)
+
+    def _save_samples(self, path: Path) -> Answer:
+        from bot_console.tui.panes.plot.save import samples
+
+        timeline = self._timeline
+        count = samples(path, timeline.curves, timeline.axes(ACROSS), timeline.wall)
+        return Answer(True, f"{count} samples saved to {path}")
+
+    def _save_picture(self, path: Path) -> Answer:
+        from bot_console.tui.panes.plot.save import picture
+
+        timeline = self._timeline
+        picture(path, timeline.curves, timeline.marks, timeline.axes(ACROSS), timeline.wall)
+        return Answer(True, f"picture saved to {path}")
+
+    def action_keep(self) -> None:
+        """Ask for a name for the curves that are shown."""
+        if self.paths:
+            self.ask(Asked("keep these curves as", self._keep, check=plot_presets.wrong_name))
+        else:
+            self.notify("There are no curves to be kept.")
+
+    def _keep(self, name: str) -> None:
+        timeline = self._timeline
+        curves = [KeptCurve(each.path, each.right, thresholds_text(each.thresholds)) for each in timeline.curves]
+        try:
+            preset = Preset(tuple(curves), timeline.window, self._limits_text(), timeline.against)
+            path = plot_presets.keep_preset(name, preset)
+        except NotSaved as error:
+            self.tell(Answer(False, f"not kept: {error}"))
+        else:
+            self.tell(Answer(True, f"curves kept in {path}; p shows them again"))
+
+    def action_kept(self) -> None:
+        """Ask which of the curves that were kept are to be shown."""
+        names = plot_presets.preset_names()
+        if not names:
+            self.notify("No curves have been kept; w keeps those that are shown.")
+            return
+
+        def find(typed: str) -> Sequence[Option]:
+            return [Option(each) for each in names if typed.strip().lower() in each.lower()]
+
+        self.ask(Choice("Curves", self.show_kept, find=find, hint="name", empty="No curves of this name were kept."))
+
+    def show_kept(self, name: str) -> None:
+        """Show the curves of a name in place of those that are shown."""
+        timeline = self._timeline
+        try:
+            preset = plot_presets.read_preset(name)
+            limits = limits_of(preset.limits)
+            thresholds = {each.curve: thresholds_of(each.thresholds) for each in preset.curves}
+        except (NoPreset, ValueError) as error:
+            self.tell(Answer(False, str(error)))
+            return
+        self.action_remove_all()
+        timeline.set_window(preset.window)
+        timeline.limits, timeline.against = limits, preset.against
+        for each in preset.curves:
+            if self.add(each.curve):
+                curve = timeline.curves[-1]
+                curve.right, curve.thresholds = each.right, thresholds[each.curve]
+        self.draw()

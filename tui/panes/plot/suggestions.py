@@ -1,0 +1,68 @@
+"""What may be plotted, for what was typed so far: paths by their letters, and expressions as they stand."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from bot_console.tui.panes.plot.formula import Formula, read
+from bot_console.tui.widgets.prompt.question import Option
+from textual.fuzzy import Matcher
+
+MOST = 200
+"""Options at most; who wants another one types more of it."""
+
+LAST_PATH = re.compile(r"(.*[-+*/%(,]\s*)(/[^\s()+*%,-]*)")
+
+
+def suggested(known: Sequence[str], typed: str) -> list[Option]:
+    """The options for a text, the best first. `known` has fields before elements and what is made of arrays."""
+    text = typed.strip()
+    if not text:
+        return [Option(each, _about(each)) for each in known[:MOST]]
+    if text in known:
+        return [
+            Option(text, _about(text)),
+            *(Option(each, _about(each)) for each in _best(known, text) if each != text),
+        ]
+    opened = LAST_PATH.fullmatch(text)
+    if opened and opened[2] not in known:
+        close = ")" * (opened[1].count("(") - opened[1].count(")"))
+        completed = [Option(f"{opened[1]}{each}{close}") for each in _best(known, opened[2])]
+        return [*completed, *_as_typed(text, completed)]
+    found = [Option(each, _about(each)) for each in _best(known, text)]
+    return [*_as_typed(text, found), *found]
+
+
+def _as_typed(text: str, found: Sequence[Option]) -> list[Option]:
+    """The text itself, where it is an expression or nothing that is known has its letters."""
+    try:
+        formula = read(text)
+    except ValueError as error:
+        return [] if found else [Option(text, f"✗ {error}")]
+    if isinstance(formula, Formula):
+        return [Option(text, "worked out")]
+    return [] if found else [Option(text)]
+
+
+def _best(known: Sequence[str], typed: str) -> list[str]:
+    letters = set(typed.lower()) - {" "}
+    some = [each for each in known if letters <= set(each.lower())]
+    matcher = Matcher(typed)
+    scores = {each: matcher.match(each) for each in some}
+    places = {each: place for place, each in enumerate(some)}
+    best = sorted(
+        (each for each in some if scores[each] > 0), key=lambda each: (_rank(each), -scores[each], places[each])
+    )
+    return best[:MOST]
+
+
+def _rank(path: str) -> int:
+    """Numbers before elements of arrays, these before what is made of whole arrays."""
+    return 2 if path.endswith("()") else int(path.endswith("]"))
+
+
+def _about(path: str) -> str:
+    if ":" in path:
+        return "parameter"
+    return ("", "another element by its number", "of the whole array")[_rank(path)]
