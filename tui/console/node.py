@@ -53,6 +53,12 @@ ROSOUT = QoSProfile(
     durability=DurabilityPolicy.TRANSIENT_LOCAL,
 )
 """All is kept until the log has it: a node that logs faster than the console reads loses no line."""
+ROSOUT_OF_OTHERS = QoSProfile(
+    depth=10_000,
+    reliability=ReliabilityPolicy.RELIABLE,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+)
+"""In a system that is not ours what waits is bounded, to some 10 MB: its nodes may log faster than any link carries."""
 
 
 class ConsoleNode:
@@ -95,7 +101,13 @@ class ConsoleNode:
         self.traffic = NodeTraffic(self.node, self.calls, lambda: self.graph.info)
         self.sights = NodeSights(self.node)
         self._rosout = OfferedSubscription(
-            self.node, Log, "/rosout", self._on_log, ROSOUT, eager=not foreign, once_weak=True
+            self.node,
+            Log,
+            "/rosout",
+            self._on_log,
+            ROSOUT_OF_OTHERS if foreign else ROSOUT,
+            eager=not foreign,
+            once_weak=True,
         )
         self.graph = GraphWatch(self.node, self._graph_changed, graph_events)
 

@@ -9,7 +9,7 @@ from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
 from bot_console.runtime.rmw.endpoints import Held, Message, SubscriptionEndpoint, depth
 from bot_console.runtime.rmw.qos_matching import INFINITE, incompatible_policy
-from bot_console.runtime.rmw.zenoh.outlet import mismatch
+from bot_console.runtime.rmw.zenoh.outlet import PATIENT_TOPICS, mismatch
 from bot_console.runtime.rmw.zenoh.session import Declared, Session
 from bot_console.runtime.rmw.zenoh.wire.attachment import gid_of, unpack
 from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
@@ -99,6 +99,8 @@ class Inlet:
             return
         message = payload if subscription.raw else Arrived(self, payload)
         expires = None if publisher.lifespan is None else stamp + publisher.lifespan
+        if len(subscription.queue) == subscription.queue.maxlen and subscription.endpoint.topic in PATIENT_TOPICS:
+            self._overrun()
         subscription.queue.append((message, stamp, number, expires))
         subscription.notify()
 
@@ -116,6 +118,16 @@ class Inlet:
                 f"messages of '{endpoint.topic}' were lost between processes: they are published faster than they can "
                 "be taken; publish less often, or use KEEP_ALL on the publisher",
             )
+
+    def _overrun(self) -> None:
+        """Count a message that makes room, on a topic whose readers count on each one, and say so once."""
+        queue, topic = self._subscription.queue, self._subscription.endpoint.topic
+        self._session.lost += 1
+        self._subscription.on_event("lost", 1)
+        notify(
+            self._process,
+            f"messages of '{topic}' come faster than they are taken; of more than {queue.maxlen} the oldest go",
+        )
 
     def saw(self, token: Token, came: bool) -> None:
         """A publisher of another process came or went."""

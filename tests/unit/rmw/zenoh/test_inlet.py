@@ -24,9 +24,14 @@ def notices():
 
 
 @pytest.fixture
-def received():
+def topic():
+    return "/t"
+
+
+@pytest.fixture
+def received(topic):
     events = []
-    endpoint = Endpoint(NodeId("n", "/"), "/t", "std_msgs/msg/String", QOS, bytes(16), String)
+    endpoint = Endpoint(NodeId("n", "/"), topic, "std_msgs/msg/String", QOS, bytes(16), String)
     subscription = SubscriptionEndpoint(
         endpoint, False, queue_for(QOS), lambda: None, lambda kind, what: events.append((kind, what))
     )
@@ -47,6 +52,17 @@ def test_a_gap_in_the_numbers_is_an_event(received, notices):
         ("11", 5, 11),
     ]
     assert events == [("lost", 2)]
+
+
+@pytest.mark.parametrize(("topic", "lost"), [("/rosout", 2), ("/t", 0)])
+def test_lines_of_a_log_that_make_room_are_counted_and_told_once(received, notices, topic, lost):
+    inlet, queue, events = received
+    for number in range(1, 13):
+        give(inlet, number)
+    assert [number for _, _, number, _ in queue] == list(range(3, 13))
+    assert inlet._session.lost == lost and events == [("lost", 1)] * lost
+    told = "messages of '/rosout' come faster than they are taken; of more than 10 the oldest go"
+    assert notices == [told] * (lost > 0)
 
 
 def test_bytes_that_are_no_message_are_dropped_when_they_are_taken(received, notices):
