@@ -37,6 +37,7 @@ from bot_console.tui.screens.door import screen_for
 from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.screens.output import OutputScreen
 from bot_console.tui.screens.question import QuestionScreen
+from bot_console.tui.screens.tuning_door import TuningDoor
 from bot_console.tui.terminal.guard import GuardedApp
 from bot_console.tui.theme import THEMES
 from bot_console.tui.time_cursor import TimeCursor
@@ -66,7 +67,7 @@ AT_ONCE = frozenset(next(key.keys for key in keymap.TABLE["app"] if key.id == "a
 """Keys that never wait for those typed before."""
 
 
-class BotConsoleApp(GuardedApp):
+class BotConsoleApp(GuardedApp, TuningDoor):
     """rqt for the terminal."""
 
     TITLE = "bot-console"
@@ -384,8 +385,7 @@ class BotConsoleApp(GuardedApp):
                 notes.append(f"perspective {file} is opened at the start only: bot-console --perspective-file {file}")
             self.open(replace(opening, notes=tuple(notes)))
             return
-        stream = self._command_line.stream(line)
-        if stream is not None:
+        if (stream := self._command_line.stream(line)) is not None:
             self.screen_stack[0].query_one(StreamPanel).begin(line, stream)
             return
         answer = self._command_line.run(line)

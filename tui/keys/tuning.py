@@ -37,7 +37,14 @@ TUNING: Mapping[str, tuple[Key, ...]] = {
         Key("parameters.dismiss", "x", "dismiss", "Take the mark of a refused value away"),
         Key("parameters.plot", "p", "plot", "Plot this parameter"),
         Key("parameters.copy", "y", "copy", "Copy the ros2 command of this parameter"),
+        Key("parameters.tune", "T", "tune", "Tune it, or what is marked: many runs find what scores best", shown="T"),
         Key("parameters.save", "s", "save", "Save to a ROS parameter file"),
+    ),
+    "tuning": (
+        Key("tuning.take", "enter,b", "take", "Give the running system this setting"),
+        Key("tuning.save", "S", "save", "Save this setting as a profile", shown="S"),
+        Key("tuning.leave", "escape,q", "leave", "Close; twice while runs go on: end them"),
+        Key("tuning.stop", "exclamation_mark", "app.all_stop", "All stop", shown="!"),
     ),
     "plot": (
         Key(

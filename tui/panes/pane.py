@@ -14,6 +14,8 @@ from bot_console.tui.files.save_file import NotSaved, typed_path
 from bot_console.tui.format import counted, harmless
 from bot_console.tui.screens.door import screen_for
 from bot_console.tui.time_cursor import TimeCursor
+from bot_console.tui.tuning.dial import Setting
+from bot_console.tui.tuning.question import Question as TuningQuestion
 from bot_console.tui.widgets.prompt.common import file_line
 from bot_console.tui.widgets.prompt.line import Prompt, asks
 from bot_console.tui.widgets.prompt.question import Confirmation, Line, Question
@@ -60,6 +62,14 @@ class Pane(Container):
             super().__init__()
             self.pane = pane
             self.name = name
+
+    class TuningWanted(Message):
+        """Somebody wants settings tried in simulated runs; `take` is for the one that the person chooses."""
+
+        def __init__(self, question: TuningQuestion, take: Callable[[Setting], None]) -> None:
+            super().__init__()
+            self.question = question
+            self.take = take
 
     def __init__(
         self,

@@ -24,6 +24,7 @@ from bot_console.tui.cli.live.ros2_command_line import Ros2CommandLine
 from bot_console.tui.cli.look import look_of
 from bot_console.tui.cli.system.plugins import find_plugins
 from bot_console.tui.cli.system.workspaces import SYSTEM_LAUNCH, config_folders
+from bot_console.tui.cli.tune.tuner import LocalTuner
 from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import LaunchInfo, Severity
 from bot_console.tui.files.folders import config_folder, state_folder
@@ -69,6 +70,7 @@ class Session:
             workspace_profiles=config_folders,
         )
         self.launcher = system(self.console)
+        self._tuner = LocalTuner()
         look = look_of(options)
         self.app = BotConsoleApp(
             *for_panes(self.console, self.launcher, Ros2CommandLine(self.launcher), read_only=options.read_only),
@@ -77,6 +79,7 @@ class Session:
             look=look,
             plugins=find_plugins,
         )
+        self.app.tuner = None if options.read_only else self._tuner
 
     def _launch_info(self) -> LaunchInfo:
         return self.launcher.info()
@@ -161,6 +164,7 @@ class Session:
         if self._looking is not None:
             self._looking.stop()
         self.launcher.close()
+        self._tuner.close()
         self._forget_notices()
         self.console.close()  # whose own zero is the last word to a robot that outlives this program
 

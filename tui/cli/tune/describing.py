@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from bot_console.tui.console.model import Kind, ParameterInfo
-from bot_console.tui.format import value_text
+from bot_console.tui.format import counted, value_text
 from bot_console.tui.tuning.dial import Dial
 from bot_console.tui.tuning.question import Question
 from bot_console.tui.tuning.study import Judged, Progress
@@ -37,7 +37,7 @@ def line_of(question: Question, judged: Judged) -> str:
     )
     if judged.problem:
         return f"  failed  {values}  {judged.problem}"
-    bumps = f"  {judged.collisions} collision{'' if judged.collisions == 1 else 's'}" if judged.collisions else ""
+    bumps = f"  {counted(judged.collisions, 'collision')}" if judged.collisions else ""
     return f"{judged.score:8.3f}  {values}{bumps}"
 
 
@@ -71,9 +71,8 @@ def result_of(question: Question, progress: Progress) -> dict[str, Any]:
     if progress.held_out:
         before, after = progress.held_out
         result["held_out"] = {"now": _plain(question, before), "best": _plain(question, after)}
-        lines.append(
-            f"on {len(before.scores)} other seeds: {before.score:.3f} → {after.score:.3f}  {gain(before, after)}"
-        )
+        seeds = counted(len(before.scores), "other seed")
+        lines.append(f"on {seeds}: {before.score:.3f} → {after.score:.3f}  {gain(before, after)}")
         if after.score <= before.score and best is not rows[0]:
             lines.append("on seeds that it was not chosen by it is no better: more --seeds, or stay with what is")
     result["text"] = lines

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Future
 from functools import partial
 
@@ -11,10 +11,11 @@ from bot_console.tui.console.parameter_types import ARRAYS
 from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.format import field_text, value_text
 from bot_console.tui.panes.list_pane import ListPane
-from bot_console.tui.panes.parameters import editing
+from bot_console.tui.panes.parameters import editing, tuning
 from bot_console.tui.panes.parameters.staging import SETS, Key, Staging, by_node
 from bot_console.tui.panes.parameters.table import ParameterRows
-from bot_console.tui.widgets.prompt.question import Confirmation, Elements, Line
+from bot_console.tui.tuning.dial import Dial, Setting, find_dials
+from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Elements, Line
 
 
 class EditPane(ListPane):
@@ -215,6 +216,51 @@ class EditPane(ListPane):
         if why is not None:
             value = value_text(why.value)
             self.notify(f"Nothing was set: {why.node} {why.name} = {value}: {why.reason}", severity="error")
+
+    def action_tune(self) -> None:
+        """Ask for ranges, score and runs, then have settings of what is marked, else of this parameter, tried."""
+        parameter = self._at()
+        trees = self.console.snapshot().parameters
+        known = [dial for tree in trees.values() for each in tree.parameters if (dial := tuning.dial_of(each))]
+        keys = self.staging.marked or ({(parameter.node, parameter.name): None} if parameter else {})
+        dials = [each for each in known if (each.node, each.name) in keys]
+        if not dials:
+            self.notify("Nothing to tune here: T is for a number or a boolean that can be set, or for marked ones.")
+            return
+        check = partial(tuning.wrong_ranges, known)
+        text = tuning.ranges_text(dials)
+        self.ask(Line("tune within", partial(self._ask_score, known), text=text, check=check))
+
+    def _ask_score(self, known: Sequence[Dial], text: str) -> None:
+        dials = find_dials(text.split(), [*known])
+        find = partial(tuning.scores, self.console.plottable())
+        then = partial(self._ask_runs, dials)
+        hint = "a score, or a formula such as mean_speed - 2*collisions"
+        self.host.call_later(self.ask, Choice("Score: more is better", then, find=find, hint=hint))
+
+    def _ask_runs(self, dials: Sequence[Dial], score: str) -> None:
+        def wrong(text: str) -> str:
+            try:
+                return tuning.question_of(dials, score, text, self.console.snapshot().parameters).problem()
+            except ValueError as error:
+                return str(error)
+
+        if problem := wrong("60 60"):
+            self.notify(problem, severity="error", markup=False)
+            return
+        then = partial(self._tune, dials, score)
+        self.host.call_later(self.ask, Line("runs, and simulated s of each", then, text="60 60", check=wrong))
+
+    def _tune(self, dials: Sequence[Dial], score: str, text: str) -> None:
+        question = tuning.question_of(dials, score, text, self.console.snapshot().parameters)
+        wanted = self.TuningWanted(question, partial(self._take_tuned, dials))
+        # When the prompt has given the keyboard back, so that the key bar is told before it is covered.
+        self.call_after_refresh(self.post_message, wanted)
+
+    def _take_tuned(self, dials: Sequence[Dial], setting: Setting) -> None:
+        """Send the values that a tuning has found; one undo takes them back."""
+        values: dict[Key, Value] = {(dial.node, dial.name): value for dial, value in zip(dials, setting, strict=True)}
+        self._asked_first("Take what was tuned?", values, partial(self._apply, values))
 
     def _asked_first(self, question: str, values: Mapping[Key, Value], then: partial[None]) -> None:
         """Do it; where it takes from the robot's safety, only after that was said and agreed to."""

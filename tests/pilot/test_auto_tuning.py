@@ -1,0 +1,122 @@
+"""`T` in the parameter pane: what is asked, how a tuning goes on, and what becomes of the best."""
+
+from __future__ import annotations
+
+from bot_console.tui.console.protocol import Answer
+from bot_console.tui.panes.parameters.table import ParameterRows
+from bot_console.tui.screens.tuning import SettingRows, TuningScreen
+from bot_console.tui.tuning.dial import Setting
+from bot_console.tui.tuning.question import Question
+from bot_console.tui.tuning.score import FAILED
+from bot_console.tui.tuning.study import Judged, Progress
+from piloting import Session, run
+from samples import live
+
+NOW = Judged((1.0,), 0.8, (0.8,))
+BEST = Judged((0.5,), 1.5, (1.5,))
+BUMPED = Judged((2.0,), -1.0, (-1.0,), 2)
+BROKEN = Judged((3.0,), FAILED, (), problem="seed 1: refused")
+
+
+class FakeTuning:
+    def __init__(self) -> None:
+        self.progress = Progress()
+        self.stopped = False
+        self.saved: list[tuple[str, Setting]] = []
+
+    def stop(self) -> None:
+        self.stopped = True
+
+    def save(self, name: str, setting: Setting) -> Answer:
+        self.saved.append((name, setting))
+        return Answer(True, f"saved as profile {name}")
+
+
+class FakeTuner:
+    def __init__(self) -> None:
+        self.asked: list[Question] = []
+        self.tuning = FakeTuning()
+
+    def problem(self, question: Question) -> str:
+        return ""
+
+    def begin(self, question: Question) -> FakeTuning:
+        self.asked.append(question)
+        return self.tuning
+
+
+async def begin(session: Session) -> FakeTuner:
+    """Go to the speed and answer all questions."""
+    session.app.tuner = tuner = FakeTuner()
+    await session.press("1")
+    rows = session.pane(ParameterRows)
+    at = next(index for index, row in enumerate(rows.rows) if row.parameter and row.parameter.name == "max_speed")
+    rows.cursor = at
+    await session.press("T", "enter")
+    await session.type("swift")
+    await session.press("enter", "enter")
+    return tuner
+
+
+async def goes_on(session: Session, tuner: FakeTuner, progress: Progress) -> None:
+    tuner.tuning.progress = progress
+    screen = session.app.screen
+    assert isinstance(screen, TuningScreen)
+    screen.look()
+    await session.settle()
+
+
+def test_the_best_is_found_seen_and_taken() -> None:
+    async def play(session: Session) -> None:
+        tuner = await begin(session)
+        question = tuner.asked[0]
+        assert [each.name for each in question.dials] == ["max_speed"]
+        assert (question.score.text, question.runs, question.duration) == ("swift", 60, 60.0)
+        await goes_on(session, tuner, Progress((NOW, BUMPED), 20, 70, 10.0, 20))
+        assert "20 of 70 runs, about 25 s left" in session.text()
+        rows = (NOW, BUMPED, BEST, BROKEN)
+        await goes_on(session, tuner, Progress(rows, 70, 70, 40.0, 70, (NOW, BEST), True))
+        text = session.text()
+        assert "70 of 70 runs, done" in text
+        assert "on 1 other seed 0.800 → 1.500" in text
+        assert "2 collisions" in text
+        assert "failed" in text
+        assert session.app.screen.query_one(SettingRows).rows[0] is BEST
+        await session.press("enter")
+        assert session.console.asked[-1][:2] == ("set_all", {"/robot_navigator": {"max_speed": 0.5}})
+        assert not isinstance(session.app.screen, TuningScreen)
+
+    run(live(), play, (100, 30))
+
+
+def test_a_setting_is_saved_as_a_profile_and_leaving_ends_the_runs_when_said_twice() -> None:
+    async def play(session: Session) -> None:
+        tuner = await begin(session)
+        await goes_on(session, tuner, Progress((NOW, BEST), 20, 70, 10.0, 20))
+        await session.press("down", "S", "ctrl+u")
+        await session.type("quick")
+        await session.press("enter")
+        assert tuner.tuning.saved == [("quick", (1.0,))]
+        assert "saved as profile quick" in session.text()
+        await session.press("escape")
+        assert "esc again ends them" in session.text()
+        assert not tuner.tuning.stopped
+        await session.press("escape")
+        assert tuner.tuning.stopped
+        assert not isinstance(session.app.screen, TuningScreen)
+        assert "enter Edit" in session.lines()[-1]
+
+    run(live(), play)
+
+
+def test_without_a_tuner_it_is_said_why() -> None:
+    async def play(session: Session) -> None:
+        await begin(session)
+        session.app.tuner = None
+        await session.press("escape")
+        session.app.screen.dismiss()
+        await session.settle()
+        await session.press("T", "enter", "enter", "enter")
+        assert "Nothing is tuned here" in session.text()
+
+    run(live(), play)

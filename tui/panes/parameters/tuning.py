@@ -1,0 +1,104 @@
+"""What is asked before a tuning begins: ranges, the score, how many runs. Pure but for the questions."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree
+from bot_console.tui.tuning.dial import Dial, find_dials
+from bot_console.tui.tuning.question import Question
+from bot_console.tui.tuning.score import FIGURES, READY, STATISTICS, parse_score
+from bot_console.tui.widgets.prompt.question import Option
+
+KINDS = {Kind.BOOL: "bool", Kind.INTEGER: "integer", Kind.DOUBLE: "double"}
+MOST = 50
+"""Completions that are offered at most."""
+
+
+def dial_of(parameter: ParameterInfo) -> Dial | None:
+    """A parameter as what is tuned; None where it is no number or boolean, or cannot be set."""
+    kind, value = KINDS.get(parameter.kind), parameter.value
+    if kind is None or parameter.read_only or not isinstance(value, (bool, int, float)):
+        return None
+    low, high = (parameter.range.low, parameter.range.high) if parameter.range else (-math.inf, math.inf)
+    if kind == "bool":
+        low, high = 0, 1
+    return Dial(parameter.node, parameter.name, kind, low, high, value, parameter.unit)
+
+
+def ranges_text(dials: Sequence[Dial]) -> str:
+    """Dials as they are typed, with their ranges where they have one."""
+    return " ".join(
+        each.label
+        if each.kind == "bool" or not math.isfinite(each.low)
+        else f"{each.label}={each.low:g}..{each.high:g}"
+        for each in dials
+    )
+
+
+def wrong_ranges(known: Sequence[Dial], text: str) -> str:
+    """What is wrong with typed ranges; empty when nothing is."""
+    try:
+        find_dials(text.split(), [*known])
+    except ValueError as error:
+        return str(error)
+    return ""
+
+
+def scores(plottable: Sequence[str], typed: str) -> list[Option]:
+    """Ready scores, what was typed where it is a formula, and how it may go on."""
+    found = [
+        Option(name, f"{what}: {formula}")
+        for name, (formula, what) in READY.items()
+        if typed.lower() in name or not typed
+    ]
+    if typed.strip():
+        try:
+            parse_score(typed)
+            found.insert(0, Option(typed, "this formula"))
+        except ValueError as error:
+            found += [*_completions(plottable, typed)[:MOST]] or [Option(typed, f"✗ {error}")]
+    return found
+
+
+def _completions(plottable: Sequence[str], typed: str) -> list[Option]:
+    """The formula with its last word completed: a topic's field, a figure, or a statistic."""
+    at = max(typed.rfind(each) for each in " (+-*,") + 1
+    before, begun = typed[:at], typed[at:]
+    if begun.startswith("/"):
+        paths = [each for each in plottable if each.startswith(begun) and ":" not in each]
+        return [Option(f"{before}{each}" + ")" * (before.count("(") - before.count(")")), "") for each in paths]
+    figures = [Option(before + name, what) for name, what in FIGURES.items() if begun and name.startswith(begun)]
+    return figures + [
+        Option(f"{before}{name}(/", "of a topic's field") for name in STATISTICS if begun and name.startswith(begun)
+    ]
+
+
+def numbers(text: str) -> tuple[int, float]:
+    """Runs, and simulated s of each, of `60 30`; raises `ValueError`."""
+    words = text.split()
+    try:
+        runs, seconds = int(words[0]), float(words[1]) if len(words) > 1 else 60.0
+        if len(words) <= 2 and runs > 0 and 0 < seconds < math.inf:
+            return runs, seconds
+    except (ValueError, IndexError):
+        pass
+    raise ValueError("two numbers: runs, and simulated seconds of each, such as 60 60")
+
+
+def question_of(dials: Sequence[Dial], score: str, text: str, trees: Mapping[str, ParameterTree]) -> Question:
+    """The question for the system as it runs; raises `ValueError`."""
+    runs, seconds = numbers(text)
+    return Question(tuple(dials), parse_score(score), runs=runs, duration=seconds, base=running_values(trees))
+
+
+def running_values(trees: Mapping[str, ParameterTree]) -> dict[str, dict[str, Any]]:
+    """What the nodes of the running system are set to, as far as a run can be told."""
+    values: dict[str, dict[str, Any]] = {}
+    for tree in trees.values():
+        for each in tree.parameters if "/_" not in tree.node else ():
+            if isinstance(each.value, (bool, int, float, str)) and not each.read_only and each.name != "use_sim_time":
+                values.setdefault(tree.node, {})[each.name] = each.value
+    return values

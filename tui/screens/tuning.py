@@ -1,0 +1,249 @@
+"""A tuning under way: how far it is, the scores as a curve and a table, and what to do with the best."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import ClassVar
+
+import numpy as np
+from bot_console.tui import keymap
+from bot_console.tui.format import counted, cut, value_text
+from bot_console.tui.tuning.dial import Setting
+from bot_console.tui.tuning.question import Question
+from bot_console.tui.tuning.study import Judged, Progress
+from bot_console.tui.tuning.tuner import Tuning
+from bot_console.tui.widgets.braille import BrailleCanvas
+from bot_console.tui.widgets.prompt.line import Prompt, asks
+from bot_console.tui.widgets.prompt.question import Line
+from bot_console.tui.widgets.row_list import RowList
+from bot_console.tui.widgets.words import Words
+from rich.segment import Segment
+from rich.text import Text
+from textual.app import ComposeResult
+from textual.binding import BindingType
+from textual.containers import Vertical
+from textual.screen import ModalScreen
+
+LOOKS = 4.0
+"""Times a second that progress is looked at."""
+CURVE = 5
+"""Lines of the curve."""
+BAR = 24
+"""Cells of the progress bar."""
+HINT = "enter takes this setting · S saves it as a profile · esc closes"
+
+
+class SettingRows(RowList):
+    """One setting a line, the best first."""
+
+    def __init__(self, question: Question) -> None:
+        super().__init__()
+        self._question = question
+        self.rows: tuple[Judged, ...] = ()
+        self.first: Judged | None = None
+        """How it was before."""
+
+    def row_count(self) -> int:
+        """How many settings have been judged."""
+        return len(self.rows)
+
+    def row(self, index: int, width: int) -> list[Segment]:
+        """Rank, score, values, and what happened."""
+        each = self.rows[index]
+        dim = self.get_component_rich_style("row-list--dim", partial=True)
+        warn = self.get_component_rich_style("row-list--warn", partial=True)
+        strong = self.get_component_rich_style("row-list--strong", partial=True)
+        score = f"{each.score:9.3f}" if math.isfinite(each.score) else "   failed"
+        segments = [Segment(f"{score}  ", strong if index == 0 else None)]
+        values = (value_text(value) for value in each.setting)
+        segments += [Segment(f"{value:>{self.column}}  ") for value in values]
+        if self.first is not None and each.setting == self.first.setting:
+            segments.append(Segment("as it is now  ", dim))
+        if each.collisions:
+            segments.append(Segment(f"{counted(each.collisions, 'collision')}  ", warn))
+        if each.problem:
+            segments.append(Segment(each.problem, warn))
+        return segments
+
+    @property
+    def column(self) -> int:
+        """Cells of a value: the width of the longest name, within reason."""
+        return min(18, max(6, *(len(each.name) for each in self._question.dials)))
+
+    def head(self) -> str:
+        """The names over the columns."""
+        names = (f"{cut(each.name, self.column):>{self.column}}  " for each in self._question.dials)
+        return f"{'score':>9}  " + "".join(names)
+
+
+class TuningScreen(ModalScreen[None]):
+    """Shows a tuning; closing it ends the runs."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("tuning")]
+    AUTO_FOCUS = ""
+    DEFAULT_CSS = """
+    TuningScreen { align: center middle; }
+    TuningScreen #tuning { width: 94%; max-width: 120; height: 90%; background: $panel; border: round $primary;
+                           padding: 0 1; }
+    TuningScreen RowList, TuningScreen Words { background: $panel; padding: 0; }
+    TuningScreen #tuning-curve { height: 5; color: $primary; }
+    """
+
+    def __init__(self, question: Question, tuning: Tuning, take: Callable[[Setting], None]) -> None:
+        """`take` is called with the setting that the running system is to have."""
+        super().__init__()
+        self._question = question
+        self._tuning = tuning
+        self._take = take
+        self._progress: Progress | None = None
+        self._moved = False
+        self._leaving = False
+
+    def compose(self) -> ComposeResult:
+        """Progress, the curve, the table, what is said of it, a line for a name."""
+        names = ", ".join(each.name for each in self._question.dials)
+        with Vertical(id="tuning") as box:
+            box.border_title = Text(f"Tune {names} for {self._question.score.text}")
+            box.border_subtitle = HINT
+            yield Words(id="tuning-progress")
+            yield Words(id="tuning-curve")
+            yield Words(id="tuning-head")
+            yield SettingRows(self._question)
+            yield Words(id="tuning-state")
+            yield Prompt(id="tuning-prompt")
+
+    @property
+    def _list(self) -> SettingRows:
+        return self.query_one(SettingRows)
+
+    def on_mount(self) -> None:
+        """The table takes the keys."""
+        self._list.focus()
+        self.query_one("#tuning-head", Words).say(self._list.head())
+        self.set_interval(1.0 / LOOKS, self.look)
+        self.call_after_refresh(self.look)
+
+    def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
+        """No key of the table acts while a name is typed."""
+        return not asks(self) and super().check_action(action, parameters)
+
+    def look(self) -> None:
+        """Show how far it is, where that is new."""
+        progress = self._tuning.progress
+        if progress is self._progress:
+            return
+        self._progress = progress
+        shown = self._list
+        chosen = shown.rows[shown.cursor].setting if self._moved and shown.cursor < len(shown.rows) else None
+        shown.rows = tuple(sorted(progress.rows, key=lambda each: -each.score))
+        shown.first = progress.rows[0] if progress.rows else None
+        shown.rows_changed()
+        if chosen is not None:
+            shown.cursor = next((index for index, each in enumerate(shown.rows) if each.setting == chosen), 0)
+        self.query_one("#tuning-progress", Words).say(progress_text(progress))
+        curve = self.query_one("#tuning-curve", Words)
+        curve.say(Text("\n".join(curve_lines(progress.rows, max(10, curve.size.width), CURVE))))
+        self._say()
+
+    def _say(self, text: str = "") -> None:
+        progress = self._progress
+        self._leaving = False
+        self.query_one("#tuning-state", Words).say(text or (verdict(progress) if progress else ""))
+
+    def on_row_list_moved(self, event: RowList.Moved) -> None:
+        """A person has chosen a row: it keeps the cursor when better ones come."""
+        event.stop()
+        self._moved = event.index != 0
+
+    @property
+    def _chosen(self) -> Judged | None:
+        shown = self._list
+        return shown.rows[shown.cursor] if shown.cursor < len(shown.rows) else None
+
+    def action_take(self) -> None:
+        """Give the running system the setting at the cursor."""
+        chosen = self._chosen
+        if chosen is None:
+            self._say("Nothing is known yet.")
+        elif chosen.problem:
+            self._say(f"This setting has failed: {chosen.problem}")
+        else:
+            self._tuning.stop()
+            self.dismiss()
+            self._take(chosen.setting)
+
+    def action_save(self) -> None:
+        """Ask for a name and save the setting at the cursor as a profile."""
+        chosen = self._chosen
+        if chosen is None:
+            self._say("Nothing is known yet.")
+            return
+
+        def save(name: str) -> None:
+            self._say(self._tuning.save(name.strip(), chosen.setting).text)
+
+        self.query_one(Prompt).ask(Line("save as profile", save, text="tuned"))
+
+    def action_leave(self) -> None:
+        """Close; runs that go on are ended only when that is said twice."""
+        if self._progress is None or self._progress.ended or self._leaving:
+            self._tuning.stop()
+            self.dismiss()
+            return
+        self._say("The runs go on: esc again ends them. T with the same answers goes on where they were.")
+        self._leaving = True
+
+
+def progress_text(progress: Progress) -> str:
+    """A bar, and how much is left."""
+    if not progress.runs:
+        return progress.problem or "preparing the runs ..."
+    full = round(BAR * progress.done / progress.runs)
+    text = f"{'█' * full}{'░' * (BAR - full)}  {progress.done} of {progress.runs} runs"
+    if progress.ended:
+        return f"{text}, {progress.problem or 'done'}"
+    left = progress.left
+    return text if left is None else f"{text}, about {_minutes(left)} left"
+
+
+def _minutes(seconds: float) -> str:
+    whole = math.ceil(seconds)
+    return f"{whole} s" if whole < 100 else f"{whole // 60} min {whole % 60} s"
+
+
+def verdict(progress: Progress) -> str:
+    """What came of it, and whether that holds on other seeds."""
+    best = progress.best
+    if best is None or not progress.rows:
+        return progress.problem
+    first = progress.rows[0]
+    text = f"now {first.score:.3f}, best {best.score:.3f}"
+    if progress.held_out:
+        before, after = progress.held_out
+        text += f"; on {counted(len(after.scores), 'other seed')} {before.score:.3f} → {after.score:.3f}"
+        if after.score <= before.score and best is not first:
+            text += ": no better there"
+    elif progress.ended:
+        text += f"; {progress.problem}" if progress.problem else ""
+    return text
+
+
+def curve_lines(rows: Sequence[Judged], width: int, height: int) -> list[str]:
+    """The scores in the order of the settings as dots, and the best so far as a line."""
+    canvas = BrailleCanvas(width, height)
+    scores = np.array([each.score for each in rows], float)
+    finite = scores[np.isfinite(scores)]
+    if not len(finite):
+        return canvas.rows()
+    low, high = float(finite.min()), float(finite.max())
+    across, down = canvas.size
+    x = np.arange(len(scores)) * (across - 1) / max(1, len(scores) - 1)
+    y = (high - scores) / ((high - low) or 1.0) * (down - 1)
+    seen = np.isfinite(scores)
+    canvas.points(x[seen], y[seen])
+    best = np.minimum.accumulate(np.where(seen, y, down - 1.0))
+    for at in range(1, len(best)):
+        canvas.line(float(x[at - 1]), float(best[at - 1]), float(x[at]), float(best[at - 1]))
+        canvas.line(float(x[at]), float(best[at - 1]), float(x[at]), float(best[at]))
+    return canvas.rows()

@@ -1,0 +1,27 @@
+"""The door to a tuning: who asks for one in a pane gets it over the panes, or is told why not."""
+
+from __future__ import annotations
+
+from bot_console.tui.panes.pane import Pane
+from bot_console.tui.screens.tuning import TuningScreen
+from bot_console.tui.tuning.tuner import Tuner
+from textual.app import App
+
+NO_TUNER = "Nothing is tuned here: this console only looks on, or was given no simulator."
+
+
+class TuningDoor(App[None]):
+    """An app whose panes may ask for a tuning."""
+
+    tuner: Tuner | None = None
+    """Who makes the runs; None: nobody."""
+
+    def on_pane_tuning_wanted(self, event: Pane.TuningWanted) -> None:
+        """Begin a tuning, and show it over the panes."""
+        event.stop()
+        tuner = self.tuner
+        problem = tuner.problem(event.question) if tuner else NO_TUNER
+        if tuner is None or problem:
+            self.notify(problem, severity="warning", markup=False)
+        else:
+            self.push_screen(TuningScreen(event.question, tuner.begin(event.question), event.take))
