@@ -71,7 +71,8 @@ def others_take_part() -> bool:
 def robot_there() -> list[str]:
     """The nodes of other processes that are a robot's: they obey velocities, or give scans or odometry.
 
-    To be asked after `take_part` and before anything runs in this process.
+    Tools and consoles, whose names begin with an underscore, watch what a robot is sent and are none. To be asked after
+    `take_part` and before anything runs in this process.
     """
     from bot_console.runtime.rmw.middleware import bus_of
     from bot_console.tui.console.robot.robot_wanted import SOURCES, VELOCITY
@@ -81,7 +82,8 @@ def robot_there() -> list[str]:
     tables = bus_of(domain()).tables()
     found = [end for each in tables for topic in SOURCES for end in each.publishers.on(topic)]
     found += [end for each in tables for end in each.subscriptions.on(VELOCITY)]
-    return sorted({f"{each.node.namespace.rstrip('/')}/{each.node.name}" for each in found})
+    robots = (each.node for each in found if not each.node.name.startswith("_"))
+    return sorted({f"{each.namespace.rstrip('/')}/{each.name}" for each in robots})
 
 
 def _lives(pid: int) -> bool:
