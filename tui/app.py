@@ -95,7 +95,7 @@ class BotConsoleApp(GuardedApp, TuningDoor):
             self.register_theme(each)
         look = look or Look()
         self.theme = THEMES[look.theme].name
-        self.plain = look.plain
+        self.plain, self.kept = look.plain, look.kept
         self.set_keymap({**look.keys})
         self.console_of_robot = console
         self.launcher = launcher

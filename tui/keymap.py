@@ -43,6 +43,8 @@ TABLE: dict[str, tuple[Key, ...]] = {
         Key("app.history", "H", "pane('history')", "History", shown="H"),
         Key("app.topics", "9", "pane('topics')", "Topics"),
         Key("app.diagnostics", "M", "pane('diagnostics')", "Diagnostics: the robot monitor", shown="M"),
+        Key("app.alarms", "B", "pane('alarms')", "Alarms: conditions that are watched", shown="B"),
+        Key("app.images", "I", "pane('images')", "Images of cameras", shown="I"),
         Key("app.next", "tab", "next_pane(1)", "Next pane", priority=True),
         Key("app.previous", "shift+tab", "next_pane(-1)", "Previous pane", priority=True),
         Key("app.arrange", "V", "arrange", "Arrange the panes: split, resize, close, layouts", shown="V"),

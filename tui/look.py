@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from bot_console.tui.kept import Kept, KeptHere
 from bot_console.tui.layout.arrangement import Arrangement
 
 
@@ -19,4 +20,6 @@ class Look:
     """Whether ASCII letters take the place of lines and braille."""
     keys: Mapping[str, str] = field(default_factory=dict[str, str])
     """Other keys for actions, by the ids of `keymap.TABLE`, in which they stand already."""
+    kept: Kept = field(default_factory=KeptHere)
+    """What the panes keep from run to run."""
     notes: tuple[str, ...] = ()

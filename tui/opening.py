@@ -18,6 +18,7 @@ RQT_PANES = {
     "rqt_service_caller": "topics",
     "rqt_action": "topics",
     "rqt_robot_monitor": "diagnostics",
+    "rqt_image_view": "images",
     "rviz2": "world",
 }
 """Programs of rqt, as packages and as executables, and the pane that does their work."""

@@ -42,4 +42,6 @@ PANES = (
     PaneEntry("topics", "9", "Topics", "TopicsPane"),
     PaneEntry("history", "H", "History", "HistoryPane", short="Hist"),
     PaneEntry("diagnostics", "M", "Diagnostics", "DiagnosticsPane", short="Diag"),
+    PaneEntry("alarms", "B", "Alarms", "AlarmsPane"),
+    PaneEntry("images", "I", "Images", "ImagesPane", short="Img"),
 )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.console.sights.model import Diagnostics, Level, Status, Told
+from bot_console.tui.console.sights.model import Diagnostics, Level, Picture, Status, Told
 
 
 class FakeSights:
@@ -10,9 +10,17 @@ class FakeSights:
 
     def __init__(self) -> None:
         self.info = Diagnostics()
+        self.shown = Picture()
+        self.looking: tuple[str, int, int] = ("", 0, 0)
 
     def diagnostics(self) -> Diagnostics:
         return self.info
+
+    def look_at(self, topic: str, columns: int, rows: int) -> None:
+        self.looking = (topic, columns, rows)
+
+    def picture(self) -> Picture:
+        return self.shown
 
 
 def status(name: str, level: Level = Level.OK, message: str = "", heard: float = 100.0, **values: str) -> Status:

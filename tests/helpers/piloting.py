@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.panes.alarms.pane import AlarmsPane
 from bot_console.tui.panes.diagnostics.pane import DiagnosticsPane
+from bot_console.tui.panes.images.pane import ImagesPane
 from bot_console.tui.panes.steering.pane import SteeringPane
 from fake_launcher import FakeLauncher
 from fakes import FakeCommandLine, FakeConsole
@@ -93,7 +95,7 @@ def run(
         app = BotConsoleApp(console, launcher, FakeCommandLine(console.asked), refresh_hz=0)
         async with app.run_test(size=size, notifications=True) as pilot:
             session = Session(app, pilot, console, launcher)
-            for kind in (SteeringPane, DiagnosticsPane):
+            for kind in (SteeringPane, DiagnosticsPane, AlarmsPane, ImagesPane):
                 session.pane(kind).clock = Clock()
             await session.settle()
             await play(session)

@@ -31,7 +31,7 @@ from bot_console.tui.console.model import (
     Value,
 )
 from bot_console.tui.console.robot.robot_model import DriveInfo, GridMap, Pose, WorldInfo
-from bot_console.tui.console.sights.model import Diagnostics, Level
+from bot_console.tui.console.sights.model import IMAGE, Diagnostics, Level, Picture
 from bot_console.tui.console.traffic import Measure
 from fake_launcher import FakeLauncher
 from fake_sights import status
@@ -275,6 +275,16 @@ def live(parts: tuple[str, ...] = ()) -> tuple[FakeConsole, FakeLauncher]:
         "/opt/launch/multi_node_system.launch.py",
     )
     return console, FakeLauncher(arguments(), files)
+
+
+def with_camera(*names: str) -> tuple[FakeConsole, FakeLauncher]:
+    """The live system with cameras, the first of which sees a gradient."""
+    console, launcher = live()
+    topics = tuple(Endpoint(f"/{each}/image", (IMAGE,)) for each in names)
+    console.change(graph=replace(console.current.graph, topics=(*console.current.graph.topics, *topics)))
+    pixels = bytes(value for y in range(24) for x in range(32) for value in (x * 8, y * 10, 120))
+    console.sights.shown = Picture(topics[0].name, 1, 640, 480, "rgb8", 32, 24, pixels)
+    return console, launcher
 
 
 def with_array(kind: Kind, value: Value) -> tuple[FakeConsole, FakeLauncher]:

@@ -91,7 +91,7 @@ def _console(words: list[str]) -> str:
         return ""
     if name == "setup":
         return "" if set("|".join(words[1:]).split("|")) <= {"bash", "zsh", "fish"} else "is no shell"
-    if name in ("stop", "release", "up", "down", "status", "attach", "doctor", "router", "lint", "graph"):
+    if name in ("stop", "release", "reset", "up", "down", "status", "attach", "doctor", "router", "lint", "graph"):
         return "" if name in cli._COMMANDS else f"there is no command {name}"
     if name in ros2.VERBS or name in cli._COMMANDS:
         return _ros2(words)

@@ -5,7 +5,9 @@ from __future__ import annotations
 import time
 
 import pytest
+from bot_console.tui.panes.alarms.pane import AlarmsPane
 from bot_console.tui.panes.diagnostics.pane import DiagnosticsPane
+from bot_console.tui.panes.images.pane import ImagesPane
 from piloting import Clock
 from textual.widgets import Input
 
@@ -15,5 +17,6 @@ def plain_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("NO_COLOR", raising=False)
     monkeypatch.setenv("TZ", "UTC")
     time.tzset()
-    monkeypatch.setattr(DiagnosticsPane, "clock", staticmethod(Clock()))
+    for each in (DiagnosticsPane, AlarmsPane, ImagesPane):
+        monkeypatch.setattr(each, "clock", staticmethod(Clock()))
     monkeypatch.setattr(Input, "_toggle_cursor", lambda self: None)

@@ -13,7 +13,7 @@ from bot_console.tui.panes.steering.pane import SteeringPane
 from fake_launcher import FakeLauncher
 from fakes import FakeConsole
 from piloting import Clock
-from samples import empty, faulty, live
+from samples import empty, faulty, live, with_camera
 
 System = Callable[[], tuple[FakeConsole, FakeLauncher]]
 STATES: list[tuple[str, System, tuple[int, int]]] = [
@@ -87,3 +87,8 @@ def test_steering_armed(size: tuple[int, int], snap_compare: Any) -> None:
         await pilot.press("6", "enter", "w", "W", "a", "a", "a")
 
     assert snap_compare(app_of(live), terminal_size=size, run_before=steer)
+
+
+@pytest.mark.parametrize("keys", [["I"], ["I", "g"]], ids=["colours", "letters"])
+def test_image(keys: list[str], snap_compare: Any) -> None:
+    assert snap_compare(app_of(lambda: with_camera("front")), terminal_size=(80, 24), press=keys)

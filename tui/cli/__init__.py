@@ -146,6 +146,12 @@ def _release(words: Words) -> int:
     return run("release", words)
 
 
+def _reset(words: Words) -> int:
+    from bot_console.tui.cli.verbs.reset import run
+
+    return run(words)
+
+
 def _graph(words: Words) -> int:
     from bot_console.tui.cli.verbs.graph import run
 
@@ -202,6 +208,7 @@ _COMMANDS: dict[str, Callable[[Words], int]] = {
     "stop": _stop,
     "release": _release,
     "graph": _graph,
+    "reset": _reset,
     "test": _test,
     "launch_test": _launch_test,
     "colcon": _colcon,

@@ -27,7 +27,7 @@ examples:
   bot-console --headless --fast --profile warehouse --duration 600 --seed 7
 
 other commands: attach, doctor, up, down, status, router, run, launch, lint, tune, test, launch_test, export, setup,
-config, stop, release, and the verbs of ros2 (bot-console interface show std_msgs/msg/String)
+config, stop, release, reset, and the verbs of ros2 (bot-console interface show std_msgs/msg/String)
 
 exit codes: 0 done, 1 failed (one line says why), 2 wrong usage
 """

@@ -226,7 +226,6 @@ class Console(ConsoleReading, Protocol):
 
         `/topic/field.sub[2]`, `/topic/array[2:8].mean()` (or min, max, sum, std, len; yaw of a quaternion), or
         `/node:parameter`.
-
         """
         ...
 

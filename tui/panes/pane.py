@@ -12,6 +12,7 @@ from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Answer, Console, Launcher
 from bot_console.tui.files.save_file import NotSaved, typed_path
 from bot_console.tui.format import counted, harmless
+from bot_console.tui.kept import Kept, KeptHere
 from bot_console.tui.screens.door import screen_for
 from bot_console.tui.time_cursor import TimeCursor
 from bot_console.tui.tuning.dial import Setting
@@ -95,6 +96,11 @@ class Pane(Container):
     def host(self) -> App[object]:
         """The app; what Textual's own property leaves unsaid of its type is said here once."""
         return self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic, and its type is not told
+
+    @property
+    def kept(self) -> Kept:
+        """What the panes keep from run to run."""
+        return getattr(self.host, "kept", None) or KeptHere()
 
     def caption(self, text: str) -> None:
         """Write into the lower edge of the frame; setting the same text again would draw the whole pane."""

@@ -13,10 +13,12 @@ from rclpy.parameter import Parameter
 IN_CODE = "parameter_overrides of its program"
 
 
-def tell_declared(node: str, declared: Iterable[tuple[str, Sequence[Any]]], sources: Mapping[str, str]) -> None:
-    """Tell the declarations (full name, tuple) of a node, where anybody listens; `sources` are those of overrides.
+def tell_declared(
+    node: str, declared: Iterable[tuple[str, Sequence[Any]]], values: Iterable[Any], sources: Mapping[str, str]
+) -> None:
+    """Tell the declarations (full name, tuple) of a node, where anybody listens, and the values that came of them.
 
-    A default that is no plain value, a type for instance, is told as None.
+    `sources` are those of overrides. A default that is no plain value, a type for instance, is told as None.
     """
     if not anybody_listens():
         return
@@ -25,8 +27,8 @@ def tell_declared(node: str, declared: Iterable[tuple[str, Sequence[Any]]], sour
         "declared",
         node=node,
         parameters=[
-            [name, _plain(words[1] if len(words) > 1 else None), place, sources.get(name, "")]
-            for name, words in declared
+            [name, _plain(words[1] if len(words) > 1 else None), place, sources.get(name, ""), _plain(value)]
+            for (name, words), value in zip(declared, values, strict=True)
         ],
     )
 

@@ -104,8 +104,10 @@ class NodeParameters(ParameterSetting):
         for parameter in found:
             self._ros_declare(parameter, descriptors)
         words = zip((each.name for each in found), parameters, strict=True)
-        tell_declared(self._ros_event_node_name, words, {} if ignore_override else self._ros_override_sources)
-        return [self._parameters[each.name] for each in found]
+        declared = [self._parameters[each.name] for each in found]
+        sources = {} if ignore_override else self._ros_override_sources
+        tell_declared(self._ros_event_node_name, words, (each.value for each in declared), sources)
+        return declared
 
     def _ros_declare(self, parameter: Parameter, descriptors: dict[str, ParameterDescriptor]) -> None:
         result = self._ros_commit([parameter], descriptors, keep_not_set=True)

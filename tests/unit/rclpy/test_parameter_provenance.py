@@ -12,7 +12,7 @@ from bot_console.runtime.process.facts import anybody_listens, on_fact
 from rclpy.context import Context
 from rclpy.parameter import Parameter
 
-Told = dict[str, tuple[Any, str, str]]
+Told = dict[str, tuple[Any, ...]]
 
 
 @pytest.fixture
@@ -21,7 +21,7 @@ def told() -> Iterator[Told]:
 
     def hear(kind: str, facts: Mapping[str, Any]) -> None:
         assert kind == "declared" and facts["node"] == "/n"
-        found.update({name: (default, place, source) for name, default, place, source in facts["parameters"]})
+        found.update({name: tuple(rest) for name, *rest in facts["parameters"]})
 
     forget = on_fact(hear)
     yield found
@@ -40,6 +40,7 @@ def test_default_line_and_the_override_that_counts(told: Told, tmp_path: Path) -
     sources = {name: told[name][2] for name in "abcde"}
     assert sources == {"a": str(file), "b": "-p", "c": "parameter_overrides of its program", "d": "", "e": ""}
     assert told["a"][0] == 1 and told["e"][0] == [1.0, 2.0]
+    assert [told[name][3] for name in "abcd"] == [2, 3, 4, 1], "the value at the start"
     places = {told[name][1] for name in "abcd"}
     assert len(places) == 1
     path, _, line = places.pop().rpartition(":")

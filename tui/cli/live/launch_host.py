@@ -88,15 +88,18 @@ def main(words: Sequence[str] | None = None) -> int:
     return 0
 
 
-def serve(host: LaunchHost, seconds: float | None = None) -> None:
-    """Serve further consoles of the user, too, until everything was ended, or for so many seconds at most."""
+def serve(host: LaunchHost, seconds: float | None = None, forget: Callable[[], None] | None = None) -> None:
+    """Serve further consoles of the user, too, until everything was ended, or for so many seconds at most.
+
+    `forget` ends the telling of news where that has begun already.
+    """
     from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
     from bot_console.tui.cli.live.process_news import tell_news
     from bot_console.tui.cli.system.domain import domain
     from bot_console.tui.console.launch_host.door import Door
     from launch.child import close_fork_server
 
-    forget = tell_news(host.noticed, host.learn)
+    forget = forget or tell_news(host.noticed, host.learn)
     close_on_signals(host.close)
     door = Door(domain_folder(domain()), host.connect)
     host.over.wait(seconds)

@@ -39,6 +39,7 @@ def _run(options: Options, file: Path) -> int:
     from bot_console.tui.cli.live import robot_beside
     from bot_console.tui.cli.live.launch_host import serve
     from bot_console.tui.cli.live.launchers import launcher_here
+    from bot_console.tui.cli.live.process_news import tell_news
     from bot_console.tui.cli.system.system_log import SystemLog
     from bot_console.tui.cli.system.workspaces import SYSTEM_LAUNCH
     from bot_console.tui.console.launch.launcher import RosLauncher
@@ -54,6 +55,7 @@ def _run(options: Options, file: Path) -> int:
         return made[0]
 
     host = LaunchHost(make, log.printed)
+    forget = tell_news(host.noticed, host.learn)  # before the nodes begin, which tell what they declare
     [launcher] = made
     arguments = dict(options.launch_arguments)
     if not options.launch:
@@ -72,7 +74,7 @@ def _run(options: Options, file: Path) -> int:
         return 1
     system = robot_beside.System(lambda: robot_beside.processes(launcher.info()), tell, start_robot)
     looking = robot_beside.begin(options, system)
-    serve(host, options.duration)
+    serve(host, options.duration, forget)
     if looking is not None:
         looking.stop(GRACE)
     log.close()

@@ -162,6 +162,10 @@ class RosConsole:
         """Take in what a program or a launch tells of where parameters come from."""
         self._learn(kind, facts)
 
+    def start_values(self) -> Mapping[tuple[str, str], Value]:
+        """The values with which nodes have begun, by node and parameter, as far as they have told them."""
+        return self._provenance.starts()
+
     def printed(self, severity: int, label: str, text: str) -> None:
         """Take a line that a process printed."""
         self._add(time.time_ns(), severity, label, text, NOWHERE)

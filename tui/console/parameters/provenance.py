@@ -31,6 +31,8 @@ class Declaration:
     default: Value
     place: str
     override: str
+    start: Value = None
+    """The value that came of it, with which its node has begun."""
 
 
 class Provenance:
@@ -46,14 +48,17 @@ class Provenance:
         """Take a fact in; the node that it is about, empty where it is none that counts here."""
         node = str(facts.get("node", ""))
         if kind == "declared":
-            for name, default, place, override in facts["parameters"]:
-                value: Any = tuple(cast("list[Any]", default)) if isinstance(default, list) else default
-                self._declared[node, name] = Declaration(value, place, override)
+            for name, default, place, override, *start in facts["parameters"]:
+                self._declared[node, name] = Declaration(_value(default), place, override, *map(_value, start))
             return node
         if kind == "given":
             self._given.update({(node, name): str(source) for name, source in facts["parameters"].items()})
             return node
         return ""
+
+    def starts(self) -> Mapping[Key, Value]:
+        """The values with which nodes have begun, as far as they have told them."""
+        return {key: each.start for key, each in tuple(self._declared.items()) if each.start is not None}
 
     def applied(self, parameter: ParameterInfo) -> ParameterInfo:
         """A parameter with what is known: the declared value is its default, and its first value has an origin."""
@@ -82,3 +87,7 @@ class Provenance:
             return source
         profile = self._profile_of(source)
         return f"profile {profile}" if profile else f"parameter file {source}"
+
+
+def _value(told: Any) -> Value:
+    return tuple(cast("list[Any]", told)) if isinstance(told, list) else told

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.console.sights.model import Diagnostics
+from bot_console.tui.console.sights.model import Diagnostics, Picture
 
 
 class IdleSights:
@@ -10,7 +10,15 @@ class IdleSights:
 
     def __init__(self, why: str) -> None:
         self._diagnostics = Diagnostics(problem=why)
+        self._picture = Picture(problem=why)
 
     def diagnostics(self) -> Diagnostics:
         """None, and why."""
         return self._diagnostics
+
+    def look_at(self, topic: str, columns: int, rows: int) -> None:
+        """Nothing comes."""
+
+    def picture(self) -> Picture:
+        """None, and why."""
+        return self._picture

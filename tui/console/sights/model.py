@@ -1,4 +1,4 @@
-"""Diagnostics as a person sees them, and the protocol that gives them. Standard library only.
+"""Diagnostics and images as a person sees them, and the protocol that gives them. Standard library only.
 
 `Sights` is read by pulling, as `Console` is, of which it is a part: nothing here blocks.
 """
@@ -67,9 +67,44 @@ class Diagnostics:
     problem: str = ""
 
 
+IMAGE, COMPRESSED = "sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"
+"""The types that can be looked at."""
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """The newest image of the topic that is looked at, scaled to the size that was asked for."""
+
+    topic: str = ""
+    count: int = 0
+    """Images up to this one."""
+    width: int = 0
+    height: int = 0
+    """Pixels of the image as it was sent."""
+    encoding: str = ""
+    columns: int = 0
+    rows: int = 0
+    pixels: bytes = b""
+    """Red, green and blue of each pixel that is shown, row by row."""
+    said: str = ""
+    """What black and white mean, where they are not colours."""
+    seconds: float = 0.0
+    """How long it took to scale it."""
+    problem: str = ""
+    """Why there is none; empty when all is well."""
+
+
 class Sights(Protocol):
     """What a robot shows of itself."""
 
     def diagnostics(self) -> Diagnostics:
         """The newest diagnostics; the same object until something was said."""
+        ...
+
+    def look_at(self, topic: str, columns: int, rows: int) -> None:
+        """Receive the images of a topic, and of no other, for a size in pixels; an empty name ends that."""
+        ...
+
+    def picture(self) -> Picture:
+        """The newest image; the same object until there is another."""
         ...

@@ -2,22 +2,42 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
+from bot_console.tui.console.calls import Calls
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.sights.diagnostics import DiagnosticsWatch
-from bot_console.tui.console.sights.model import Diagnostics
+from bot_console.tui.console.sights.images import ImageWatch
+from bot_console.tui.console.sights.model import Diagnostics, Picture
 from rclpy.node import Node
 
 
 class NodeSights:
     """What the robot shows of itself; its methods may be called from any thread, the work is the executor's."""
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: Node, calls: Calls, graph: Callable[[], GraphInfo]) -> None:
+        self._calls = calls
+        self._graph = graph
         self._diagnostics = DiagnosticsWatch(node)
+        self._images = ImageWatch(node)
 
     def follow(self, graph: GraphInfo) -> None:
         """The graph is another; called by the executor."""
         self._diagnostics.follow(graph)
+        self._images.follow(graph)
 
     def diagnostics(self) -> Diagnostics:
         """What the parts of the robot say of themselves."""
         return self._diagnostics.diagnostics()
+
+    def look_at(self, topic: str, columns: int, rows: int) -> None:
+        """Receive the images of this topic."""
+
+        async def look() -> None:
+            self._images.look_at(topic, columns, rows, self._graph())
+
+        self._calls.run(look(), lambda why: None)
+
+    def picture(self) -> Picture:
+        """The newest image."""
+        return self._images.picture()

@@ -44,6 +44,13 @@ def test_the_override_that_counts_names_the_origin(override: str, given: str, va
     assert found.changed is (value != 1.0), "a mark says what differs from what was declared"
 
 
+def test_the_values_of_the_start_are_known_where_they_were_told() -> None:
+    provenance = Provenance()
+    facts = [["speed", 1.0, "/n.py:1", "-p", 2.0], ["gains", [1.0], "/n.py:2", "", [1.0, 2.0]], ["old", 1, "", ""]]
+    provenance.learn("declared", {"node": "/n", "parameters": facts})
+    assert provenance.starts() == {("/n", "speed"): 2.0, ("/n", "gains"): (1.0, 2.0)}
+
+
 def test_what_nobody_told_stays_a_start_value() -> None:
     assert Provenance().applied(first_sight()) == first_sight()
     assert Provenance().learn("notice", {"text": "x"}) == ""

@@ -1,0 +1,127 @@
+"""Alarms: added, told once for each crossing, kept for the next start, and silent about what is not there."""
+
+from __future__ import annotations
+
+from bot_console.tui.panes.alarms.pane import AlarmsPane, parted
+from bot_console.tui.panes.alarms.rows import AlarmRows
+from piloting import Session, run
+from samples import empty, live
+
+SPEED = "/odom/twist.twist.linear.x"
+
+
+async def later(session: Session, *values: float) -> None:
+    """New values of the speed come, and half a second goes by."""
+    times, known = session.console.series[SPEED]
+    for value in values:
+        session.console.now += 0.1
+        times.append(session.console.now)
+        known.append(value)
+    pane = session.pane(AlarmsPane)
+    pane.clock.now += 0.6
+    pane.tick()
+    await session.settle()
+
+
+def told(session: Session) -> int:
+    return sum(each.title == "Alarm" for each in session.app._notifications)
+
+
+async def add(session: Session, text: str) -> None:
+    await session.press("a")
+    await session.type(text)
+    await session.press("enter")
+
+
+def test_it_is_told_once_for_each_crossing_also_while_the_pane_is_hidden() -> None:
+    async def play(session: Session) -> None:
+        await session.press("B")
+        await add(session, f"too fast: {SPEED} > 2")
+        await later(session, 1.0)
+        assert told(session) == 0 and "○ quiet" in session.text()
+        await session.press("1")
+        await later(session, 2.5, 2.6)
+        assert told(session) == 1 and "too fast: 2.5" in session.text()
+        await later(session, 2.7)
+        assert told(session) == 1, "it goes on holding"
+        await session.press("B")
+        assert "✗ holds" in session.text() and "1 time" in session.text() and "1 of 1 hold" in session.text()
+        await later(session, 1.0, 3.0, 1.0)
+        assert told(session) == 2 and "○ quiet" in session.text() and "2 times" in session.text()
+
+    run(live(), play, (120, 30))
+
+
+def test_a_bell_rings_where_it_is_asked_for(monkeypatch) -> None:
+    async def play(session: Session) -> None:
+        rung = []
+        monkeypatch.setattr(session.app, "bell", lambda: rung.append(1))
+        await session.press("B")
+        await add(session, f"{SPEED} > 2")
+        await later(session, 3.0)
+        assert rung == []
+        await session.press("b")
+        await later(session, 1.0, 3.0)
+        assert rung == [1] and session.pane(AlarmRows).current.bell
+
+    run(live(), play)
+
+
+def test_alarms_are_kept_edited_and_taken_away() -> None:
+    async def play(session: Session) -> None:
+        await session.press("B")
+        await add(session, f"fast: {SPEED} > 2")
+        assert session.app.kept.get("alarms") == [{"name": "fast", "condition": f"{SPEED} > 2"}]
+        await session.press("e", "backspace")
+        await session.type("3")
+        await session.press("enter")
+        assert session.app.kept.get("alarms") == [{"name": "fast", "condition": f"{SPEED} > 3"}]
+        await session.press("d")
+        assert session.app.kept.get("alarms") == [] and ("unwatch", SPEED) in session.console.asked
+
+    run(live(), play)
+
+
+def test_what_is_wrong_is_said_before_it_is_taken_and_what_is_missing_is_waited_for() -> None:
+    async def play(session: Session) -> None:
+        await session.press("B")
+        await add(session, "fast: 1 < 2")
+        assert "name a field" in session.text()
+        await session.press("escape")
+        await add(session, "low: /battery/percentage < 0.2")
+        await later(session)
+        assert "? unknown" in session.text() and "there is no topic /battery" in session.text()
+        session.console.series["/battery/percentage"] = ([1.0], [0.1])
+        await later(session)
+        await later(session)
+        assert "✗ holds" in session.text() and told(session) == 1
+
+    run(live(), play, (120, 30))
+
+
+def test_the_mouse_chooses_and_edits() -> None:
+    async def play(session: Session) -> None:
+        await session.press("B")
+        for name in ("one", "two"):
+            await add(session, f"{name}: {SPEED} > 2")
+        await session.pilot.click(AlarmRows, offset=(20, 0))
+        await session.settle()
+        assert session.pane(AlarmRows).current.name == "one"
+        await session.pilot.click(AlarmRows, offset=(20, 0))
+        await session.settle()
+        assert "one: /odom" in session.text().splitlines()[-4]
+
+    run(live(), play, (120, 30))
+
+
+def test_nothing_there_tells_what_to_do() -> None:
+    async def play(session: Session) -> None:
+        await session.press("B", "d", "b", "p")
+        assert "a adds an alarm" in session.text()
+
+    run(empty(), play)
+
+
+def test_a_name_stands_before_a_colon_and_a_blank() -> None:
+    assert parted("low battery:  /a/b  < 1") == ("low battery", "/a/b < 1")
+    assert parted("/node:speed < 1") == ("/node:speed < 1", "/node:speed < 1")

@@ -1,0 +1,73 @@
+"""`bot-console reset`: what is put back, in which order, and what is said of what cannot be."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+from bot_console.tui.cli.verbs import reset
+from bot_console.tui.console.model import Endpoint
+from bot_console.tui.console.robot.robot_model import DriveInfo
+from bot_console.tui.console.robot.stop_link import StopInfo
+from fakes import FakeConsole
+from samples import live
+
+NAVIGATOR, SIMULATOR = "/robot_navigator", "/simulator"
+TRIGGER = ("std_srvs/srv/Trigger",)
+
+
+class Robot(FakeConsole):
+    """The sample system, which knows how it has begun."""
+
+    def start_values(self) -> dict[tuple[str, str], Any]:
+        return {(NAVIGATOR, "max_speed"): 2.0, (NAVIGATOR, "turn_rate"): 1.0, (SIMULATOR, "seed"): 9}
+
+
+@pytest.fixture
+def robot(monkeypatch: pytest.MonkeyPatch) -> Robot:
+    made = Robot(live()[0].current)
+
+    def stop(verb: str, reason: str) -> tuple[bool, StopInfo]:
+        made.all_stop(True, reason)
+        return True, StopInfo(locks=2)
+
+    monkeypatch.setattr(reset, "ask", stop)
+    services = (
+        Endpoint("/reset", TRIGGER),
+        Endpoint("/pause", ("std_srvs/srv/SetBool",)),
+        Endpoint("/odd/reset", TRIGGER),
+    )
+    made.change(graph=replace(made.current.graph, services=services), drive=DriveInfo(lockable=True))
+    return made
+
+
+def test_the_robot_is_locked_first_then_parameters_then_the_simulator(robot: Robot, capsys: Any) -> None:
+    assert reset._reset(robot, dry=False) == 0
+    assert robot.asked == [
+        ("all_stop", True),
+        ("set_all", {NAVIGATOR: {"max_speed": 2.0}}, "reset"),
+        ("call", "/reset"),
+    ], "a service that only has the name of a reset is not called, what is read only is not set"
+    assert robot.current.drive.stopped, "it stays locked"
+    said = capsys.readouterr().out
+    assert "/robot_navigator max_speed: 1.0 -> 2.0" in said and "bot-console release lets it go" in said
+
+
+def test_a_refusal_leaves_all_parameters_and_is_an_exit_code(robot: Robot, capsys: Any) -> None:
+    robot.refusals[NAVIGATOR, "max_speed"] = "not while driving"
+    assert reset._reset(robot, dry=False) == 1
+    said = capsys.readouterr().err
+    assert "not while driving" in said and "no parameter was put back" in said
+    assert robot.current.drive.stopped
+
+
+def test_a_dry_run_changes_nothing(robot: Robot, capsys: Any) -> None:
+    assert reset._reset(robot, dry=True) == 0
+    assert robot.asked == [] and "max_speed: 1.0 -> 2.0" in capsys.readouterr().out
+
+
+def test_nodes_that_have_not_told_how_they_began_are_named() -> None:
+    snapshot = live()[0].current
+    moved, untold = reset.differing(snapshot, {(NAVIGATOR, "max_speed"): 1.0})
+    assert (moved, untold) == ({}, [SIMULATOR])

@@ -1,0 +1,72 @@
+"""Conditions: what they say of values, and what is refused, with the mend; nothing typed is ever run."""
+
+from __future__ import annotations
+
+import pytest
+from bot_console.tui.panes.alarms.condition import read
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+BATTERY, SPEED = "/battery/percentage", "/odom/twist.twist.linear.x"
+
+
+@pytest.mark.parametrize(
+    ("text", "values", "holds"),
+    [
+        (f"{BATTERY} < 0.2", {BATTERY: 0.1}, True),
+        (f"{BATTERY} < 0.2", {BATTERY: 0.2}, False),
+        (f"{BATTERY} < 0.2 and {SPEED} > 1", {BATTERY: 0.1, SPEED: 0.5}, False),
+        (f"{BATTERY} < 0.2 or {SPEED} > 1", {BATTERY: 0.1, SPEED: 0.5}, True),
+        (f"{SPEED}>1 or {SPEED}<0 and {BATTERY}<0.5", {SPEED: 2.0, BATTERY: 0.9}, True),
+        (f"0.1 < {BATTERY} <= 0.2", {BATTERY: 0.2}, True),
+        (f"0.1 < {BATTERY} <= 0.2", {BATTERY: 0.1}, False),
+        ("/a/x / /b/y >= 2", {"/a/x": 4.0, "/b/y": 2.0}, True),
+        ("(/a/x)/2 == 2", {"/a/x": 4.0}, True),
+        ("abs(/a/x - /b/x[3]) > 1", {"/a/x": 1.0, "/b/x[3]": 3.0}, True),
+        ("/navigator:enable_safety != true", {"/navigator:enable_safety": 0.0}, True),
+        ("/robot/navigator:lidar.front.noise > 0.5", {"/robot/navigator:lidar.front.noise": 0.6}, True),
+        ("/order/x > 1", {"/order/x": 2.0}, True),
+    ],
+)
+def test_it_holds_or_not(text: str, values: dict[str, float], holds: bool) -> None:
+    condition = read(text)
+    assert set(condition.paths.values()) == set(values)
+    assert condition.holds(values) is holds
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("", "name a field"),
+        ("1 < 2", "name a field"),
+        ("/a/b", "compares nothing"),
+        ("/a/b <", "side of a comparison"),
+        ("/a/b < 1 and", "a comparison is missing"),
+        ("/a/b < nonsense", "nonsense"),
+        ("/a/b < __import__('os')", ""),
+        ("/a/b < (1).__class__", ""),
+        ("/a/b < 9**9**9", ""),
+        (f"/a/b < {'1+' * 300}1", "letters"),
+    ],
+)
+def test_what_is_wrong_is_said(text: str, why: str) -> None:
+    with pytest.raises(ValueError, match=why or "."):
+        read(text)
+
+
+def test_what_cannot_be_worked_out_for_a_value_is_told_then() -> None:
+    condition = read("1 / /a/b > 2")
+    assert condition.holds({"/a/b": 0.25})
+    with pytest.raises(ValueError, match="zero"):
+        condition.holds({"/a/b": 0.0})
+
+
+@settings(max_examples=300)
+@given(st.text("/ab.x:[]0123<>=!() +-*/andor,_'\"\\", max_size=40))
+def test_any_text_is_read_or_refused_in_words(text: str) -> None:
+    try:
+        condition = read(text)
+    except ValueError as error:
+        assert str(error)
+    else:
+        assert condition.paths

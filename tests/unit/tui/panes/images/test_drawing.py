@@ -1,0 +1,55 @@
+"""Pixels as text, and when they may be drawn."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+from bot_console.tui.console.sights.model import Picture
+from bot_console.tui.panes.images.drawing import cost, half_blocks, letters, pixels_of, steady
+from bot_console.tui.panes.images.pace import BUDGET, Pace
+
+
+def grey(rows: list[list[int]]) -> np.ndarray:
+    return np.repeat(np.array(rows, np.uint8)[:, :, None], 3, axis=2)
+
+
+def test_two_pixels_stand_in_a_cell_and_equal_ones_need_one_colour() -> None:
+    lines = half_blocks(grey([[0, 255], [0, 0]]), 4, 3)
+    assert [("".join(text for text, _ in line)) for line in lines] == ["    ", "  ▀", "    "]
+    assert lines[1][1:] == ((" ", "on #000000"), ("▀", "#ffffff on #000000"))
+
+
+def test_letters_go_from_black_to_white() -> None:
+    assert letters(grey([[0, 128, 255], [0, 128, 255]]), 3, 1) == [(("", ""), (" +@", ""))]
+
+
+def test_an_odd_row_has_black_below_it() -> None:
+    assert pixels_of(Picture(columns=1, rows=1, pixels=b"\x09\x09\x09")).shape == (2, 1, 3)
+
+
+def test_noise_changes_nothing_and_costs_nothing() -> None:
+    generator = np.random.default_rng(1)
+    clean = grey([[60 + at for at in range(0, 160, 4)]] * 20)
+    shown = steady(clean, None)
+    noisy = (clean.astype(int) + generator.integers(-12, 13, clean.shape)).clip(0, 255).astype(np.uint8)
+    again = steady(noisy, shown)
+    assert (again == shown).all() and cost(again, shown, coloured=True) == 0
+    moved = steady(np.roll(clean, 10, axis=1), shown)
+    assert cost(moved, shown, coloured=True) > cost(moved, shown, coloured=False) > 0
+
+
+def test_no_more_pictures_than_asked_for_and_no_more_bytes_than_the_budget() -> None:
+    pace, now, sent = Pace(2.0), 0.0, 0
+    times = []
+    while now < 60.0:
+        if pace.due(now):
+            size = 20_000 if not times else 4000
+            pace.drawn(now, size)
+            sent += size
+            times.append(now)
+        now += 0.1
+    assert sent <= BUDGET * 60 + 20_000 and times[1] >= 4.0
+    assert all(later - earlier >= 0.5 for earlier, later in pairwise(times))
+    pace.change(1000.0)
+    assert pace.rate == 10.0

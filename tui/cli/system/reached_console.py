@@ -1,0 +1,72 @@
+"""A console without a screen, for verbs that read and change what runs in the domain."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+import time
+from collections.abc import Generator
+
+from bot_console.runtime.importer import install
+from bot_console.tui.cli.system.reaching import reach_system
+from bot_console.tui.console.connection.ros_console import RosConsole
+
+LINK = 10.0
+"""Seconds to connect."""
+STILL = 0.5
+"""Seconds for which nothing may come or go before the system counts as known."""
+PERIOD = 0.05
+
+
+@contextlib.contextmanager
+def reached_console(*, learning: bool = False) -> Generator[RosConsole | None]:
+    """A console on the system of this domain, or behind the routers that the environment names; None after saying why.
+
+    With `learning` the launch hosts of the domain tell it what nodes have declared.
+    """
+    alone = reach_system()
+    if alone:
+        print(alone, file=sys.stderr)
+        yield None
+        return
+    install()
+    console = RosConsole()
+    console.start()
+    with contextlib.ExitStack() as stack:
+        stack.callback(console.close)
+        if not console.wait_ready(LINK):
+            print(f"no ROS system: {console.snapshot().problem or 'no answer'}", file=sys.stderr)
+            yield None
+            return
+        if learning:
+            _listen_to_hosts(console, stack)
+        yield console
+
+
+def _listen_to_hosts(console: RosConsole, stack: contextlib.ExitStack) -> None:
+    from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
+    from bot_console.tui.cli.system.domain import domain
+    from bot_console.tui.console.launch_host.door import doors, knock
+    from bot_console.tui.console.launch_host.proxy import HostedLauncher
+
+    for door in doors(domain_folder(domain())):
+        connection = knock(door)
+        if connection is not None:
+            host = HostedLauncher(connection, console.record, console.printed, owner=False, learn=console.learn)
+            stack.callback(host.close)
+
+
+def known(console: RosConsole, patience: float) -> bool:
+    """Wait until nodes and their parameters stand still, so many seconds at most; whether there are any nodes."""
+    deadline, since, before = time.monotonic() + patience, time.monotonic(), (0, 0, 0)
+    while time.monotonic() < deadline:
+        snapshot = console.snapshot()
+        trees = snapshot.parameters
+        nodes = sum(not each.hidden for each in snapshot.graph.nodes)
+        now = (nodes, len(trees), sum(len(each.parameters) for each in trees.values()))
+        if now != before:
+            before, since = now, time.monotonic()
+        if nodes and time.monotonic() - since >= STILL:
+            return True
+        time.sleep(PERIOD)
+    return bool(before[0])

@@ -1,0 +1,129 @@
+"""`bot-console reset`: a system as it was at its start: parameters, robot and world; the robot stays locked."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Mapping
+from concurrent.futures import Future
+from concurrent.futures import TimeoutError as TooLate
+from typing import TypeVar
+
+from bot_console.tui.cli.system.reached_console import known, reached_console
+from bot_console.tui.cli.verbs.stop import ask
+from bot_console.tui.console.connection.ros_console import RosConsole
+from bot_console.tui.console.model import ConsoleSnapshot, Value
+from bot_console.tui.format import counted, harmless, value_text
+
+T = TypeVar("T")
+PATIENCE = 10.0
+"""Seconds for what runs to be known, and for each answer."""
+TRIGGER = "std_srvs/srv/Trigger"
+REASON = "the system is put back to its start"
+
+Values = dict[str, dict[str, Value]]
+
+
+def run(words: list[str]) -> int:
+    """Lock the robot, put parameters back, reset simulators; 0 when all of it was done."""
+    parser = argparse.ArgumentParser(
+        "bot-console reset",
+        description="Put what runs back to its start: the robot is locked, parameters get the values with which their "
+        "nodes have begun (all or none), simulators their first pose. `bot-console release` lets the robot go.",
+    )
+    parser.add_argument("--dry-run", action="store_true", help="only say what would be put back")
+    given = parser.parse_args(words)
+    with reached_console(learning=True) as console:
+        if console is None:
+            return 1
+        if not known(console, PATIENCE):
+            print("there is no node to put back", file=sys.stderr)
+            return 1
+        return _reset(console, dry=given.dry_run)
+
+
+def _reset(console: RosConsole, *, dry: bool) -> int:
+    snapshot = console.snapshot()
+    moved, untold = differing(snapshot, console.start_values())
+    if dry:
+        _tell(moved, snapshot)
+        return 0
+    good = _lock()
+    good = _put_back(console, moved, snapshot) and good
+    for service in resets(snapshot):
+        answer = _wait(console.call(service, TRIGGER, {}))
+        said = answer.text if answer else "no answer"
+        print(f"{service}: {harmless(said)}")
+        good = good and answer is not None and answer.ok
+    if untold:
+        nodes = ", ".join(map(harmless, untold))
+        print(f"left as they are, since they have not told how they began: {nodes}", file=sys.stderr)
+    return 0 if good else 1
+
+
+def _lock() -> bool:
+    """Lock the robot first, so that nothing moves by values that are on their way; whether it stands for sure.
+
+    As `bot-console stop` does, so that the same person's `release` lets it go.
+    """
+    held, info = ask("stop", REASON)
+    if not info.locks:
+        print("no robot with an emergency stop was found, so none is locked", file=sys.stderr)
+        return True
+    print("the robot is locked; bot-console release lets it go" if held else "stop sent, not confirmed")
+    return held
+
+
+def _put_back(console: RosConsole, moved: Values, snapshot: ConsoleSnapshot) -> bool:
+    outcomes = _wait(console.set_all(moved, by="reset")) if moved else ()
+    refused = [each for each in outcomes or () if not each.accepted]
+    if outcomes is None or refused:
+        for each in refused:
+            print(f"{each.node} {each.name}: {harmless(each.reason)}", file=sys.stderr)
+        print("no parameter was put back", file=sys.stderr)
+        return False
+    _tell(moved, snapshot)
+    return True
+
+
+def _tell(moved: Values, snapshot: ConsoleSnapshot) -> None:
+    for node, values in moved.items():
+        for name, value in values.items():
+            parameter = snapshot.parameters[node].get(name)
+            before = value_text(parameter.value) if parameter else ""
+            print(harmless(f"{node} {name}: {before} -> {value_text(value)}"))
+    count = sum(len(each) for each in moved.values())
+    print(
+        f"{counted(count, 'parameter')} differed from the start" if count else "all parameters are those of the start"
+    )
+
+
+def differing(snapshot: ConsoleSnapshot, starts: Mapping[tuple[str, str], Value]) -> tuple[Values, list[str]]:
+    """What has to be set to be as at the start, by node, and the nodes that have not told how they began."""
+    moved: Values = {}
+    untold: list[str] = []
+    for node, tree in snapshot.parameters.items():
+        if tree.parameters and not any((node, each.name) in starts for each in tree.parameters):
+            untold.append(node)
+        for each in tree.parameters:
+            start = starts.get((node, each.name))
+            if start is not None and start != each.value and not each.read_only:
+                moved.setdefault(node, {})[each.name] = start
+    return moved, untold
+
+
+def resets(snapshot: ConsoleSnapshot) -> list[str]:
+    """The services that reset a simulator: those that stand beside one that pauses it."""
+    names = {each.name: each.types for each in snapshot.graph.services}
+    return [
+        name
+        for name, types in sorted(names.items())
+        if name.endswith("/reset") and TRIGGER in types and f"{name.removesuffix('reset')}pause" in names
+    ]
+
+
+def _wait(answer: Future[T]) -> T | None:
+    try:
+        return answer.result(PATIENCE)
+    except TooLate:
+        return None

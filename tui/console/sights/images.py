@@ -1,0 +1,118 @@
+"""The newest image of one topic, scaled for a text screen when somebody looks."""
+
+from __future__ import annotations
+
+import importlib
+import io
+import time
+from typing import Any
+
+import numpy as np
+from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.console.sights import pixels
+from bot_console.tui.console.sights.model import COMPRESSED, IMAGE, Picture
+from bot_console.tui.console.topics.offers import offered_qos, types_of
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+
+LARGEST = 50_000_000
+"""Bytes of a compressed image, and pixels that it may have; what is larger is not unpacked."""
+NO_PIL = "compressed images need Pillow: pip install pillow"
+
+
+class ImageWatch:
+    """Keeps what came last; it becomes pixels only when somebody looks."""
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._topic = ""
+        self._size = (0, 0)
+        self._subscription: Any = None
+        self._offer: object = None
+        self._newest: tuple[int, Any] = (0, None)
+        self._problem = ""
+        self._made: tuple[object, Picture] = (None, Picture())
+
+    def look_at(self, topic: str, columns: int, rows: int, graph: GraphInfo) -> None:
+        """Receive this topic and no other; called by the executor."""
+        self._size = (columns, rows)
+        if topic != self._topic:
+            self._let_go()
+            self._topic, self._newest, self._problem = topic, (0, None), ""
+        self.follow(graph)
+
+    def follow(self, graph: GraphInfo) -> None:
+        """The graph is another: the topic may have come only now, or be offered with another QoS."""
+        topic = self._topic
+        types = types_of(graph, topic) if topic else ()
+        if not topic or not types:
+            self._problem = f"there is no topic {topic} now" if topic and self._subscription is None else ""
+            return
+        offer = offered_qos(graph, topic)
+        if self._subscription is not None and self._offer == (types[0], offer.key):
+            return
+        self._let_go()
+        if types[0] not in (IMAGE, COMPRESSED):
+            self._problem = f"{topic} is of type {types[0]}, which is no image"
+            return
+        kind = getattr(importlib.import_module("sensor_msgs.msg"), types[0].rpartition("/")[2])
+        profile = offer.profile()
+        newest = QoSProfile(depth=1, reliability=profile.reliability, durability=profile.durability)
+        self._problem, self._offer = "", (types[0], offer.key)
+        self._subscription = self._node.create_subscription(kind, topic, self._take, newest)
+
+    def _let_go(self) -> None:
+        if self._subscription is not None:
+            self._node.destroy_subscription(self._subscription)
+        self._subscription = None
+
+    def _take(self, message: Any) -> None:
+        self._newest = (self._newest[0] + 1, message)
+
+    def picture(self) -> Picture:
+        """What came last; from any thread, and the same object until there is another or it is wanted otherwise."""
+        count, message = self._newest
+        key = (self._topic, count, self._size, self._problem)
+        if self._made[0] != key:
+            self._made = (key, self._picture(count, message))
+        return self._made[1]
+
+    def _picture(self, count: int, message: Any) -> Picture:
+        if message is None:
+            return Picture(self._topic, problem=self._problem)
+        began = time.monotonic()
+        try:
+            width, height, encoding, shown, said = _shown(message, *self._size)
+        except ValueError as error:
+            return Picture(self._topic, count=count, problem=str(error))
+        rows, columns = shown.shape[:2]
+        return Picture(
+            self._topic, count, width, height, encoding, columns, rows, shown.tobytes(), said, time.monotonic() - began
+        )
+
+
+def _shown(message: Any, columns: int, rows: int) -> tuple[int, int, str, pixels.Pixels, str]:
+    """Width, height, encoding, the scaled pixels, and a word on them; raises `ValueError`."""
+    if hasattr(message, "encoding"):
+        shown, said = pixels.scaled(message, columns, rows)
+        return int(message.width), int(message.height), str(message.encoding), shown, said
+    image = _unpacked(bytes(message.data))
+    height, width = image.shape[:2]
+    return width, height, str(message.format)[:24], pixels.of_colours(image, columns, rows), ""
+
+
+def _unpacked(data: bytes) -> Any:
+    """A JPEG or PNG as an array of RGB; raises `ValueError`."""
+    try:
+        library: Any = importlib.import_module("PIL.Image")
+    except ImportError:
+        raise ValueError(NO_PIL) from None
+    if len(data) > LARGEST:
+        raise ValueError(f"a compressed image of {len(data)} bytes is too large to be shown")
+    try:
+        with library.open(io.BytesIO(data)) as image:
+            if image.width * image.height > LARGEST:
+                raise ValueError(f"{image.width} x {image.height} pixels are too many to be shown")
+            return np.asarray(image.convert("RGB"))
+    except (OSError, SyntaxError, EOFError, KeyError, library.DecompressionBombError) as error:
+        raise ValueError(f"this image cannot be unpacked: {error}") from None

@@ -1,0 +1,106 @@
+"""An alarm: a named condition, the samples it is judged by, and each time that it has begun to hold. No widgets."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, cast
+
+from bot_console.tui.console.protocol import ConsoleReading, Samples
+from bot_console.tui.panes.alarms.condition import Condition, read
+
+MOST_SAMPLES = 50
+"""Samples of one path that are looked at in one turn; of more the newest count."""
+
+
+@dataclass(frozen=True)
+class AlarmText:
+    """An alarm as a person has typed it; it is kept from run to run."""
+
+    name: str
+    condition: str
+    bell: bool = False
+
+    @property
+    def data(self) -> dict[str, object]:
+        """As plain data, for a file."""
+        return {"name": self.name, "condition": self.condition, **({"bell": True} if self.bell else {})}
+
+
+def texts_of(data: object) -> list[AlarmText]:
+    """The alarms of a file; what is none, or cannot be read as a condition, is left out."""
+    found: list[AlarmText] = []
+    for each in cast("list[object]", data) if isinstance(data, list) else []:
+        given = cast("Mapping[str, Any]", each) if isinstance(each, Mapping) else dict[str, Any]()
+        name, condition = given.get("name"), given.get("condition")
+        if isinstance(name, str) and isinstance(condition, str):
+            try:
+                read(condition)
+            except ValueError:
+                continue
+            found.append(AlarmText(name, condition, given.get("bell") is True))
+    return found
+
+
+@dataclass
+class Alarm:
+    """What becomes of a condition while samples come."""
+
+    text: AlarmText
+    condition: Condition
+    holds: bool | None = None
+    """None: not known, since a value is missing or cannot be worked out."""
+    since: float = 0.0
+    """When it came to be so, in s of the axis of all series."""
+    times: int = 0
+    """How often it has begun to hold."""
+    values: dict[str, float] = field(default_factory=dict[str, float])
+    problem: str = ""
+    _cursors: dict[str, int] = field(default_factory=dict[str, int])
+
+    @classmethod
+    def of(cls, text: AlarmText) -> Alarm:
+        """An alarm that has seen nothing; raises `ValueError` for a condition that cannot be read."""
+        return cls(text, read(text.condition))
+
+    @property
+    def paths(self) -> tuple[str, ...]:
+        """What it looks at."""
+        return tuple(self.condition.paths.values())
+
+    def look(self, console: ConsoleReading) -> list[float]:
+        """Take in new samples, one after the other; gives the values of the first path at which it began to hold."""
+        began: list[float] = []
+        for time, path, value in self._new(console):
+            self.values[path] = value
+            before = self.holds
+            self._judge()
+            if self.holds is not before:
+                self.since = time
+            if self.holds and not before:
+                self.times += 1
+                began.append(self.values[self.paths[0]])
+        return began
+
+    def _new(self, console: ConsoleReading) -> list[tuple[float, str, float]]:
+        """New samples of all paths in the order in which they came."""
+        found: list[tuple[float, str, float]] = []
+        for path in self.paths:
+            new: Samples = console.samples(path, self._cursors.get(path, 0))
+            self._cursors[path] = new.cursor
+            self.problem = new.problem or self.problem
+            first = max(0, len(new.times) - MOST_SAMPLES)
+            found += [(float(new.times[at]), path, float(new.values[at])) for at in range(first, len(new.times))]
+        found.sort(key=lambda each: each[0])
+        return found
+
+    def _judge(self) -> None:
+        missing = [each for each in self.paths if each not in self.values]
+        if missing:
+            self.holds = None
+            return
+        try:
+            self.holds = self.condition.holds(self.values)
+            self.problem = ""
+        except ValueError as error:
+            self.holds, self.problem = None, str(error)

@@ -1,0 +1,240 @@
+"""The alarms pane: conditions over topics and parameters that are watched all the time, and told when they hold."""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+from bot_console.tui import keymap
+from bot_console.tui.console.model import ConsoleSnapshot
+from bot_console.tui.console.query import Query, parse
+from bot_console.tui.panes.alarms.alarm import Alarm, AlarmText, texts_of
+from bot_console.tui.panes.alarms.condition import read
+from bot_console.tui.panes.alarms.rows import AlarmRows, row_of
+from bot_console.tui.panes.list_pane import ListPane
+from bot_console.tui.widgets.prompt.line import Prompt
+from bot_console.tui.widgets.prompt.question import Line
+from bot_console.tui.widgets.row_list import RowList
+from bot_console.tui.widgets.words import Words
+from textual.app import ComposeResult
+
+ASKER = "alarms"
+KEPT = "alarms"
+PERIOD, SHOWN, AGAIN = 0.2, 0.5, 1.0
+"""Seconds between two looks at the samples, at the list, and at paths that are not there yet."""
+MOST = 100
+"""Alarms that there can be."""
+EXAMPLE = "/battery/percentage < 0.2"
+NAMED = re.compile(r"([^/<>=()]+?):\s+(.+)")
+"""A name, a colon and blanks, a condition."""
+
+
+class AlarmsPane(ListPane):
+    """Watched conditions."""
+
+    TITLE = "Alarms"
+    HELP = (
+        "Conditions over fields of topics and parameters, such as  low battery: /battery/percentage < 0.2  or\n"
+        "/scan/ranges[0] < 0.4 and /odom/twist.twist.linear.x > 1. They are watched all the time, at each message;\n"
+        "each time that one begins to hold it is told once, with the terminal's bell where b asks for it. They are\n"
+        "kept for the next start."
+    )
+    BINDINGS = keymap.bindings("alarms")
+
+    clock: Callable[[], float] = staticmethod(time.monotonic)
+    """Seconds of a steady clock; tests give one that they step."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self._alarms: list[Alarm] = []
+        self._query = Query()
+        self._waiting: dict[str, str] = {}
+        """Paths that cannot be watched now, and why."""
+        self._looked = self._drawn = self._asked = float("-inf")
+
+    def compose(self) -> ComposeResult:
+        """The alarms, a word on the one at the cursor, a prompt."""
+        yield AlarmRows()
+        yield Words(id="alarms-status")
+        yield Prompt(id="alarms-prompt")
+
+    def on_mount(self) -> None:
+        """Take up the alarms of the last run."""
+        super().on_mount()
+        for text in texts_of(self.kept.get(KEPT))[:MOST]:
+            self._alarms.append(Alarm.of(text))
+            self._waiting |= dict.fromkeys(self._alarms[-1].paths, "not watched yet")
+
+    @property
+    def _list(self) -> AlarmRows:
+        return self.query_one(AlarmRows)
+
+    def show(self, snapshot: ConsoleSnapshot) -> None:
+        """The list is drawn by time, not by snapshots."""
+        self._arrange()
+
+    def tick(self) -> None:
+        """Look at new samples, also while hidden; and at the list, while it is seen."""
+        now = self.clock()
+        if self._alarms and now - self._looked >= PERIOD:
+            self._looked = now
+            if self._waiting and now - self._asked >= AGAIN:
+                self._asked = now
+                self._watch(self._waiting)
+            for alarm in self._alarms:
+                began = alarm.look(self.console)
+                if began:
+                    self._tell(alarm, began[-1], len(began))
+        if self.display and now - self._drawn >= SHOWN:
+            self._arrange()
+
+    def _watch(self, paths: Any) -> None:
+        for path in tuple(paths):
+            answer = self.console.watch(path, ASKER)
+            if answer.ok:
+                self._waiting.pop(path, None)
+            else:
+                self._waiting[path] = answer.text
+
+    def _tell(self, alarm: Alarm, value: float, times: int) -> None:
+        often = f" ({times} times)" if times > 1 else ""
+        self.notify(
+            f"{alarm.text.name}: {value:.4g}{often}\n{alarm.text.condition}",
+            title="Alarm",
+            severity="warning",
+            timeout=8,
+        )
+        if alarm.text.bell:
+            self.host.bell()
+
+    def _arrange(self) -> None:
+        self._drawn = self.clock()
+        now = self.console.plot_time()
+        for alarm in self._alarms:
+            waits = next((self._waiting[each] for each in alarm.paths if each in self._waiting), "")
+            alarm.problem = waits or alarm.problem
+        every = [row_of(each, now) for each in self._alarms]
+        shown = [each for each in every if self._query.matches(f"{each.name} {each.condition}")]
+        self._list.exchange(shown)
+        holding = sum(each.holds is True for each in every)
+        self.tell_filter(len(shown), len(every), f"{holding} of {len(every)} hold" if holding else "")
+        self._describe()
+
+    def _describe(self) -> None:
+        alarm = self._current
+        if alarm is None:
+            text = "Nothing matches." if self._alarms else f"a adds an alarm, such as  low battery: {EXAMPLE}"
+        else:
+            values = "  ".join(f"{each} = {alarm.values[each]:.4g}" for each in alarm.paths if each in alarm.values)
+            text = alarm.problem or values or "no value yet"
+        self.query_one("#alarms-status", Words).say(text)
+
+    @property
+    def _current(self) -> Alarm | None:
+        row = self._list.current
+        return next((each for each in self._alarms if row and each.text.name == row.name), None)
+
+    def on_row_list_moved(self, event: RowList.Moved) -> None:
+        """Tell of the alarm at the cursor."""
+        event.stop()
+        self._describe()
+
+    def on_alarm_rows_pressed(self, event: AlarmRows.Pressed) -> None:
+        """A row that was chosen already was clicked."""
+        event.stop()
+        self.action_edit()
+
+    def filter_is(self, words: str) -> None:
+        """Show what passes."""
+        self._query = parse(words)
+        self._arrange()
+
+    def action_add(self) -> None:
+        """Ask for another alarm."""
+        if len(self._alarms) >= MOST:
+            self.notify(f"There are {MOST} alarms; d takes one away.", severity="warning")
+            return
+        self._ask("alarm", "", None)
+
+    def action_edit(self) -> None:
+        """Edit the alarm at the cursor."""
+        alarm = self._current
+        if alarm is None:
+            self.action_add()
+        else:
+            self._ask("alarm", f"{alarm.text.name}: {alarm.text.condition}", alarm)
+
+    def _ask(self, label: str, text: str, old: Alarm | None) -> None:
+        suggestions = self.console.plottable()  # with them an old text is not selected: mostly its end is edited
+        check, then = partial(self._wrong, old), partial(self._take, old)
+        self.ask(Line(label, then, text=text, check=check, suggestions=suggestions))
+
+    def _wrong(self, old: Alarm | None, typed: str) -> str:
+        name, condition = parted(typed)
+        try:
+            read(condition)
+        except ValueError as error:
+            return str(error)
+        taken = any(each.text.name == name and each is not old for each in self._alarms)
+        return f"there is an alarm '{name}'" if taken else ""
+
+    def _take(self, old: Alarm | None, typed: str) -> None:
+        name, condition = parted(typed)
+        alarm = Alarm.of(AlarmText(name, condition, old is not None and old.text.bell))
+        if old in self._alarms:
+            self._alarms[self._alarms.index(old)] = alarm
+        else:
+            self._alarms.append(alarm)
+        self._watch(alarm.paths)
+        self._let_go_of(old)
+        self._keep()
+        names = [each.name for each in self._list.rows]
+        self._list.cursor = names.index(name) if name in names else self._list.cursor
+
+    def _let_go_of(self, alarm: Alarm | None) -> None:
+        """Watch no more what no other alarm looks at."""
+        wanted = {path for each in self._alarms for path in each.paths}
+        for path in set(alarm.paths) - wanted if alarm else ():
+            self._waiting.pop(path, None)
+            self.console.unwatch(path, ASKER)
+
+    def _keep(self) -> None:
+        why = self.kept.put(KEPT, [each.text.data for each in self._alarms])
+        if why:
+            self.notify(f"The alarms are not kept: {why}", severity="warning")
+        self._arrange()
+
+    def action_delete(self) -> None:
+        """Take the alarm at the cursor away."""
+        alarm = self._current
+        if alarm is not None:
+            self._alarms.remove(alarm)
+            self._let_go_of(alarm)
+            self._keep()
+
+    def action_bell(self) -> None:
+        """Ring the terminal's bell when the alarm at the cursor begins to hold, or not."""
+        alarm = self._current
+        if alarm is not None:
+            alarm.text = AlarmText(alarm.text.name, alarm.text.condition, not alarm.text.bell)
+            self._keep()
+
+    def action_plot(self) -> None:
+        """Plot what the alarm at the cursor looks at."""
+        for path in self._current.paths if self._current else ():
+            self.post_message(self.PlotWanted(path))
+
+    def let_go(self) -> None:
+        """Watch nothing any more."""
+        for path in {path for each in self._alarms for path in each.paths}:
+            self.console.unwatch(path, ASKER)
+
+
+def parted(typed: str) -> tuple[str, str]:
+    """Name and condition of what was typed; without a name the condition is its own."""
+    found = NAMED.fullmatch(typed.strip())
+    condition = " ".join((found[2] if found else typed).split())
+    return (found[1].strip() if found else condition), condition

@@ -1,0 +1,89 @@
+"""The rows of the alarms pane: whether a condition holds, its name, value, and how often it has begun to hold."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from bot_console.tui.console.query import Query
+from bot_console.tui.format import counted, cut, harmless
+from bot_console.tui.panes.alarms.alarm import Alarm
+from bot_console.tui.panes.topics.figures import age_text
+from bot_console.tui.widgets.item_list import ItemList
+from rich.cells import cell_len
+from rich.segment import Segment
+from rich.style import Style
+from textual.events import Click
+from textual.message import Message
+
+STATES = {True: ("✗", "holds", "error"), False: ("○", "quiet", "good"), None: ("?", "unknown", "warn")}
+NAME, STATE, AGE = 24, 11, 8
+"""Cells of the name at most, of the state, and of how long it is so."""
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """An alarm as it is shown."""
+
+    name: str
+    condition: str
+    bell: bool
+    holds: bool | None
+    age: int
+    """Whole seconds for which it is so."""
+    times: int
+    value: str
+
+
+def row_of(alarm: Alarm, now: float) -> Row:
+    """An alarm at a moment of the axis of all series (s)."""
+    values = ", ".join(f"{alarm.values[each]:.4g}" for each in alarm.paths if each in alarm.values)
+    age = max(0, int(now - alarm.since)) if alarm.holds is not None else 0
+    text = alarm.text
+    return Row(text.name, text.condition, text.bell, alarm.holds, age, alarm.times, alarm.problem or values)
+
+
+class AlarmRows(ItemList[Row]):
+    """One alarm a row."""
+
+    class Pressed(Message):
+        """A row that was chosen already was clicked."""
+
+    def key(self, item: Row) -> object:
+        """Its name."""
+        return item.name
+
+    def matches(self, index: int, query: Query) -> bool:
+        """Whether an alarm matches a filter."""
+        return query.matches(f"{self.rows[index].name} {self.rows[index].condition}")
+
+    def row(self, index: int, width: int) -> list[Segment]:
+        """State, name, times, value, condition."""
+        row = self.rows[index]
+        sign, word, style = STATES[row.holds]
+        name = min(NAME, max((cell_len(harmless(each.name)) for each in self.rows), default=0), max(8, width // 3))
+        loud = self._style(style)
+        segments = [
+            Segment(f"{sign} {word:<{STATE - 2}}", loud),
+            Segment(cut(harmless(row.name), name, pad=True) + "  ", loud if row.holds else self._style("strong")),
+        ]
+        if width >= 60:
+            so = age_text(row.age) if row.holds is not None else ""
+            segments.append(Segment(f"{so:<{AGE}}", self._style("dim")))
+        segments += [
+            Segment(f"{counted(row.times, 'time') if row.times else '':<9}", loud if row.holds else self._style("dim")),
+            Segment("♪ " if row.bell else "  ", self._style("dim")),
+            Segment(cut(harmless(row.value), 16, pad=True) + "  "),
+            Segment(harmless(row.condition), self._style("dim")),
+        ]
+        return segments
+
+    def _style(self, name: str) -> Style:
+        return self.get_component_rich_style(f"row-list--{name}", partial=True)
+
+    def on_click(self, event: Click) -> None:
+        """A click chooses the row; a click on the chosen one edits it."""
+        index = event.y + self.scroll_offset.y
+        if 0 <= index < self.row_count():
+            chosen, self.cursor = index == self.cursor, index
+            if chosen:
+                self.post_message(self.Pressed())

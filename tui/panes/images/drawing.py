@@ -1,0 +1,84 @@
+"""Pixels as text: two in a cell by half-blocks in colour, or greys as letters; and what a change costs. Pure."""
+
+from __future__ import annotations
+
+from itertools import groupby
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from bot_console.tui.console.sights.model import Picture
+from bot_console.tui.widgets.picture import Line
+
+Pixels = npt.NDArray[np.uint8]
+
+LEVELS = 16
+"""Steps of each colour that are told apart: fewer colours make longer runs of the same one, and so fewer bytes."""
+NOISE = 14
+"""A pixel that differs by less than this in every colour is left as it is shown, so that noise costs nothing."""
+RAMP = " .:-=+*#%@"
+"""Letters from black to white, for screens without colours or without half-blocks."""
+COLOUR, LETTER = 18, 3
+"""Bytes of a change of one of the two colours of a cell, and of a half-block."""
+
+
+def pixels_of(picture: Picture) -> Pixels:
+    """The pixels of a picture as an array (rows, columns, 3), with an even number of rows."""
+    flat: Any = np.frombuffer(picture.pixels, np.uint8)
+    found: Pixels = flat.reshape(picture.rows, picture.columns, 3)
+    return np.concatenate([found, np.zeros_like(found[:1])]) if picture.rows % 2 else found
+
+
+def steady(new: Pixels, shown: Pixels | None) -> Pixels:
+    """What to show: pixels that are about as they were stay exactly so; the others in few colours."""
+    few = (new // (256 // LEVELS) * (255 // (LEVELS - 1))).astype(np.uint8)
+    if shown is None or shown.shape != new.shape:
+        return few
+    distance: npt.NDArray[np.int16] = np.abs(new.astype(np.int16) - shown.astype(np.int16)).max(axis=2)
+    return np.where(distance[:, :, np.newaxis] >= NOISE + 256 // LEVELS, few, shown).astype(np.uint8)
+
+
+def half_blocks(pixels: Pixels, width: int, height: int) -> list[Line]:
+    """Lines of half-blocks, in the middle of so many cells."""
+    packed = pixels.astype(np.uint32) @ np.array([1 << 16, 1 << 8, 1], np.uint32)
+    lines = [
+        _line([_cell(*pair) for pair in zip(top, below, strict=True)])
+        for top, below in zip(packed[::2].tolist(), packed[1::2].tolist(), strict=True)
+    ]
+    return _in_the_middle(lines, pixels.shape[1], width, height)
+
+
+def letters(pixels: Pixels, width: int, height: int) -> list[Line]:
+    """Lines of letters, in the middle of so many cells."""
+    light = pixels.astype(np.float32) @ np.array([0.299, 0.587, 0.114], np.float32)
+    places = ((light[::2] + light[1::2]) / 2 / 256 * len(RAMP)).astype(int)
+    lines: list[Line] = [(("".join(RAMP[each] for each in row), ""),) for row in places.tolist()]
+    return _in_the_middle(lines, pixels.shape[1], width, height)
+
+
+def cost(new: Pixels, shown: Pixels | None, *, coloured: bool) -> int:
+    """About how many bytes the terminal needs to show other pixels."""
+    same = shown is not None and shown.shape == new.shape
+    changed = (new != shown).any(axis=2) if same and shown is not None else np.ones(new.shape[:2], bool)
+    cells = changed[::2] | changed[1::2]
+    if not coloured:
+        return int(cells.sum())
+    other = np.ones(new.shape[:2], bool)
+    other[:, 1:] = (new[:, 1:] != new[:, :-1]).any(axis=2)
+    grounds = other[::2].astype(int) + other[1::2].astype(int)
+    return int((cells * (LETTER + COLOUR * grounds)).sum())
+
+
+def _cell(top: int, below: int) -> tuple[str, str]:
+    return (" ", f"on #{top:06x}") if top == below else ("▀", f"#{top:06x} on #{below:06x}")
+
+
+def _line(cells: list[tuple[str, str]]) -> Line:
+    return tuple(("".join(text for text, _ in run), style) for style, run in groupby(cells, lambda each: each[1]))
+
+
+def _in_the_middle(lines: list[Line], across: int, width: int, height: int) -> list[Line]:
+    left, top = max(0, width - across) // 2, max(0, height - len(lines)) // 2
+    blank: Line = ((" " * width, ""),)
+    shifted = [((" " * left, ""), *line) for line in lines]
+    return [blank] * top + shifted + [blank] * (height - top - len(lines))

@@ -1,0 +1,33 @@
+"""How often a picture may be drawn: so many a second, and no more bytes than a slow line takes. Pure."""
+
+from __future__ import annotations
+
+BUDGET = 5000.0
+"""Bytes per second for pictures, in the mean."""
+FASTEST, SLOWEST = 10.0, 0.125
+"""Pictures per second."""
+
+
+class Pace:
+    """Says when the next picture may be drawn."""
+
+    def __init__(self, rate: float = 2.0) -> None:
+        self.rate = rate
+        """Pictures per second at most."""
+        self._next = float("-inf")
+
+    def change(self, factor: float) -> None:
+        """More pictures per second, or fewer."""
+        self.rate = min(FASTEST, max(SLOWEST, self.rate * factor))
+
+    def due(self, now: float) -> bool:
+        """Whether one may be drawn now (s)."""
+        return now >= self._next
+
+    def drawn(self, now: float, size: int) -> None:
+        """One of so many bytes was drawn; what it took beyond its share is waited for."""
+        self._next = now + max(1.0 / self.rate, size / BUDGET)
+
+    def wait(self, now: float) -> float:
+        """Seconds until the next one."""
+        return max(0.0, self._next - now)

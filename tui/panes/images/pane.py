@@ -1,0 +1,223 @@
+"""The images pane: what a camera sees, in half-blocks or letters, within what a terminal takes."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+from bot_console.tui import keymap
+from bot_console.tui.console.model import ConsoleSnapshot, GraphInfo
+from bot_console.tui.console.sights.model import COMPRESSED, IMAGE
+from bot_console.tui.console.sights.model import Picture as Seen
+from bot_console.tui.panes.images import drawing
+from bot_console.tui.panes.images.pace import Pace
+from bot_console.tui.panes.pane import Pane
+from bot_console.tui.widgets.picture import Picture
+from bot_console.tui.widgets.prompt.line import Prompt
+from bot_console.tui.widgets.prompt.question import Choice, Option
+from bot_console.tui.widgets.words import Words
+from textual.app import ComposeResult
+from textual.events import Click
+
+NOTHING = "No topic of sensor_msgs/msg/Image or CompressedImage is published."
+
+
+class ImageView(Picture, can_focus=True):
+    """Shows the picture; takes the keys of the pane."""
+
+    def on_click(self, event: Click) -> None:
+        """A click takes the keyboard."""
+        self.focus()
+
+
+class ImagesPane(Pane):
+    """Images of one topic."""
+
+    TITLE = "Images"
+    HELP = (
+        "The newest image of a topic, scaled to the pane: two pixels in a cell by half-blocks, or greys as letters\n"
+        "(g), which cost a fortieth of the bytes. At most 2 pictures a second (+ and - change that), and no more than\n"
+        "5 kB a second in the mean: what changes much is drawn less often. On a slow link the picture freezes; space\n"
+        "takes one. Depths and other wide numbers go from black (the least) to white."
+    )
+    SCOPES = ()
+    BINDINGS = keymap.bindings("images")
+
+    clock: Callable[[], float] = staticmethod(time.monotonic)
+    """Seconds of a steady clock; tests give one that they step."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self._graph = GraphInfo()
+        self._problem = ""
+        self._topic = ""
+        self._asked: tuple[str, int, int] = ("", 0, 0)
+        self._seen = Seen()
+        self._shown: drawing.Pixels | None = None
+        self._drawn: object = None
+        self._pace = Pace()
+        self._frozen = self._once = self._in_letters = False
+
+    def compose(self) -> ComposeResult:
+        """A line on the picture, the picture, a prompt."""
+        yield Words(id="images-head")
+        yield ImageView(id="images-view")
+        yield Prompt(id="images-prompt")
+
+    @property
+    def _view(self) -> ImageView:
+        return self.query_one(ImageView)
+
+    def focus_target(self) -> None:
+        """The picture takes the keys."""
+        self._view.focus()
+
+    def show(self, snapshot: ConsoleSnapshot) -> None:
+        """Take the first topic there is, until a person chooses."""
+        self._graph, self._problem = snapshot.graph, snapshot.problem
+        if not self._topic:
+            self._topic = next(iter(self._topics()), "")
+        self._look()
+
+    def _topics(self) -> list[str]:
+        return [each.name for each in self._graph.topics if IMAGE in each.types or COMPRESSED in each.types]
+
+    def tick(self) -> None:
+        """Draw what is new when its time has come; while hidden nothing is received."""
+        if self.display:
+            self._look()
+        elif self._asked[0]:
+            self._ask_for("", 0, 0)
+
+    def _ask_for(self, topic: str, columns: int, rows: int) -> None:
+        if self._asked != (topic, columns, rows):
+            self._asked = (topic, columns, rows)
+            self.console.sights.look_at(topic, columns, rows)
+
+    @property
+    def _slow(self) -> bool:
+        """Whether the terminal does not keep up with what is drawn already."""
+        gate = getattr(self.host, "gate", None)
+        return bool(gate is not None and gate.held_back)
+
+    @property
+    def _letters(self) -> bool:
+        """Whether greys stand for colours."""
+        return self._in_letters or self.host.no_color or bool(getattr(self.host, "plain", False))
+
+    def _look(self) -> None:
+        size = self._view.size
+        if not size.area:
+            return
+        if self._topic:
+            self._ask_for(self._topic, size.width, size.height * 2)
+        now, seen = self.clock(), self.console.sights.picture()
+        held = (self._frozen or self._slow) and not self._once
+        if seen.topic == self._topic and not held and (self._once or self._pace.due(now)):
+            self._draw(seen, now)
+        self._say()
+
+    def _draw(self, seen: Seen, now: float) -> None:
+        view, in_letters = self._view, self._letters
+        key = (seen, view.size, in_letters)
+        if not seen.pixels or key == self._drawn:
+            self._seen = seen
+            if not seen.pixels:
+                view.set_lines(())
+            return
+        self._once = False
+        self._seen, self._drawn, before = seen, key, self._shown
+        self._shown = drawing.steady(drawing.pixels_of(seen), before)
+        draw = drawing.letters if in_letters else drawing.half_blocks
+        self._pace.drawn(now, drawing.cost(self._shown, before, coloured=not in_letters))
+        view.set_lines(draw(self._shown, view.size.width, view.size.height))
+
+    def _say(self) -> None:
+        seen, topic = self._seen, self._topic
+        if not topic:
+            text = self._problem or NOTHING
+        elif seen.problem and seen.topic == topic:
+            text = f"{topic}  {seen.problem}"
+        elif not seen.count or seen.topic != topic:
+            text = f"{topic}  no image yet"
+        else:
+            parts = [topic, f"{seen.width}x{seen.height} {seen.encoding}", *([seen.said] if seen.said else [])]
+            text = "  ".join([*parts, self._state()])
+        self.query_one("#images-head", Words).say(text)
+
+    def _state(self) -> str:
+        newer = self.console.sights.picture().count - self._seen.count
+        new = f", +{newer} new" if newer > 0 else ""
+        if self._slow:
+            return f"slow link: frozen{new}; space takes one picture"
+        if self._frozen:
+            return f"frozen{new}; space goes on"
+        wait = self._pace.wait(self.clock())
+        if newer > 0 and wait > 2.0 / self._pace.rate:
+            return f"the next one in {wait:.0f} s (5 kB/s); g shows letters, which cost less"
+        return f"at most {self._pace.rate:g} a second"
+
+    def on_picture_resized(self, event: Picture.Resized) -> None:
+        """Another size: the picture is wanted for that."""
+        event.stop()
+        self._shown = self._drawn = None
+        if self.display:
+            self._look()
+
+    def go_to(self, name: str) -> None:
+        """Show a topic."""
+        self._choose(name)
+
+    def _choose(self, topic: str) -> None:
+        self._topic, self._shown, self._drawn, self._seen = topic, None, None, Seen()
+        self._pace = Pace(self._pace.rate)
+        self._view.set_lines(())
+        self._look()
+
+    def action_topic(self) -> None:
+        """Choose a topic."""
+
+        def find(typed: str) -> list[Option]:
+            words = typed.lower().split()
+            return [Option(each) for each in self._topics() if all(word in each.lower() for word in words)]
+
+        self.ask(Choice("Images of", self._choose, find=find, hint="words of a topic", empty=NOTHING))
+
+    def action_next(self) -> None:
+        """Show the next topic."""
+        topics = self._topics()
+        if topics:
+            at = topics.index(self._topic) if self._topic in topics else -1
+            self._choose(topics[(at + 1) % len(topics)])
+
+    def action_freeze(self) -> None:
+        """Freeze, or go on; on a slow link: take one picture."""
+        if self._slow:
+            self._once = True
+        else:
+            self._frozen = not self._frozen
+        self._look()
+
+    def action_letters(self) -> None:
+        """Letters in the place of colours, or no more."""
+        self._in_letters = not self._in_letters
+        self._shown = None
+        self._once = True
+        self._look()
+
+    def action_rate(self, factor: float) -> None:
+        """More pictures per second, or fewer."""
+        self._pace.change(factor)
+        self._say()
+
+    def action_copy(self) -> None:
+        """Copy the `ros2` command that shows how often images come."""
+        if self._topic:
+            text = f"ros2 topic hz {self._topic}"
+            self.host.copy_to_clipboard(text)
+            self.notify(text, title="Copied")
+
+    def let_go(self) -> None:
+        """Receive nothing any more."""
+        self.console.sights.look_at("", 0, 0)

@@ -1,0 +1,41 @@
+"""What panes keep, as files of the user's: alarms beside the settings, how the screen was left in the state folder."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import yaml
+from bot_console.tui.files.folders import config_folder, state_folder
+from bot_console.tui.files.save_file import NotSaved, save_file
+from bot_console.tui.text.yaml_faults import UNREADABLE
+
+LARGEST = 1_000_000
+"""Bytes of a file that is read; what is larger was not written here."""
+HEADS = {"alarms": "# Alarms of bot-console: conditions over topics and parameters, each with a name.\n"}
+"""What a person may write too, with its first lines; it stands in the folder of the settings."""
+
+
+class FileKept:
+    """One YAML file for each name."""
+
+    def get(self, name: str) -> object:
+        """What is in the file; None where there is none, or where it cannot be read."""
+        try:
+            with _path(name).open("rb") as file:
+                content = file.read(LARGEST + 1)
+            return None if len(content) > LARGEST else yaml.load(content, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+        except (OSError, *UNREADABLE):
+            return None
+
+    def put(self, name: str, data: object) -> str:
+        """Write the file."""
+        text = HEADS.get(name, "") + yaml.safe_dump(data, sort_keys=False, allow_unicode=True)
+        try:
+            save_file(_path(name), text)
+        except NotSaved as error:
+            return str(error)
+        return ""
+
+
+def _path(name: str) -> Path:
+    return (config_folder() if name in HEADS else state_folder()) / f"{name}.yaml"
