@@ -75,7 +75,7 @@ def reason_first(problem: str) -> str:
 
 def drive_text(drive: DriveInfo) -> str:
     """The command chain: asked, what limited it, final, actual speed."""
-    if drive.final is None and drive.actual is None and not drive.limited_by:
+    if drive.final is None and drive.actual is None and not drive.limited_by and not drive.silent_s:
         return "no robot yet"
     parts: list[str] = []
     if drive.asked is not None:
@@ -87,4 +87,6 @@ def drive_text(drive: DriveInfo) -> str:
         parts.append(harmless(drive.limited_by))
     if drive.actual is not None:
         parts.append(f"actual {drive.actual[0]:+.1f} m/s")
+    elif drive.silent_s:
+        parts.append(f"the robot is SILENT for {drive.silent_s} s")
     return " → ".join(parts)

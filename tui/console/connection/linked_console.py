@@ -72,7 +72,7 @@ class LinkedConsole:
             logs=self._logs.state,
             journal=node.journal.state,
             world=world,
-            drive=node.drive.info((world.speed, world.turn) if world.pose else None),
+            drive=node.drive.info(world),
             profiles=self._shelf.profiles,
             active_profile=node.setter.profile,
             profile_changes=node.profile_changes(self._profile(node.setter.profile)),

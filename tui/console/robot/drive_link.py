@@ -20,7 +20,7 @@ from bot_console.tui.console.robot.command_topics import (
     robots_of,
     types_of,
 )
-from bot_console.tui.console.robot.robot_model import DriveInfo
+from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
 from bot_console.tui.console.robot.stop_link import STATUS, StopLink
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist, TwistStamped
@@ -266,9 +266,10 @@ class DriveLink:
             message.header.stamp = self._node.get_clock().now().to_msg()
         self._publisher(topic).publish(message)
 
-    def info(self, actual: Velocity | None) -> DriveInfo:
-        """The chain as known now; the same object while nothing changes."""
+    def info(self, world: WorldInfo) -> DriveInfo:
+        """The chain as known now, the robot's own word included; the same object while nothing changes."""
         silent = FINAL in self._seen and time.monotonic() - self._heard > SILENCE
+        gone = silent and world.silent_s > 0
         why = NO_COMMAND if silent else self._verdict.limited_by
         if self._arbitrated and not self._robot.get(TELEOP):
             why = NO_ARBITER
@@ -277,10 +278,11 @@ class DriveLink:
             topic=self.topic,
             robot=self._robot.robot,
             robots=tuple(each.robot for each in self._robots),
-            asked=self._verdict.asked or self._seen.get(ASKED),
-            limited=self._verdict.limited,
+            asked=None if gone else self._verdict.asked or self._seen.get(ASKED),
+            limited=None if gone else self._verdict.limited,
             final=None if silent else self._seen.get(FINAL),
-            actual=actual,
+            actual=(world.speed, world.turn) if world.pose and not world.silent_s else None,
+            silent_s=world.silent_s,
             limited_by=why,
             stopped=stop.stopped or self._zeros,
             stop_confirmed=stop.confirmed,

@@ -78,6 +78,8 @@ class WorldInfo:
     nearest: float | None = None
     fields: tuple[TurtleField, ...] = ()
     """Fields with turtles, beside or instead of a robot."""
+    silent_s: int = 0
+    """For how many seconds the robot has told no pose and speed; 0 while it does. What is known is then that old."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,6 +113,8 @@ class DriveInfo:
     limited: tuple[float, float] | None = None
     final: tuple[float, float] | None = None
     actual: tuple[float, float] | None = None
+    silent_s: int = 0
+    """For how many seconds the robot has not told its actual velocity; 0 while it does."""
     limited_by: str = ""
     stopped: bool = False
     """Whether a stop was asked for, or a lock holds the robot."""

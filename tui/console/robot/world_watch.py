@@ -9,6 +9,7 @@ import math
 import time
 from collections import deque
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -25,6 +26,8 @@ from sensor_msgs.msg import LaserScan
 TRAIL = 400
 TRAIL_STEP = 0.1
 """Metres between two points of the trail."""
+SILENT_S = 1.0
+"""Without a pose for so long the robot is silent: slower robots tell theirs more often than once a second."""
 
 SENSOR = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -38,8 +41,11 @@ PREFERRED = {
 class WorldWatch:
     """Keeps the newest map, pose and scan; `info` puts them together when it is asked and something is new."""
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: Node, now: Callable[[], float] = time.monotonic) -> None:
+        """`now` gives s, for the silence of the robot."""
         self._node = node
+        self._now = now
+        self._heard = 0.0
         self._subscriptions: dict[str, Any] = {}
         self._map: GridMap | None = None
         self._odometry: Odometry | None = None
@@ -92,6 +98,7 @@ class WorldWatch:
             self._trail.append((place.x, place.y))
         self.past.add(time.time_ns(), message.pose.pose)
         self._odometry = message
+        self._heard = self._now()
         self._fresh = True
 
     def _on_scan(self, message: LaserScan) -> None:
@@ -104,6 +111,10 @@ class WorldWatch:
         if self._fresh or self._turtles.fresh:
             self._fresh = False
             self._info = self._build()
+        silence = self._now() - self._heard if self._odometry else 0.0
+        silent_s = int(silence) if silence > SILENT_S else 0
+        if silent_s != self._info.silent_s:
+            self._info = replace(self._info, silent_s=silent_s)
         return self._info
 
     def _build(self) -> WorldInfo:

@@ -159,7 +159,8 @@ class WorldPane(Pane):
             pose = self._then or world.pose
             near = "free" if world.nearest is None else f"{world.nearest:.1f} m"
             where = f"x {pose.x:6.1f}  y {pose.y:6.1f}" if pose else "pose unknown"
-            text = f"{where}  {world.speed:+.1f} m/s  nearest {near}  {drawn.scale}{more}"
+            speed = f"SILENT for {world.silent_s} s" if world.silent_s else f"{world.speed:+.1f} m/s"
+            text = f"{where}  {speed}  nearest {near}  {drawn.scale}{more}"
             stamp = self.time_cursor.stamp
             if stamp is not None:
                 known = f"{where}  " if self._then else "where the robot was then is not known  "

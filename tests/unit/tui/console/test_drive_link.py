@@ -7,6 +7,7 @@ import pytest
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.robot import drive_link
 from bot_console.tui.console.robot.drive_link import NO_ARBITER, NO_COMMAND, DriveLink
+from bot_console.tui.console.robot.robot_model import Pose, WorldInfo
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from geometry_msgs.msg import Twist, TwistStamped
 from rclpy.context import Context
@@ -83,7 +84,7 @@ def test_all_stop_sends_zero_everywhere_and_takes_no_command(bench):
     bench.link.drive(0.5, 0.0)
     bench.settle()
     assert sorted(set(bench.got)) == [("/cmd_vel", 0.0), ("/cmd_vel_teleop", 0.0)]
-    assert bench.link.info(None).stopped
+    assert bench.link.info(WorldInfo()).stopped
 
 
 def test_all_stop_answers_somebody_elses_command_at_once(bench):
@@ -121,7 +122,7 @@ def test_the_arbiters_reason_is_told():
     pairs = [KeyValue(key=key, value=value) for key, value in values.items()]
     publisher.publish(DiagnosticArray(status=[DiagnosticStatus(values=pairs)]))
     bench.settle()
-    info = bench.link.info((0.1, 0.0))
+    info = bench.link.info(WorldInfo(pose=Pose(), speed=0.1))
     assert (info.limited_by, info.asked, info.limited) == ("warning_distance", (0.8, 0.0), (0.2, 0.0))
 
 
@@ -129,9 +130,9 @@ def test_silence_is_told(bench, monkeypatch):
     other = bench.robot.create_publisher(Twist, "/cmd_vel", 10)
     other.publish(Twist())
     bench.settle()
-    assert bench.link.info(None).final == (0.0, 0.0)
+    assert bench.link.info(WorldInfo()).final == (0.0, 0.0)
     monkeypatch.setattr(drive_link, "SILENCE", -1.0)
-    info = bench.link.info(None)
+    info = bench.link.info(WorldInfo())
     assert (info.final, info.limited_by) == (None, NO_COMMAND)
 
 
@@ -146,13 +147,13 @@ def test_a_robot_whose_arbiter_has_left_is_not_driven_past_it():
     bench.settle()
     assert bench.got == [("/cmd_vel", 0.0)], "it stops at once"
     bench.got.clear()
-    info = bench.link.info(None)
+    info = bench.link.info(WorldInfo())
     assert (info.topic, info.limited_by) == ("", NO_ARBITER)
     bench.link.stop(False, "")
     bench.settle()
     assert bench.got == [("/cmd_vel", 0.0)], "it can still be stopped"
     bench.link.follow(_listening("/cmd_vel", "/cmd_vel_teleop"))
-    assert (bench.link.topic, bench.link.info(None).limited_by) == ("/cmd_vel_teleop", "")
+    assert (bench.link.topic, bench.link.info(WorldInfo()).limited_by) == ("/cmd_vel_teleop", "")
 
 
 def test_the_next_robot_needs_no_arbiter():
@@ -184,13 +185,13 @@ def test_a_robot_that_wants_stamps_gets_them_and_none_of_ours_in_simulated_time(
     assert (message.twist.linear.x, message.twist.angular.z) == (0.5, -0.25)
     assert (message.header.stamp.sec == 0) is simulated
     bench.settle()
-    assert bench.link.info(None).final == (0.5, -0.25)
+    assert bench.link.info(WorldInfo()).final == (0.5, -0.25)
 
 
 def test_of_several_robots_one_is_steered_and_all_are_stopped():
     bench = Bench("/a/cmd_vel", "/bb/cmd_vel", "/elsewhere/velocity")
     bench.link.follow(_robots(("/bb/cmd_vel", TWIST), ("/a/cmd_vel", TWIST), ("/elsewhere/velocity", TWIST)))
-    info = bench.link.info(None)
+    info = bench.link.info(WorldInfo())
     assert (info.robot, info.robots) == ("/a", ("/a", "/bb", "/elsewhere/velocity"))
     bench.link.drive(0.5, 0.0)
     bench.link.choose("/bb")
@@ -207,7 +208,7 @@ def test_a_topic_of_another_name_is_driven_only_when_it_is_chosen():
     bench = Bench("/elsewhere/velocity")
     bench.link.follow(_robots(("/elsewhere/velocity", TWIST)))
     bench.link.drive(0.5, 0.0)
-    assert bench.link.info(None).topic == ""
+    assert bench.link.info(WorldInfo()).topic == ""
     bench.link.choose("/elsewhere/velocity")
     bench.link.drive(0.5, 0.0)
     bench.link.stop(True, "ALL STOP")
