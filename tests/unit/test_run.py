@@ -116,8 +116,14 @@ def test_modules_beside_the_file_are_found(run: Runs, tmp_path: Path) -> None:
         ((), "name a file or a package"),
         (("nope.py",), "nope.py does not exist"),
         (("nope", "x"), "Package 'nope' not found, and there is no such file"),
-        (("bot_console_robot",), "name an executable of package 'bot_console_robot' as well; it has: controller_node"),
-        (("bot_console_robot", "x"), "No executable found: 'x' is not in package 'bot_console_robot', which has: con"),
+        (
+            ("bot_console_robot",),
+            "name an executable of package 'bot_console_robot' as well; it has: autotune_node, controller_node",
+        ),
+        (
+            ("bot_console_robot", "x"),
+            "No executable found: 'x' is not in package 'bot_console_robot', which has: autotune_node, con",
+        ),
     ],
 )
 def test_wrong_words_are_told(run: Runs, words: tuple[str, ...], refusal: str) -> None:

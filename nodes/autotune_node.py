@@ -1,0 +1,207 @@
+#!/usr/bin/env python3
+"""Node `autotune`: adjusts one parameter of another node while the robot drives, by what the sensors tell.
+
+It changes nothing without a safety monitor that says that it watches, and puts the value of before back when that falls
+silent or is stopped. The parameters of the safety monitor itself are out of its reach.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from bot_console_robot.climbing import Climber
+from bot_console_robot.parameters import fixed, number, plain
+from bot_console_robot.running import CannotStart, run
+from bot_console_robot.scans import nearest_return
+from diagnostic_msgs.msg import DiagnosticArray
+from nav_msgs.msg import Odometry
+from rcl_interfaces.msg import ParameterType
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+from rclpy.parameter import Parameter, parameter_value_to_python
+from rclpy.parameter_client import AsyncParameterClient
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import UInt32
+
+MONITOR = "safety_monitor"
+WATCHED_NS = 1_000_000_000
+"""The safety monitor's last word is believed for so long."""
+LOCKED = "emergency stop"
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+COLLISION = 2.0
+"""What a collision takes off the score, in m/s."""
+NEARNESS = 5.0
+"""What each m of missing room takes off the score, in m/s."""
+DIGITS = 3
+
+
+class AutoTune(Node):
+    """Score of a value: the mean speed (m/s) over a period, less what nearness and collisions cost."""
+
+    def __init__(self) -> None:
+        super().__init__("autotune")
+        self.declare_parameter("target_node", "/robot_navigator", fixed("Node whose parameter is adjusted"))
+        self.declare_parameter("target_parameter", "max_speed", fixed("Which parameter of it, a double with a range"))
+        self.declare_parameter("period", 10.0, number("How long each value is judged (s)", 1.0, 600.0))
+        self.declare_parameter("step", 0.05, number("First step, as a share of the range", 0.001, 0.5))
+        self.declare_parameter("min_clearance", 0.35, number("Nearer returns of the LIDAR cost (m)", 0.0, 5.0))
+        self.declare_parameter("enabled", True, plain("Adjust; else the value stays"))
+        self._node = "/" + str(self.get_parameter("target_node").value).strip("/")
+        self._name = str(self.get_parameter("target_parameter").value)
+        if self._node.rpartition("/")[2] == MONITOR:
+            raise CannotStart(f"the parameters of {self._node} keep the robot safe and are not adjusted")
+        self._steady = Clock(clock_type=ClockType.STEADY_TIME)
+        self._group = ReentrantCallbackGroup()
+        self._client = AsyncParameterClient(self, self._node, callback_group=self._group)
+        self._climber: Climber | None = None
+        self._before = math.nan
+        self._sent = math.nan
+        self._heard = -WATCHED_NS
+        self._locked = False
+        self._suspended = ""
+        self._busy = False
+        self._count: int | None = None
+        self._forget()
+        self.create_subscription(Odometry, "odom", self._on_odometry, 10)
+        self.create_subscription(LaserScan, "scan", self._on_scan, 10)
+        self.create_subscription(UInt32, "collisions", self._on_collisions, LATCHED)
+        self.create_subscription(DiagnosticArray, "diagnostics", self._on_diagnostics, 10)
+        self.create_timer(0.5, self._look, self._group, clock=self._steady)
+        self.get_logger().info(f"Adjusting {self._node} {self._name} as soon as a safety monitor watches")
+
+    def _forget(self) -> None:
+        """Begin a period."""
+        self._began = self._steady.now().nanoseconds
+        self._speeds: list[float] = []
+        self._nearest = math.inf
+        self._bumps = 0
+
+    def _on_odometry(self, message: Odometry) -> None:
+        speed = message.twist.twist.linear.x
+        if math.isfinite(speed):
+            self._speeds.append(speed)
+
+    def _on_scan(self, scan: LaserScan) -> None:
+        self._nearest = min(self._nearest, nearest_return(scan))
+
+    def _on_collisions(self, message: UInt32) -> None:
+        if self._count is not None and message.data > self._count:
+            self._bumps += message.data - self._count
+        self._count = message.data
+
+    def _on_diagnostics(self, message: DiagnosticArray) -> None:
+        for each in message.status:
+            if each.name.startswith(f"{MONITOR}:"):
+                self._heard = self._steady.now().nanoseconds
+                values = {pair.key: pair.value for pair in each.values}
+                self._locked = values.get("limited_by", "") == LOCKED
+
+    def _hindrance(self) -> str:
+        """Why nothing may be adjusted now; empty when it may."""
+        if not self.get_parameter("enabled").value:
+            return "it is not enabled"
+        if self._steady.now().nanoseconds - self._heard > WATCHED_NS:
+            return "no safety monitor is heard"
+        if self._locked:
+            return "the robot is stopped"
+        return "" if self._client.services_are_ready() else f"{self._node} does not run"
+
+    async def _look(self) -> None:
+        """Twice a second: stop at once where it must not go on; after a period, or a collision, the next value."""
+        if self._busy:
+            return
+        self._busy = True
+        try:
+            why = self._hindrance()
+            if why:
+                await self._suspend(why)
+            elif await self._ready() and self._climber is not None:
+                elapsed = (self._steady.now().nanoseconds - self._began) * 1e-9
+                if self._bumps:
+                    self.get_logger().warning(f"Collision at {self._name} {self._climber.value:g}: not so far again")
+                    await self._send(self._climber.danger())
+                elif elapsed >= float(self.get_parameter("period").value) and self._speeds:
+                    await self._send(self._climber.judged(self._score()))
+        finally:
+            self._busy = False
+
+    def _score(self) -> float:
+        room = float(self.get_parameter("min_clearance").value) - self._nearest
+        mean = math.fsum(self._speeds) / len(self._speeds)
+        return mean - NEARNESS * max(0.0, room) - COLLISION * self._bumps
+
+    async def _suspend(self, why: str) -> None:
+        if why == self._suspended:
+            return
+        self._suspended = why
+        if self._climber is not None and not math.isnan(self._before):
+            back = await self._set(self._before)
+            told = f"{self._name} is {self._before:g} again" if not back else f"{self._name} stays: {back}"
+            self.get_logger().warning(f"Not adjusting, {why}: {told}")
+        self._climber = None
+
+    async def _ready(self) -> bool:
+        """Learn value and range of the parameter, where that is not known or somebody else has set it."""
+        now = await self._value()
+        if now is None:
+            return False
+        if self._climber is not None and now == self._sent:
+            return True
+        span = await self._range()
+        if span is None:
+            await self._suspend(f"{self._node} {self._name} is no double with a range, or is read-only")
+            return False
+        if self._climber is not None:
+            self.get_logger().info(f"{self._name} was set to {now:g} by somebody else: going on from there")
+        step = float(self.get_parameter("step").value) * (span[1] - span[0])
+        self._suspended, self._before, self._sent = "", now, now
+        self._climber = Climber(span[0], span[1], now, step)
+        self._forget()
+        return True
+
+    async def _value(self) -> float | None:
+        answer: Any = await self._client.get_parameters([self._name])
+        value = parameter_value_to_python(answer.values[0]) if answer and answer.values else None
+        return value if isinstance(value, float) else None
+
+    async def _range(self) -> tuple[float, float] | None:
+        answer: Any = await self._client.describe_parameters([self._name])
+        descriptor = answer.descriptors[0] if answer and answer.descriptors else None
+        if descriptor is None or descriptor.type != ParameterType.PARAMETER_DOUBLE or descriptor.read_only:
+            return None
+        span = next(iter(descriptor.floating_point_range), None)
+        return (span.from_value, span.to_value) if span else None
+
+    async def _send(self, value: float) -> None:
+        """Set a value, and begin a period with it."""
+        value = round(value, DIGITS)
+        score, before = self._score() if self._speeds else math.nan, self._sent
+        refusal = await self._set(value)
+        if refusal:
+            self.get_logger().warning(f"{self._name} {value:g} refused: {refusal}")
+            if self._climber is not None:
+                self._climber.danger()
+        elif value != before:
+            self.get_logger().info(f"{self._name} {before:g} → {value:g}; {before:g} scored {score:.2f}")
+        self._forget()
+
+    async def _set(self, value: float) -> str:
+        """Why the node refused; empty when it took the value."""
+        answer: Any = await self._client.set_parameters([Parameter(self._name, value=value)])
+        result = answer.results[0] if answer and answer.results else None
+        if result is None or not result.successful:
+            return (result.reason if result else "") or "no reason was given"
+        self._sent = value
+        return ""
+
+
+def main(args: list[str] | None = None) -> None:
+    """Run the node."""
+    run(AutoTune, args)
+
+
+if __name__ == "__main__":
+    main()

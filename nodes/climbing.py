@@ -1,0 +1,60 @@
+"""Finding a better value while driving: step, judge for a while, go on or turn round. Pure."""
+
+from __future__ import annotations
+
+SMALLEST = 0.25
+"""Of the first step, what is left at least: a place that changes is followed."""
+FORGETTING = 0.1
+"""Of the difference to the last judgement, how much the memory of the best one takes over in each period."""
+
+
+class Climber:
+    """Looks for the value with the highest score between `low` and `high`, from `value` on by steps of `step`.
+
+    A value that was dangerous narrows the range for good: it, and all beyond it, is not tried again.
+    """
+
+    def __init__(self, low: float, high: float, value: float, step: float) -> None:
+        self.low: float = low
+        self.high: float = high
+        self.value: float = min(high, max(low, value))
+        self.best: float = self.value
+        self._first = step
+        self._step: float = step
+        self._direction: float = 1.0
+        self._best_score: float | None = None
+
+    def judged(self, score: float) -> float:
+        """Take the score of the present value; the value to try next."""
+        if self._best_score is None or score >= self._best_score:
+            self.best, self._best_score = self.value, score
+            return self._go(self.value)
+        if self.value == self.best:
+            # The same value did worse than it once did: the place has changed, and so has what is to be expected.
+            self._best_score = score
+            return self._go(self.value)
+        self._best_score -= FORGETTING * (self._best_score - score)
+        self._direction = -self._direction
+        self._step = max(SMALLEST * self._first, 0.5 * self._step)
+        self.value = self.best
+        return self.value
+
+    def danger(self) -> float:
+        """The present value was dangerous: the value to go back to, one step nearer to the safe side."""
+        if self.value > self.low and (self._direction > 0 or self.value >= self.best):
+            self.high = max(self.low, self.value - self._step)
+            self._direction = -1.0
+        else:
+            self.low = min(self.high, self.value + self._step)
+            self._direction = 1.0
+        self.value = self.best = min(self.high, max(self.low, self.best))
+        self._best_score = None
+        return self.value
+
+    def _go(self, origin: float) -> float:
+        wanted = origin + self._direction * self._step
+        if not self.low <= wanted <= self.high:
+            self._direction = -self._direction
+            wanted = origin + self._direction * self._step
+        self.value = min(self.high, max(self.low, wanted))
+        return self.value
