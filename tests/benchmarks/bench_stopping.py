@@ -191,7 +191,7 @@ def press(terminal: Terminal, base: Base, locked: bool) -> tuple[float | None, i
     for extra in range(1 if locked else 1 + MORE):
         began = time.monotonic()
         terminal.type("!")
-        answered = wait(lambda: base.says(locked, began), 10.0 if locked else 2.0)  # noqa: B023 # called here alone
+        answered = wait(lambda: base.says(locked, began), 10.0 if locked else 5.0)  # noqa: B023 # called here alone
         if answered is not None:
             return (answered - began) * 1000, extra
     return None, extra

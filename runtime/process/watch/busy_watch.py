@@ -13,11 +13,12 @@ if TYPE_CHECKING:
     from ..node.node_process import NodeProcess
     from ..node.thread_state import ThreadState
 
-PERIOD_S = 2.0
+PERIOD_S = 0.5
 """Wall time (s) between two looks."""
 BUSY_SHARE = 0.5
-"""The share of a processor from which a thread that never waits is told."""
-LOOKS = 3
+"""The share of a processor from which a thread that never waits counts as computing."""
+TOLD_S = 1.0
+"""Processor time (s) after which such a thread is told."""
 
 
 class BusyWatch:
@@ -26,7 +27,7 @@ class BusyWatch:
     def __init__(self) -> None:
         self._guard = allocate_lock()
         self._processes: set[NodeProcess] = set()
-        self._last: dict[ThreadState, tuple[int, float, int]] = {}
+        self._last: dict[ThreadState, tuple[int, float, float]] = {}
 
     def watch(self, process: NodeProcess) -> None:
         """Look after a process until it ends."""
@@ -47,21 +48,20 @@ class BusyWatch:
         if processes:
             real.later(PERIOD_S, self._look)
 
-    def _look_at(self, process: NodeProcess, state: ThreadState, before: tuple[int, float, int] | None) -> None:
+    def _look_at(self, process: NodeProcess, state: ThreadState, before: tuple[int, float, float] | None) -> None:
         seconds = thread_seconds(state.thread.native_id or 0)
         if state.waiting or seconds is None:
             return
-        waits, seconds_before, looks = before or (state.waits, seconds, 0)
-        if waits == state.waits and seconds - seconds_before >= BUSY_SHARE * PERIOD_S:
-            looks += 1
-        elif before is not None:
-            looks = 0
-        self._last[state] = (state.waits, seconds, looks)
-        if looks == LOOKS:
+        waits, seconds_before, computed_before = before or (state.waits, seconds, 0.0)
+        used, computed = seconds - seconds_before, 0.0
+        if waits == state.waits and used >= BUSY_SHARE * PERIOD_S and not frames.is_importing(state.ident):
+            computed = computed_before + used
+        self._last[state] = (state.waits, seconds, computed)
+        if computed_before < TOLD_S <= computed:
             line = frames.thread_line(state.ident)
             notify(
                 process,
-                f"has computed for {LOOKS * PERIOD_S:g} s without waiting, in {line}. It slows all other nodes down "
+                f"has computed for {TOLD_S:g} s without waiting, in {line}. It slows all other nodes down "
                 "and cannot be stopped politely: let it spin, sleep or wait in its loop",
             )
 

@@ -7,13 +7,14 @@ import threading
 from collections.abc import Callable
 
 from .. import frames, real
-from .processor_time import wanted_seconds
+from .processor_time import ran_and_waited
 
-PERIOD_S = 2.0
+PERIOD_S = 0.5
 """Wall time (s) between two looks."""
 WANTED_SHARE = 0.9
-"""The share of wall time from which a thread that ran, or waited for a processor and for nothing else, is told."""
-LOOKS = 3
+"""The share of wall time from which a thread has run, or waited for a processor, and for nothing else."""
+TOLD_S = 1.0
+"""Processor time (s) of its own after which that is told: on a busy machine a start may take seconds."""
 
 
 class MainWatch:
@@ -21,27 +22,31 @@ class MainWatch:
 
     def __init__(self, tell: Callable[[str], None]) -> None:
         self._tell = tell
-        self._looks = 0
-        self._before = (0.0, 0.0)
+        self._computed = 0.0
+        self._before = (0.0, 0.0, 0.0)
 
     def begin(self) -> None:
         """Look from now on, for as long as the process lives; to be called in the main thread."""
-        if self._wanted() is not None:
-            self._before = (real.monotonic(), self._wanted() or 0.0)
+        if self._times() is not None:
+            self._before = (real.monotonic(), *(self._times() or (0.0, 0.0)))
             real.later(PERIOD_S, self._look)
 
     @staticmethod
-    def _wanted() -> float | None:
-        return wanted_seconds(f"self/task/{os.getpid()}")  # the main thread has the process's id
+    def _times() -> tuple[float, float] | None:
+        return ran_and_waited(f"self/task/{os.getpid()}")  # the main thread has the process's id
 
     def _look(self) -> None:
-        now, wanted = real.monotonic(), self._wanted() or 0.0
-        (then, wanted_then), self._before = self._before, (now, wanted)
-        self._looks = self._looks + 1 if wanted - wanted_then >= WANTED_SHARE * (now - then) else 0
-        if self._looks == LOOKS:
-            line = frames.thread_line(threading.main_thread().ident or 0)
-            self._tell(
-                f"has computed for {LOOKS * PERIOD_S:g} s without waiting, in {line}. It hears nothing meanwhile: "
-                "let it spin, sleep or wait in its loop"
-            )
+        (then, ran_then, waited_then), self._before = self._before, (real.monotonic(), *(self._times() or (0.0, 0.0)))
+        now, ran, waited = self._before
+        main = threading.main_thread().ident or 0
+        wanted = ran - ran_then + waited - waited_then
+        if wanted < WANTED_SHARE * (now - then) or frames.is_importing(main):
+            self._computed = 0.0
+        else:
+            before, self._computed = self._computed, self._computed + ran - ran_then
+            if before < TOLD_S <= self._computed:
+                self._tell(
+                    f"has computed for {TOLD_S:g} s without waiting, in {frames.thread_line(main)}. It hears nothing "
+                    "meanwhile: let it spin, sleep or wait in its loop"
+                )
         real.later(PERIOD_S, self._look)

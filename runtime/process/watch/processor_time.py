@@ -28,12 +28,18 @@ def thread_seconds(native_id: int) -> float | None:
 
 def wanted_seconds(task: str) -> float | None:
     """How long (s) a thread has run or waited for a processor, and for nothing else; None where it is not known."""
+    told = ran_and_waited(task)
+    return None if told is None else sum(told)
+
+
+def ran_and_waited(task: str) -> tuple[float, float] | None:
+    """How long (s) a thread has run, and waited for a processor; None where it is not known."""
     try:
         with open(f"/proc/{task}/schedstat", "rb") as file:
             ran, waited = file.read().split()[:2]
     except (OSError, ValueError):  # it has ended, or the system keeps no such count
         return None
-    return (int(ran) + int(waited)) * 1e-9
+    return int(ran) * 1e-9, int(waited) * 1e-9
 
 
 def total_seconds(states: Iterable[ThreadState]) -> float | None:
