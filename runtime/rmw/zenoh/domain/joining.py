@@ -13,6 +13,10 @@ from bot_console.runtime.rmw.zenoh.domain.sockets import is_stopped
 PATIENCE = 0.2
 """How long one try for the lock lasts, in s; then it is looked at who holds it."""
 
+LONGEST_HOLD = 2.0
+"""After this time, in s, one that holds the lock is taken to hang in it: to join takes 10 ms, and some times that on a
+busy machine."""
+
 LONGEST_WAIT = 10.0
 """After this time, in s, a process goes on without the lock where the system does not tell who holds it."""
 
@@ -21,16 +25,19 @@ LONGEST_WAIT = 10.0
 def folder_lock(folder: str) -> Generator[None]:
     """Hold the lock of a domain's folder.
 
-    A process that is frozen while it holds the lock stops nobody: the others go on without, and what they miss of each
-    other is mended by the watch that each of them keeps on the folder.
+    A process that is frozen or hangs while it holds the lock stops nobody: the others go on without, and what they miss
+    of each other is mended by the watch that each of them keeps on the folder.
     """
     # The folder itself is locked: a lock file could be removed while somebody holds it.
     handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
     try:
         deadline = time.monotonic() + LONGEST_WAIT
+        held_by, since = None, time.monotonic()
         while not _taken(handle, PATIENCE):
-            holder = _holder(handle)
-            if is_stopped(holder) if holder else time.monotonic() > deadline:
+            holder, now = _holder(handle), time.monotonic()
+            if holder != held_by:
+                held_by, since = holder, now
+            if (is_stopped(holder) or now - since >= LONGEST_HOLD) if holder else now > deadline:
                 break
         yield
     finally:

@@ -47,11 +47,17 @@ class MeshSession(Session):
 
     def rejoin(self, needed: Callable[[str], bool]) -> None:
         """Open the session anew where that is `needed` (asked with the folder's lock held), and declare all again."""
-        with self._door() as folder, self._lock:
-            if self._ended or not needed(folder):
+        with self._door() as folder:
+            if not needed(folder):
                 return
+        with self._lock:
+            if self._ended:
+                return
+            # Not with the folder's lock: it takes seconds beside a frozen process, and may hang in one whose program
+            # has closed descriptors of ours.
             self._shut()
-            self._join(folder)
+            with self._door() as folder:
+                self._join(folder)
             self._declare_again()
         self.on_rejoin()
 
