@@ -22,6 +22,8 @@ INLINE = re.compile(
     r"(?<!`)`((?:NO_COLOR=1 )?bot-console [^`\s]+ [^`]+|ros2 [^`\s]+ [^`\s]+ [^`]+|python tools/[^`]+)`"
 )
 """A command in a sentence; fewer words only name one."""
+OWN = set(["stop", "release", "reset", "check", "up", "down", "status", "attach", "doctor", "router", "lint", "graph"])
+"""Commands of ours whose words are not looked at."""
 ELSEWHERE = {"python3", "pip", "eval", "pytest", "tmux", "cd", "export", "set"}
 PACKAGE, SYSTEM = "bot_console_robot", "robot_system.launch.py"
 ENVIRONMENT = re.compile(r"[A-Z_]+=.*")
@@ -91,7 +93,7 @@ def _console(words: list[str]) -> str:
         return ""
     if name == "setup":
         return "" if set("|".join(words[1:]).split("|")) <= {"bash", "zsh", "fish"} else "is no shell"
-    if name in ("stop", "release", "reset", "up", "down", "status", "attach", "doctor", "router", "lint", "graph"):
+    if name in OWN:
         return "" if name in cli._COMMANDS else f"there is no command {name}"
     if name in ros2.VERBS or name in cli._COMMANDS:
         return _ros2(words)

@@ -152,6 +152,12 @@ def _reset(words: Words) -> int:
     return run(words)
 
 
+def _check(words: Words) -> int:
+    from bot_console.tui.cli.check.run import run
+
+    return run(words)
+
+
 def _graph(words: Words) -> int:
     from bot_console.tui.cli.verbs.graph import run
 
@@ -208,6 +214,7 @@ _COMMANDS: dict[str, Callable[[Words], int]] = {
     "stop": _stop,
     "release": _release,
     "graph": _graph,
+    "check": _check,
     "reset": _reset,
     "test": _test,
     "launch_test": _launch_test,

@@ -26,8 +26,8 @@ examples:
   bot-console doctor                       what is wrong with terminal, machine, link and graph, and how to mend it
   bot-console --headless --fast --profile warehouse --duration 600 --seed 7
 
-other commands: attach, doctor, up, down, status, router, run, launch, lint, tune, test, launch_test, export, setup,
-config, stop, release, reset, and the verbs of ros2 (bot-console interface show std_msgs/msg/String)
+other commands: attach, doctor, up, down, status, router, run, launch, lint, check, tune, test, launch_test, export,
+setup, config, stop, release, reset, and the verbs of ros2 (bot-console interface show std_msgs/msg/String)
 
 exit codes: 0 done, 1 failed (one line says why), 2 wrong usage
 """
@@ -59,6 +59,8 @@ class Options:
     """Whether ASCII letters take the place of lines and braille; None: what the settings and the locale say."""
     attach: bool = False
     """Whether the console shows what runs in the domain, and starts nothing."""
+    reached_by: str = ""
+    """With `attach`: the endpoints of a robot on a network; empty for this machine."""
     read_only: bool = False
     """Whether it may change nothing."""
 

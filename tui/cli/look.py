@@ -34,9 +34,16 @@ def look_of(options: Options) -> Look:
         options.theme or settings.theme,
         _plain(options, settings),
         keys,
-        FileKept(),
+        FileKept(_system(options)),
         (*notes, *store.problems),
     )
+
+
+def _system(options: Options) -> str:
+    """What is shown, so that each system has its own memory of how the screen was left."""
+    if options.attach:
+        return f"attach {options.reached_by}"
+    return str(Path(options.launch).resolve()) if options.launch else "robot"
 
 
 def _arrangement(options: Options, settings: Settings, store: FileLayouts, notes: list[str]) -> Arrangement:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from zlib import crc32
 
 import yaml
 from bot_console.tui.files.folders import config_folder, state_folder
@@ -16,12 +17,20 @@ HEADS = {"alarms": "# Alarms of bot-console: conditions over topics and paramete
 
 
 class FileKept:
-    """One YAML file for each name."""
+    """One YAML file for each name, and, where a person does not write it, for each system that is shown."""
+
+    def __init__(self, system: str = "") -> None:
+        self._system = f"{crc32(system.encode()):08x}"
+
+    def _path(self, name: str) -> Path:
+        if name in HEADS:
+            return config_folder() / f"{name}.yaml"
+        return state_folder() / "left" / f"{name}-{self._system}.yaml"
 
     def get(self, name: str) -> object:
         """What is in the file; None where there is none, or where it cannot be read."""
         try:
-            with _path(name).open("rb") as file:
+            with self._path(name).open("rb") as file:
                 content = file.read(LARGEST + 1)
             return None if len(content) > LARGEST else yaml.load(content, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
         except (OSError, *UNREADABLE):
@@ -31,11 +40,7 @@ class FileKept:
         """Write the file."""
         text = HEADS.get(name, "") + yaml.safe_dump(data, sort_keys=False, allow_unicode=True)
         try:
-            save_file(_path(name), text)
+            save_file(self._path(name), text)
         except NotSaved as error:
             return str(error)
         return ""
-
-
-def _path(name: str) -> Path:
-    return (config_folder() if name in HEADS else state_folder()) / f"{name}.yaml"

@@ -90,4 +90,5 @@ def parse(words: Sequence[str]) -> AttachOptions:
     way = None if given.ros or given.embedded else network_way(parser, given)
     if given.connect is not None and way is None:
         parser.error("--connect, --ros and --embedded exclude each other")
+    look.reached_by = " ".join(way.endpoints) if way else ""
     return AttachOptions(look, way, given.ros, given.embedded)

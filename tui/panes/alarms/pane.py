@@ -63,7 +63,6 @@ class AlarmsPane(ListPane):
 
     def on_mount(self) -> None:
         """Take up the alarms of the last run."""
-        super().on_mount()
         for text in texts_of(self.kept.get(KEPT))[:MOST]:
             self._alarms.append(Alarm.of(text))
             self._waiting |= dict.fromkeys(self._alarms[-1].paths, "not watched yet")

@@ -15,6 +15,7 @@ from bot_console.tui.console.query import parse
 from bot_console.tui.format import command_of, harmless
 from bot_console.tui.panes.parameters.details import details
 from bot_console.tui.panes.parameters.edit_pane import EditPane
+from bot_console.tui.panes.parameters.memory import At, Left, left_of
 from bot_console.tui.panes.parameters.rows import Row, TreeRows, View
 from bot_console.tui.panes.parameters.staging import Key
 from bot_console.tui.panes.parameters.table import ParameterRows
@@ -25,6 +26,7 @@ from bot_console.tui.widgets.words import Words
 from rich.text import Text
 from textual.app import ComposeResult
 
+KEPT = "parameters"
 LEAST = 3
 """Lines of detail that every parameter has: what it is for, its facts, its command."""
 
@@ -58,8 +60,26 @@ class ParametersPane(EditPane):
         """Changes below this number are known."""
         self.clock: Callable[[], float] = time.monotonic
         self._expected = ""
+        self._at_cursor: At | None = None
         self._chosen = False
         """Whether the cursor was moved; until then it stays on the first row, in whatever order nodes come."""
+
+        self._left: At | None = None
+        """The row at the cursor at the end of the last run, until it is there again or a person moves."""
+
+    def on_mount(self) -> None:
+        """Open, filter and select what was so at the end of the last run; a preselected node comes before that."""
+        left = left_of(self.kept.get(KEPT))
+        if left is not None and not self._expected:
+            self._left = left.at
+            self.words, self._view = left.words, left.view
+            self._sought = left.words
+            self._arrange()
+
+    def on_unmount(self) -> None:
+        """Keep how the tree is left."""
+        at = self._left or self._at_cursor
+        self.kept.put(KEPT, Left(self.words, self._view, at).data)
 
     def compose(self) -> ComposeResult:
         """The tree, what is known of the parameter at the cursor, and a prompt."""
@@ -121,8 +141,10 @@ class ParametersPane(EditPane):
         self.expect(name)
 
     def expect(self, node: str) -> None:
-        """Go to a node, as soon as it is there."""
+        """Go to a node, as soon as it is there; how the tree was left in the last run is no hindrance."""
         self._expected = node
+        if not self._chosen:
+            self._left, self.words, self._view = None, "", View()
         self._arrange()
 
     def _go_to_expected(self) -> None:
@@ -142,10 +164,18 @@ class ParametersPane(EditPane):
                 if before is not after:
                     self._value_changed(before, after)
         shown.exchange(new, stay=self._chosen)
+        self._go_to_left()
         self._tell_counts()
         if self._expected:
             self._go_to_expected()
         self._describe()
+
+    def _go_to_left(self) -> None:
+        rows = self._list.rows if self._left else ()
+        found = next((index for index, row in enumerate(rows) if self._list.key(row) == self._left), None)
+        if found is not None:
+            self._left, self._chosen = None, True
+            self._list.cursor = found
 
     def _tell_counts(self) -> None:
         every = sum(len(tree.parameters) for tree in self._snapshot.parameters.values())
@@ -169,6 +199,8 @@ class ParametersPane(EditPane):
         """Tell of the parameter at the cursor."""
         event.stop()
         self._chosen = self._chosen or event.index > 0
+        self._left = None if event.index > 0 else self._left
+        self._at_cursor = self._list.key_at_cursor
         self._describe()
 
     def _describe(self) -> None:

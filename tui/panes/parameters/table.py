@@ -51,7 +51,12 @@ class ParameterRows(ItemList[Row]):
 
         self._measures = Measures()
 
-    def key(self, item: Row) -> object:
+    @property
+    def key_at_cursor(self) -> tuple[str, str, str] | None:
+        """What the row at the cursor is about."""
+        return self.key(self.current) if self.current else None
+
+    def key(self, item: Row) -> tuple[str, str, str]:
         """A row is about a node, a group or a parameter, whatever its value."""
         return item.node, item.name, item.parameter.name if item.parameter else ""
 

@@ -1,0 +1,63 @@
+"""What was open, filtered and selected in the Parameters pane is so again at the next start."""
+
+from __future__ import annotations
+
+from bot_console.tui.panes.parameters.pane import ParametersPane
+from bot_console.tui.panes.parameters.table import ParameterRows
+from piloting import Session, run
+from samples import live
+
+
+def current(session: Session) -> tuple[str, str]:
+    row = session.pane(ParameterRows).current
+    return row.node, row.parameter.name if row.parameter else ""
+
+
+def test_it_is_as_it_was_left() -> None:
+    kept = {}
+
+    async def leave(session: Session) -> None:
+        await session.press("1", "slash")
+        await session.type("speed")
+        await session.press("enter", "escape", "G", "left", "left", "g", "down", "down")
+        assert current(session) == ("/robot_navigator", "enable_safety")
+        pane = session.pane(ParametersPane)
+        pane.on_unmount()
+        kept["parameters"] = session.app.kept.get("parameters")
+
+    async def come_back(session: Session) -> None:
+        session.app.kept.put("parameters", kept["parameters"])
+        pane = session.pane(ParametersPane)
+        pane._chosen = False
+        pane.on_mount()
+        await session.press("1")
+        assert current(session) == ("/robot_navigator", "enable_safety")
+        assert any(row.folded and row.node == "/simulator" for row in session.pane(ParameterRows).rows)
+
+    run(live(), leave)
+    run(live(), come_back)
+    assert kept["parameters"]["closed"]
+
+
+def test_a_filter_is_there_again_and_escape_takes_it_away() -> None:
+    async def play(session: Session) -> None:
+        session.app.kept.put("parameters", {"filter": "turn", "at": ["/robot_navigator", "turn_rate", "turn_rate"]})
+        session.pane(ParametersPane).on_mount()
+        await session.press("1")
+        assert "/turn" in session.text() and current(session) == ("/robot_navigator", "turn_rate")
+        await session.press("escape")
+        assert len(session.pane(ParameterRows).rows) > 5
+
+    run(live(), play)
+
+
+def test_a_preselected_node_comes_before_what_was_left() -> None:
+    async def play(session: Session) -> None:
+        session.app.kept.put("parameters", {"filter": "turn", "closed": ["/simulator"]})
+        pane = session.pane(ParametersPane)
+        pane.on_mount()
+        pane.expect("/simulator")
+        await session.press("1")
+        assert current(session)[0] == "/simulator" and pane.words == ""
+
+    run(live(), play)

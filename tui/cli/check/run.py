@@ -1,0 +1,123 @@
+"""`bot-console check SCRIPT`: does what a person would at the screen, and says whether it went as expected."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from bot_console.tui.cli.check.runner import Outcome, Runner
+from bot_console.tui.cli.check.script import ScriptError, Step, read
+from bot_console.tui.cli.system.reached_console import known, reached_console
+from bot_console.tui.format import counted, harmless
+
+LARGEST = 1_000_000
+"""Bytes of a script."""
+EPILOG = """a step a line, # begins a comment; what waits does so for 5 s, or as `within` says:
+  set /robot_navigator max_speed 0.8
+  expect-refused /robot_navigator max_speed 99 "out of range"
+  expect /odom/twist.twist.linear.x > 0.1 within 10 s
+  expect /robot_navigator:robot_name == "Bob"
+  assert-rate /scan >= 9 for 3 s
+  expect-node /safety_monitor        expect-no-node /ghost
+  expect-topic /scan sensor_msgs/msg/LaserScan
+  expect-log sev:>=warn obstacle within 20 s
+  call /reset std_srvs/srv/Trigger
+  wait 2 s
+  stop
+
+exit codes: 0 all went as expected, 1 not, or nothing runs, 2 wrong usage or a script that cannot be read
+"""
+
+
+def run(words: list[str]) -> int:
+    """Read the script as a whole, do its steps, print the report."""
+    parser = argparse.ArgumentParser(
+        "bot-console check",
+        description="Set, wait and expect on the system that runs in this domain, for graders and CI.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("script", metavar="SCRIPT", help="a file of steps; - reads them from standard input")
+    parser.add_argument("--json", action="store_true", help="the report as one JSON object")
+    parser.add_argument("--stop", action="store_true", help="end at the first step that fails")
+    parser.add_argument("--wait", type=float, default=10.0, metavar="S", help="seconds to wait for nodes (10)")
+    given = parser.parse_args(words)
+    try:
+        steps = read(_text(given.script))
+    except (OSError, UnicodeDecodeError, ScriptError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else error
+        print(f"{given.script} cannot be used: {harmless(str(reason))}", file=sys.stderr)
+        return 2
+    with reached_console() as console:
+        if console is None:
+            return 1
+        if not known(console, given.wait):
+            print("no node runs in this domain; `bot-console up` starts the robot", file=sys.stderr)
+            return 1
+        outcomes = _done(Runner(console), steps, tell=not given.json, stop=given.stop)
+    if given.json:
+        print(json.dumps(report(given.script, steps, outcomes), indent=2))
+    else:
+        print(summary(steps, outcomes))
+    return 0 if len(outcomes) == len(steps) and not any(each.why for each in outcomes) else 1
+
+
+def _text(script: str) -> str:
+    if script == "-":
+        return sys.stdin.read(LARGEST)
+    with Path(script).open("rb") as file:
+        content = file.read(LARGEST + 1)
+    if len(content) > LARGEST:
+        raise ScriptError(f"larger than {LARGEST} bytes; no script is")
+    return content.decode("utf-8")
+
+
+def _done(runner: Runner, steps: Sequence[Step], *, tell: bool, stop: bool) -> list[Outcome]:
+    outcomes: list[Outcome] = []
+    for step in steps:
+        outcome = runner.run(step)
+        outcomes.append(outcome)
+        if tell:
+            print(line_of(outcome), flush=True)
+        if stop and outcome.why:
+            break
+    return outcomes
+
+
+def line_of(outcome: Outcome) -> str:
+    """A step on one line, and below it what failed."""
+    step = outcome.step
+    head = f"{'FAIL' if outcome.why else 'ok  '} {step.line:>4}  {harmless(step.text)}"
+    return f"{head}\n           {harmless(outcome.why)}" if outcome.why else head
+
+
+def summary(steps: Sequence[Step], outcomes: Sequence[Outcome]) -> str:
+    """How many went well."""
+    failed = sum(bool(each.why) for each in outcomes)
+    left = len(steps) - len(outcomes)
+    parts = [f"{len(outcomes) - failed} of {counted(len(steps), 'step')} as expected"]
+    return ", ".join(parts + ([f"{failed} not"] if failed else []) + ([f"{left} not done"] if left else []))
+
+
+def report(script: str, steps: Sequence[Step], outcomes: Sequence[Outcome]) -> dict[str, object]:
+    """The same for programs."""
+    failed = sum(bool(each.why) for each in outcomes)
+    return {
+        "script": script,
+        "passed": len(outcomes) - failed,
+        "failed": failed,
+        "not_done": len(steps) - len(outcomes),
+        "steps": [
+            {
+                "line": each.step.line,
+                "text": each.step.text,
+                "ok": not each.why,
+                "why": each.why,
+                "seconds": round(each.seconds, 3),
+            }
+            for each in outcomes
+        ],
+    }

@@ -1,0 +1,224 @@
+"""Does the steps of a script, one after the other, and tells what became of each."""
+
+from __future__ import annotations
+
+import operator
+import time
+from collections.abc import Callable, Mapping
+from concurrent.futures import Future
+from dataclasses import dataclass
+from typing import TypeVar
+
+from bot_console.tui.cli.check.script import Step
+from bot_console.tui.console.model import LogFilter, ParameterInfo, SetOutcome
+from bot_console.tui.console.protocol import Console
+from bot_console.tui.console.traffic import Measure
+from bot_console.tui.format import parse_value, value_text
+from bot_console.tui.panes.alarms.alarm import Alarm, AlarmText
+
+T = TypeVar("T")
+PERIOD = 0.05
+"""Seconds between two looks."""
+ANSWER = 10.0
+"""Seconds that a node may take to answer."""
+FIGURE = 3.0
+"""Seconds that a rate may take to be known beyond the time for which it is measured."""
+ASKER = "check"
+SIGNS: Mapping[str, Callable[[float, float], bool]] = {
+    "<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge, "==": operator.eq,
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of a step: `why` says what failed, empty when nothing did; how long it took in s."""
+
+    step: Step
+    why: str
+    seconds: float
+
+
+class Runner:
+    """Does steps on a system."""
+
+    def __init__(
+        self,
+        console: Console,
+        clock: Callable[[], float] = time.monotonic,
+        sleep: Callable[[float], None] = time.sleep,
+    ) -> None:
+        self._console = console
+        self._clock = clock
+        self._sleep = sleep
+
+    def run(self, step: Step) -> Outcome:
+        """Do one step."""
+        began = self._clock()
+        why = getattr(self, f"_{step.verb.replace('-', '_')}")(step)
+        return Outcome(step, why, self._clock() - began)
+
+    def _until(self, seconds: float, look: Callable[[], str]) -> str:
+        """Look until nothing is wrong, so many seconds at most; what was wrong last."""
+        deadline = self._clock() + seconds
+        while (why := look()) and self._clock() < deadline:
+            self._sleep(PERIOD)
+        return why
+
+    def _answer(self, future: Future[T]) -> T | None:
+        deadline = self._clock() + ANSWER
+        while not future.done() and self._clock() < deadline:
+            self._sleep(PERIOD)
+        return future.result() if future.done() else None
+
+    def _parameter(self, node: str, name: str) -> ParameterInfo | str:
+        """A parameter, waited for a little, or why there is none."""
+
+        def look() -> str:
+            tree = self._console.snapshot().parameters.get(node)
+            if tree is None:
+                return f"there is no node {node} with parameters"
+            return "" if tree.get(name) else tree.problem or f"{node} has no parameter {name}"
+
+        why = self._until(2.0, look)
+        found = None if why else self._console.snapshot().parameters[node].get(name)
+        return found or why
+
+    def _try(self, node: str, name: str, text: str) -> SetOutcome | str:
+        """What a node makes of a value, or why it could not be asked."""
+        parameter = self._parameter(node, name)
+        if isinstance(parameter, str):
+            return parameter
+        try:
+            value = parse_value(text, parameter)
+        except ValueError as error:
+            return str(error)
+        outcomes = self._answer(self._console.set_parameters(node, {name: value}))
+        return outcomes[0] if outcomes else f"{node} does not answer"
+
+    def _set(self, step: Step) -> str:
+        outcome = self._try(*step.words)
+        if isinstance(outcome, str):
+            return outcome
+        return "" if outcome.accepted else f"refused by the {outcome.refused_by}: {outcome.reason}"
+
+    def _expect_refused(self, step: Step) -> str:
+        node, name, text, reason = step.words
+        outcome = self._try(node, name, text)
+        if isinstance(outcome, str):
+            return outcome
+        if outcome.accepted:
+            return f"it was taken: {name} is {value_text(outcome.value)} now"
+        if outcome.refused_by in ("console", "node"):
+            return f"it was not judged: {outcome.reason}"
+        wanted = reason.lower() in outcome.reason.lower()
+        return "" if wanted else f"it was refused, but with other words: {outcome.reason}"
+
+    def _expect(self, step: Step) -> str:
+        if len(step.words) == 3:
+            return self._expect_value(step)
+        alarm = Alarm.of(AlarmText("", step.words[0]))
+        try:
+            return self._until(step.seconds, lambda: self._holds(alarm))
+        finally:
+            for path in alarm.paths:
+                self._console.unwatch(path, ASKER)
+
+    def _holds(self, alarm: Alarm) -> str:
+        for path in alarm.paths:
+            answer = self._console.watch(path, ASKER)
+            if not answer.ok:
+                return answer.text
+        if alarm.look(self._console) or alarm.holds:
+            return ""
+        values = ", ".join(f"{path} = {alarm.values[path]:.6g}" for path in alarm.paths if path in alarm.values)
+        return alarm.problem or values or f"nothing has come on {', '.join(alarm.paths)}"
+
+    def _expect_value(self, step: Step) -> str:
+        path, sign, text = step.words
+        node, _, name = path.partition(":")
+        parameter = self._parameter(node, name)
+        if isinstance(parameter, str):
+            return parameter
+        try:
+            wanted = parse_value(text.strip("\"'"), parameter)
+        except ValueError as error:
+            return str(error)
+
+        def look() -> str:
+            tree = self._console.snapshot().parameters.get(node)
+            now = tree.get(name) if tree else None
+            same = now is not None and now.value == wanted
+            return "" if same is (sign == "==") else f"it is {value_text(now.value if now else None)}"
+
+        return self._until(step.seconds, look)
+
+    def _assert_rate(self, step: Step) -> str:
+        topic, sign, wanted = step.words
+        traffic = self._console.traffic
+        traffic.measure([topic], ASKER)
+        self._sleep(step.seconds)
+
+        def look() -> str:
+            found = traffic.measured().get(topic, Measure())
+            return found.problem or (f"nothing has come on {topic}" if found.rate is None else "")
+
+        why = self._until(FIGURE, look)
+        rate = traffic.measured().get(topic, Measure()).rate
+        traffic.measure([], ASKER)
+        if why or rate is None:
+            return why
+        return "" if SIGNS[sign](rate, float(wanted)) else f"it comes at {rate:.4g} Hz"
+
+    def _expect_node(self, step: Step) -> str:
+        def look() -> str:
+            names = [each.name for each in self._console.snapshot().graph.nodes]
+            shown = ", ".join(each for each in names if "/_" not in each)
+            return "" if step.words[0] in names else f"there is none; nodes: {shown or 'none'}"
+
+        return self._until(step.seconds, look)
+
+    def _expect_no_node(self, step: Step) -> str:
+        def look() -> str:
+            there = any(each.name == step.words[0] for each in self._console.snapshot().graph.nodes)
+            return "it is there" if there else ""
+
+        return self._until(step.seconds, look)
+
+    def _expect_topic(self, step: Step) -> str:
+        name, *types = step.words
+
+        def look() -> str:
+            found = next((each for each in self._console.snapshot().graph.topics if each.name == name), None)
+            if found is None:
+                return "there is none"
+            return "" if not types or types[0] in found.types else f"it is of type {', '.join(found.types)}"
+
+        return self._until(step.seconds, look)
+
+    def _expect_log(self, step: Step) -> str:
+        which = LogFilter(words=step.words[0])
+
+        def look() -> str:
+            try:
+                found = self._console.matching_logs(which, 0, 1)
+            except ValueError as error:
+                return str(error)
+            return "" if found else "no line of the log has these words"
+
+        return self._until(step.seconds, look)
+
+    def _call(self, step: Step) -> str:
+        answer = self._answer(self._console.call(step.words[0], step.words[1], {}))
+        if answer is None:
+            return "no answer"
+        return "" if answer.ok else answer.text or "it answered: no success"
+
+    def _wait(self, step: Step) -> str:
+        self._sleep(step.seconds)
+        return ""
+
+    def _stop(self, step: Step) -> str:
+        self._console.all_stop(True, "a script")
+        return self._until(
+            step.seconds, lambda: "" if self._console.snapshot().drive.stop_confirmed else "it was not acknowledged"
+        )

@@ -1,0 +1,153 @@
+"""Scripts of `bot-console check`: a step a line, read and judged as a whole before anything is done. Pure."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from bot_console.tui.format import cut
+from bot_console.tui.panes.alarms.condition import read as read_condition
+
+PATIENCE = 5.0
+"""Seconds that an expectation waits where the script says nothing else."""
+LONGEST = 3600.0
+"""Seconds that one line may take at most."""
+SPAN = re.compile(r"(\d+(?:\.\d+)?)\s*(ms|s|min)?")
+UNITS = {"ms": 0.001, "s": 1.0, "min": 60.0, "": 1.0}
+WITHIN = re.compile(r"\s+(?:within|for)\s+(\S+(?:\s+(?:ms|s|min))?)\s*$")
+RATE = re.compile(r"(\S+)\s*(<=|>=|<|>|==)\s*(\S+)")
+QUOTED = re.compile(r"""(/\S+:\S+)\s*(==|!=)\s*("[^"]*"|'[^']*'|[A-Za-z_][\w.-]*|\[.*\])""")
+"""A parameter that is no number, compared with what stands there."""
+
+
+class ScriptError(ValueError):
+    """What is wrong with a script, with the number of its line."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """One line: its number, its text, what it does, with which words, and for how long (s)."""
+
+    line: int
+    text: str
+    verb: str
+    words: tuple[str, ...] = ()
+    seconds: float = PATIENCE
+
+
+def read(text: str) -> list[Step]:
+    """The steps of a script; raises `ScriptError` for the first line that is none."""
+    found: list[Step] = []
+    for number, line in enumerate(text.splitlines(), 1):
+        stripped = line.strip()
+        if stripped and not stripped.startswith("#"):
+            try:
+                found.append(_step(number, stripped))
+            except ValueError as error:
+                raise ScriptError(f"line {number}: {error}") from None
+    if not found:
+        raise ScriptError("there is no step in it")
+    return found
+
+
+def seconds_of(text: str) -> float:
+    """A length of time such as `2 s`, `500 ms` or `1 min` in s; raises `ValueError`."""
+    found = SPAN.fullmatch(text.strip())
+    if found is None:
+        raise ValueError(f"'{cut(text, 20)}' is no time; write for instance 2 s, 500 ms or 1 min")
+    value = float(found[1]) * UNITS[found[2] or ""]
+    if value > LONGEST:
+        raise ValueError(f"no line may take more than {LONGEST:g} s")
+    return value
+
+
+def _step(number: int, text: str) -> Step:
+    verb, _, rest = text.partition(" ")
+    reader = VERBS.get(verb)
+    if reader is None:
+        raise ValueError(f"'{cut(verb, 20)}' is none of {', '.join(VERBS)}")
+    timed = WITHIN.search(rest) if verb not in ("set", "expect-refused", "wait") else None
+    seconds = seconds_of(timed[1]) if timed else PATIENCE
+    rest = rest[: timed.start()] if timed else rest
+    words, own = reader(rest.strip())
+    return Step(number, text, verb, words, seconds if own is None else own)
+
+
+Read = tuple[tuple[str, ...], "float | None"]
+
+
+def _parameter(usage: str) -> Callable[[str], Read]:
+    def reading(rest: str) -> Read:
+        parts = rest.split(maxsplit=2)
+        if len(parts) < 3 or not parts[0].startswith("/"):
+            raise ValueError(f"write {usage}")
+        return tuple(parts), None
+
+    return reading
+
+
+def _refused(rest: str) -> Read:
+    try:
+        words = shlex.split(rest)
+    except ValueError as error:
+        raise ValueError(f"{error}; values with blanks stand in quotes") from None
+    if len(words) < 3 or not words[0].startswith("/"):
+        raise ValueError("write expect-refused /node parameter value [a part of the reason]")
+    return (*words[:3], " ".join(words[3:])), None
+
+
+def _rate(rest: str) -> Read:
+    found = RATE.fullmatch(rest)
+    try:
+        if found is None:
+            raise ValueError
+        float(found[3])
+    except ValueError:
+        raise ValueError("write assert-rate /topic >= 10, perhaps with for 5 s") from None
+    return (found[1], found[2], found[3]), None
+
+
+def _expect(rest: str) -> Read:
+    quoted = QUOTED.fullmatch(rest)
+    if quoted and quoted[3] not in ("true", "false"):
+        return (quoted[1], quoted[2], quoted[3]), None
+    read_condition(rest)
+    return (rest,), None
+
+
+def _wait(rest: str) -> Read:
+    return (), seconds_of(rest)
+
+
+def _words(least: int, most: int, usage: str) -> Callable[[str], Read]:
+    def reading(rest: str) -> Read:
+        words = rest.split()
+        if not least <= len(words) <= most:
+            raise ValueError(f"write {usage}")
+        return tuple(words), None
+
+    return reading
+
+
+def _log(rest: str) -> Read:
+    if not rest:
+        raise ValueError("write expect-log and words as in the filter of the log, such as sev:>=warn obstacle")
+    return (rest,), None
+
+
+VERBS: Mapping[str, Callable[[str], Read]] = {
+    "set": _parameter("set /node parameter value"),
+    "expect-refused": _refused,
+    "expect": _expect,
+    "assert-rate": _rate,
+    "expect-node": _words(1, 1, "expect-node /name"),
+    "expect-no-node": _words(1, 1, "expect-no-node /name"),
+    "expect-topic": _words(1, 2, "expect-topic /name [package/msg/Type]"),
+    "expect-log": _log,
+    "call": _words(2, 2, "call /service package/srv/Type"),
+    "wait": _wait,
+    "stop": _words(0, 0, "stop"),
+}
+"""What a line may begin with."""
