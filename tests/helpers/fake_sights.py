@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bot_console.tui.console.sights.frame_model import Frames
 from bot_console.tui.console.sights.model import Diagnostics, Level, Picture, Status, Told
 
 
@@ -12,6 +13,8 @@ class FakeSights:
         self.info = Diagnostics()
         self.shown = Picture()
         self.looking: tuple[str, int, int] = ("", 0, 0)
+        self.tree = Frames()
+        self.looked_at = False
 
     def diagnostics(self) -> Diagnostics:
         return self.info
@@ -21,6 +24,12 @@ class FakeSights:
 
     def picture(self) -> Picture:
         return self.shown
+
+    def look_at_frames(self, on: bool) -> None:
+        self.looked_at = on
+
+    def frames(self) -> Frames:
+        return self.tree if self.looked_at else Frames()
 
 
 def status(name: str, level: Level = Level.OK, message: str = "", heard: float = 100.0, **values: str) -> Status:

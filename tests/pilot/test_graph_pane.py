@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.console.sights.frame_model import Frame, Frames
 from bot_console.tui.panes.graph.pane import GraphPane
 from bot_console.tui.widgets.diagram_view import DiagramView
 from piloting import Clock, Session, run
@@ -297,3 +298,46 @@ def test_a_picture_that_does_not_fit_has_a_map() -> None:
         assert not any("▏" in line for line in session.lines()), "eight boxes fit"
 
     run(live(), play, (120, 40))
+
+
+def test_frames_of_tf2_in_the_place_of_the_picture() -> None:
+    system = live()
+    console = system[0]
+    heard = 1000.0
+    console.sights.tree = Frames(
+        (
+            Frame("base", "odom", place=(1.0, 2.0, 0.0), rate=20.0, heard=heard, others=("map",)),
+            Frame("laser", "base", fixed=True, heard=heard),
+            Frame("odom", "map", rate=20.0, heard=heard - 4.0),
+        ),
+        moving_by=("/simulator",),
+        fixed_by=("/mast",),
+    )
+
+    async def play(session: Session) -> None:
+        clock = Clock()
+        clock.now = heard
+        await session.press("3")
+        session.pane(GraphPane).clock = clock
+        await session.press("t")
+        lines = session.text().splitlines()
+        shown = [" ".join(line.strip("│ ").split()) for line in lines if "/simulator" in line or "/mast" in line]
+        assert shown == [
+            "odom 20.0 Hz 4 s ✗ silent /simulator",
+            "base 20.0 Hz now ✗ also in map /simulator",
+            "laser fixed /mast",
+        ]
+        assert "frames of tf2 · 3 transforms · w 2 findings" in session.text()
+        await session.press("down", "down")
+        assert "base in odom  x 1.000  y 2.000" in session.text()
+        await session.press("enter")
+        assert "20.0 times a second" in session.text()
+        await session.press("escape", "w")
+        assert "base has more than one parent: map and odom" in session.text()
+        await session.press("escape", "slash", *"laser", "enter")
+        assert "laser in base" in session.text() and "frames of tf2 · /laser" in session.text()
+        assert console.sights.looked_at
+        await session.press("escape", "t")
+        assert not console.sights.looked_at and picture(session).display
+
+    run(system, play, (120, 40))

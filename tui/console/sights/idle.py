@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bot_console.tui.console.sights.frame_model import Frames
 from bot_console.tui.console.sights.model import Diagnostics, Picture
 
 
@@ -11,6 +12,7 @@ class IdleSights:
     def __init__(self, why: str) -> None:
         self._diagnostics = Diagnostics(problem=why)
         self._picture = Picture(problem=why)
+        self._frames = Frames(problem=why)
 
     def diagnostics(self) -> Diagnostics:
         """None, and why."""
@@ -22,3 +24,10 @@ class IdleSights:
     def picture(self) -> Picture:
         """None, and why."""
         return self._picture
+
+    def look_at_frames(self, on: bool) -> None:
+        """There are none."""
+
+    def frames(self) -> Frames:
+        """None, and why."""
+        return self._frames

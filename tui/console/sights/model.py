@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from enum import IntEnum
 from typing import Protocol
 
+from bot_console.tui.console.sights.frame_model import Frames
+
 STALE_AFTER = 5.0
 """Seconds after which a status that was not told again counts as stale, as in rqt_robot_monitor."""
 
@@ -107,4 +109,12 @@ class Sights(Protocol):
 
     def picture(self) -> Picture:
         """The newest image; the same object until there is another."""
+        ...
+
+    def look_at_frames(self, on: bool) -> None:
+        """Listen to what is told of frames from now on, or no more."""
+        ...
+
+    def frames(self) -> Frames:
+        """What was told of frames while they were looked at."""
         ...

@@ -7,6 +7,8 @@ from collections.abc import Callable
 from bot_console.tui.console.calls import Calls
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.sights.diagnostics import DiagnosticsWatch
+from bot_console.tui.console.sights.frame_model import Frames
+from bot_console.tui.console.sights.frames_watch import FramesWatch
 from bot_console.tui.console.sights.images import ImageWatch
 from bot_console.tui.console.sights.model import Diagnostics, Picture
 from rclpy.node import Node
@@ -20,11 +22,13 @@ class NodeSights:
         self._graph = graph
         self._diagnostics = DiagnosticsWatch(node)
         self._images = ImageWatch(node)
+        self._frames = FramesWatch(node)
 
     def follow(self, graph: GraphInfo) -> None:
         """The graph is another; called by the executor."""
         self._diagnostics.follow(graph)
         self._images.follow(graph)
+        self._frames.follow(graph)
 
     def diagnostics(self) -> Diagnostics:
         """What the parts of the robot say of themselves."""
@@ -41,3 +45,15 @@ class NodeSights:
     def picture(self) -> Picture:
         """The newest image."""
         return self._images.picture()
+
+    def look_at_frames(self, on: bool) -> None:
+        """Listen to what is told of frames from now on, or no more."""
+
+        async def look() -> None:
+            self._frames.look(on, self._graph())
+
+        self._calls.run(look(), lambda _: None)
+
+    def frames(self) -> Frames:
+        """What was told of frames while they were looked at."""
+        return self._frames.frames()

@@ -18,6 +18,7 @@ from bot_console.tui.files.save_file import save_file
 from bot_console.tui.format import counted
 from bot_console.tui.panes.graph.details import ITEM, PANE, TYPE, details, finding_options, narrowed
 from bot_console.tui.panes.graph.export import exported
+from bot_console.tui.panes.graph.frames import FramesView
 from bot_console.tui.panes.graph.journey import Journey
 from bot_console.tui.panes.graph.namespaces import SPACE, namespace_of, outermost
 from bot_console.tui.panes.graph.view import (
@@ -37,6 +38,7 @@ from bot_console.tui.widgets.diagram_view import LARGE, DiagramView
 from bot_console.tui.widgets.prompt.filtered import Narrowed
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Line, Option
+from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.words import Words
 from textual.app import ComposeResult
 
@@ -59,7 +61,8 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         "subscription. The way back of a loop runs below. What is linked to the selected item is coloured; a topic\n"
         "that nobody publishes or nobody listens to is orange; where QoS does not match so that nothing arrives, the\n"
         "line is red and the topic marked ✗. Namespaces fold into boxes, by themselves where there are many nodes.\n"
-        "Enter lists everything about the item, to go on to; w says what is odd in words."
+        "Enter lists everything about the item, to go on to; w says what is odd in words. t shows the frames of tf2\n"
+        "as a tree instead: how often and when each was told, by whom, and loops, two parents, silence."
     )
     BINDINGS = keymap.bindings("graph")
 
@@ -85,6 +88,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
     def compose(self) -> ComposeResult:
         """The picture, a line on what is selected, a prompt."""
         yield DiagramView()
+        yield FramesView()
         yield Words(id="graph-status")
         yield Prompt(id="graph-prompt")
 
@@ -92,9 +96,16 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
     def _picture(self) -> DiagramView:
         return self.query_one(DiagramView)
 
+    @property
+    def _frames(self) -> FramesView:
+        return self.query_one(FramesView)
+
     def focus_target(self) -> None:
-        """The picture takes the keys."""
-        self._picture.focus()
+        """The picture takes the keys, or the frames in its place."""
+        if self._frames.open:
+            self._frames.take_focus()
+        else:
+            self._picture.focus()
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Draw the graph anew when it is another object."""
@@ -134,6 +145,9 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
 
     def tick(self) -> None:
         """Write rates where they are wanted and the pane is seen; measure nothing otherwise."""
+        self._frames.look(self.console.sights, self.clock(), seen=self.display)
+        if self._frames.open:
+            self._tell()
         if self._rates is None or not self.display:
             if self._looked:
                 self._looked = 0.0
@@ -154,6 +168,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
     def let_go(self) -> None:
         """Measure no more."""
         self.console.traffic.measure([], "graph")
+        self.console.sights.look_at_frames(False)
 
     def on_resize(self) -> None:
         """Choose anew what fits."""
@@ -161,6 +176,10 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
 
     def _tell(self) -> None:
         """Say what is selected, and what is left out."""
+        if self._frames.open:
+            self.caption(self._frames.caption)
+            self.query_one("#graph-status", Words).say(self._frames.summary)
+            return
         info = self._info or GraphInfo()
         parts = [self._view.mode.value] if self._view.mode is not Mode.ALL else []
         parts += [f"/{self.words}"] if self.words else []
@@ -201,16 +220,21 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
 
     def filter_is(self, words: str) -> None:
         """Draw what passes, and what is linked to it."""
+        self._frames.filter_by(words)
         self._view = replace(self._view, query=parse(words))
         self._draw()
 
     def find(self, words: str, step: int) -> bool:
         """Select the next node or topic whose own name matches."""
         query = parse(words)
+        if self._frames.open:
+            return self._frames.find(query, step)
         return self._picture.find(lambda item: matches(item, query), step)
 
     def stands_on_match(self, words: str) -> bool:
         """Whether the selected one matches."""
+        if self._frames.open:
+            return self._frames.stands_on(parse(words))
         return bool(self._picture.selected) and matches(self._picture.selected, parse(words))
 
     def action_turn_picture(self) -> None:
@@ -219,6 +243,9 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
 
     def action_detail(self) -> None:
         """List all about the selected item, to go on to; unfold a box."""
+        if self._frames.open:
+            self._frames.show_facts(self.host, self.clock())
+            return
         item, info = self._picture.selected, self._info
         if not item or info is None:
             return
@@ -231,6 +258,9 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
 
     def action_findings(self) -> None:
         """List what is odd."""
+        if self._frames.open:
+            self._offer("What is odd about the frames", self._frames.odd(self.clock()), "Nothing is odd.")
+            return
         self._offer("What is odd", finding_options(self._info or GraphInfo()), "Nothing is odd.")
 
     def _offer(self, title: str, options: Sequence[Option], empty: str) -> None:
@@ -238,7 +268,9 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
 
     def _go(self, where: str) -> None:
         """Go where an option leads."""
-        if where.startswith(ITEM):
+        if self._frames.open:
+            self._frames.go_to(where)
+        elif where.startswith(ITEM):
             self._go_to_item(where.removeprefix(ITEM))
         elif where.startswith(PANE):
             pane, _, name = where.removeprefix(PANE).partition(" ")
@@ -304,6 +336,20 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self._rates = {} if self._rates is None else None
         self.tick()
         self._draw()
+
+    def action_frames(self) -> None:
+        """The frames of tf2 instead of nodes and topics, or back."""
+        frames = self._frames
+        frames.toggle()
+        self._picture.display = not frames.open
+        self.focus_target()
+        self.tick()
+        self._tell()
+
+    def on_row_list_moved(self, event: RowList.Moved) -> None:
+        """Tell of the frame at the cursor."""
+        event.stop()
+        self._tell()
 
     def action_export(self) -> None:
         """Ask where to export to."""

@@ -1,0 +1,48 @@
+"""The list of frames as it is drawn: the tree, how often and when each was told, by whom."""
+
+from __future__ import annotations
+
+from bot_console.tui.format import cut, harmless
+from bot_console.tui.panes.graph.frame_tree import FrameRow
+from bot_console.tui.panes.topics.figures import age_text
+from bot_console.tui.widgets.item_list import ItemList
+from rich.cells import cell_len
+from rich.segment import Segment
+from rich.style import Style
+
+RATE, AGE = 9, 7
+NAME = 44
+"""Cells that a name takes at most."""
+
+
+class FrameRows(ItemList[FrameRow]):
+    """One frame a row."""
+
+    def key(self, item: FrameRow) -> object:
+        """Its name: it may stand elsewhere in the tree."""
+        return item.name
+
+    def row(self, index: int, width: int) -> list[Segment]:
+        """Tree and name, rate, age, who tells, what is wrong."""
+        row = self.rows[index]
+        longest = max(2 * each.depth + cell_len(harmless(each.name)) for each in self.rows)
+        name = cut("  " * row.depth + harmless(row.name), max(12, min(longest, NAME, width - RATE - AGE)), pad=True)
+        trouble = [Segment(f"✗ {harmless(row.trouble)}  ", self._style("error"))] if row.trouble else []
+        return [
+            Segment(name, self._style("head") if row.frame is None else None),
+            Segment(f"{_rate(row):>{RATE}}"),
+            Segment(f"{age_text(row.age):>{AGE}}  ", self._style("dim")),
+            *trouble,
+            Segment(harmless(row.by), self._style("dim")),
+        ]
+
+    def _style(self, name: str) -> Style:
+        return self.get_component_rich_style(f"row-list--{name}", partial=True)
+
+
+def _rate(row: FrameRow) -> str:
+    if row.frame is None:
+        return ""
+    if row.frame.fixed:
+        return "fixed"
+    return "" if row.frame.rate is None else f"{row.frame.rate:.1f} Hz"

@@ -1,0 +1,118 @@
+"""The frames of tf2 as rows of a tree: each below the frame that it stands in. Pure."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from bot_console.tui.console.query import Query
+from bot_console.tui.console.sights.frame_model import Frame, Frames, findings, loop_of, roots
+from bot_console.tui.screens.facts import Section
+
+
+@dataclass(frozen=True)
+class FrameRow:
+    """A frame with its depth in the tree; `frame` is None for one that nobody tells of, a root."""
+
+    name: str
+    depth: int
+    frame: Frame | None = None
+    by: str = ""
+    """Who tells of it."""
+    trouble: str = ""
+    age: float | None = None
+    """Seconds since it was told."""
+
+
+def rows(info: Frames, clock: float, query: Query) -> list[FrameRow]:
+    """All frames, depth first; those that pass a filter with what leads to them."""
+    below: dict[str, list[Frame]] = {}
+    for each in info.frames:
+        below.setdefault(each.parent, []).append(each)
+    parents = {each.name: each.parent for each in info.frames}
+    wanted = _wanted(info, parents, query)
+    wrong = _wrong(info, clock)
+    found: list[FrameRow] = []
+    seen: set[str] = set()
+
+    def add(name: str, depth: int, frame: Frame | None) -> None:
+        if name in seen or name not in wanted:
+            return
+        seen.add(name)
+        by = ", ".join(info.tellers(frame)) if frame else ""
+        age = clock - frame.heard if frame and not frame.fixed else None
+        found.append(FrameRow(name, depth, frame, by, wrong.get(name, ""), age))
+        for each in below.get(name, ()):
+            add(each.name, depth + 1, each)
+
+    for root in roots(parents):
+        add(root, 0, None)
+    for each in info.frames:  # those of loops, which hang on no root
+        add(each.name, 0, each)
+    return found
+
+
+def _wanted(info: Frames, parents: dict[str, str], query: Query) -> set[str]:
+    every = {*parents, *parents.values()}
+    if not query.terms:
+        return every
+    wanted: set[str] = set()
+    for name in filter(query.matches, every):
+        while name not in wanted:
+            wanted.add(name)
+            name = parents.get(name, name)  # noqa: PLW2901 -- up the tree
+    return wanted
+
+
+def _wrong(info: Frames, clock: float) -> dict[str, str]:
+    """The trouble of each frame in a few words."""
+    parents = {each.name: each.parent for each in info.frames}
+    wrong: dict[str, str] = {}
+    for each in info.frames:
+        if each.silent(clock):
+            wrong[each.name] = "silent"
+        if each.others:
+            wrong[each.name] = f"also in {', '.join(each.others)}"
+        if loop_of(each.name, parents):
+            wrong[each.name] = "in a loop"
+    return wrong
+
+
+def summary(row: FrameRow | None, info: Frames) -> str:
+    """One line on a frame."""
+    if row is None:
+        return info.problem or ("Nothing has these words." if info.frames else "Nobody has told of a frame yet.")
+    if row.frame is None:
+        return f"{row.name}  stands in no other frame"
+    x, y, z = row.frame.place
+    roll, pitch, yaw = (math.degrees(each) for each in row.frame.turn)
+    return (
+        f"{row.name} in {row.frame.parent}  x {x:.3f}  y {y:.3f}  z {z:.3f} m  "
+        f"roll {roll:.1f}  pitch {pitch:.1f}  yaw {yaw:.1f} deg"
+    )
+
+
+def facts(row: FrameRow, info: Frames, clock: float) -> list[Section]:
+    """All that is known of a frame."""
+    frame = row.frame
+    told = [text for name, text in findings(info, clock) if name == row.name]
+    if frame is None:
+        return [("Frame", ["stands in no other frame; nobody tells where it is"]), ("What is odd", told)]
+    where = summary(row, info).partition("  ")[2].replace("  ", ", ")
+    how = ["fixed, told on /tf_static"] if frame.fixed else list(_how(frame, clock))
+    by = info.tellers(frame)
+    several = ["one of them; messages do not say which"] if len(by) > 1 else []
+    return [
+        (f"In {frame.parent}", [where]),
+        ("Told", how),
+        ("By", [*by, *several] or ["a node that has left"]),
+        ("What is odd", told),
+    ]
+
+
+def _how(frame: Frame, clock: float) -> Iterator[str]:
+    yield f"{frame.rate:.1f} times a second" if frame.rate is not None else "rate not known yet"
+    yield f"{clock - frame.heard:.1f} s ago"
+    if frame.late is not None:
+        yield f"{frame.late * 1000:.0f} ms old when it came, by its stamp"

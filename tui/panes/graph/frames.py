@@ -1,0 +1,113 @@
+"""The frames of tf2 in the place of the picture: a tree of rows that is looked at while it is open and seen."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from bot_console.tui.console.query import Query, parse
+from bot_console.tui.console.sights.frame_model import Frames, findings
+from bot_console.tui.console.sights.model import Sights
+from bot_console.tui.format import counted, harmless
+from bot_console.tui.panes.graph.frame_rows import FrameRows
+from bot_console.tui.panes.graph.frame_tree import facts, rows, summary
+from bot_console.tui.screens.facts import FactsScreen
+from bot_console.tui.widgets.prompt.question import Option
+from textual.app import App, ComposeResult
+from textual.containers import Container
+
+PERIOD = 0.5
+"""Seconds between two looks."""
+
+
+class FramesView(Container):
+    """The list, and what is known of it."""
+
+    DEFAULT_CSS = "FramesView { height: 1fr; display: none; }"
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open = False
+        self._looking_by: Sights | None = None
+        self._looked = 0.0
+        self._info = Frames()
+        self._query = Query()
+        self._words = ""
+        self._count = 0
+
+    def compose(self) -> ComposeResult:
+        """The list."""
+        yield FrameRows()
+
+    @property
+    def _rows(self) -> FrameRows:
+        return self.query_one(FrameRows)
+
+    def toggle(self) -> None:
+        """Open, or close."""
+        self.open = not self.open
+        self.display = self.open
+        self._looked = 0.0
+
+    def take_focus(self) -> None:
+        """The list takes the keys."""
+        self._rows.focus()
+
+    def look(self, sights: Sights, clock: float, *, seen: bool) -> None:
+        """Listen while it is open and seen; look again when it is time."""
+        wanted = self.open and seen
+        if self._looking_by is not (sights if wanted else None):  # another one after the system was connected anew
+            self._looking_by = sights if wanted else None
+            sights.look_at_frames(wanted)
+        if wanted and clock - self._looked >= PERIOD:
+            self._looked = clock
+            self._info = sights.frames()
+            self._count = sum(1 for _ in findings(self._info, clock))
+            self._arrange(clock)
+
+    def _arrange(self, clock: float) -> None:
+        self._rows.exchange(rows(self._info, clock, self._query))
+
+    def filter_by(self, words: str) -> None:
+        """Show what passes, with what leads to it."""
+        self._query, self._words = parse(words), words
+        if self.open:
+            self._arrange(self._looked)
+
+    def find(self, query: Query, step: int) -> bool:
+        """The next frame that matches."""
+        return self._rows.find(query, step)
+
+    def stands_on(self, query: Query) -> bool:
+        """Whether the frame at the cursor matches."""
+        row = self._rows.current
+        return row is not None and query.matches(row.name)
+
+    @property
+    def caption(self) -> str:
+        """How many there are, and how much of it is odd."""
+        info = self._info
+        parts = ["frames of tf2", f"/{self._words}" if self._words else ""]
+        parts += [counted(len(info.frames), "transform") if info.frames else ""]
+        parts += [f"w {counted(self._count, 'finding')}" if self._count else ""]
+        parts += [f"{info.dropped} more than are kept" if info.dropped else ""]
+        return " · ".join(filter(None, parts))
+
+    @property
+    def summary(self) -> str:
+        """A line on the frame at the cursor."""
+        return harmless(summary(self._rows.current, self._info))
+
+    def odd(self, clock: float) -> Sequence[Option]:
+        """What is odd, each line with its frame."""
+        return [Option(text, "", name) for name, text in findings(self._info, clock)]
+
+    def go_to(self, name: str) -> None:
+        """Put the cursor on a frame."""
+        shown = self._rows
+        shown.cursor = next((at for at, each in enumerate(shown.rows) if each.name == name), shown.cursor)
+
+    def show_facts(self, host: App[object], clock: float) -> None:
+        """All that is known of the frame at the cursor."""
+        row = self._rows.current
+        if row is not None:
+            host.push_screen(FactsScreen(harmless(row.name), facts(row, self._info, clock)))
