@@ -1,4 +1,4 @@
-"""What the simulator knows, as ROS messages. Frames: `map` is the truth, `odom` drifts, `base_link` is the robot."""
+"""What the simulator knows, as ROS messages. Frames: `map` is the truth, `odom` drifts."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from sensor_msgs.msg import LaserScan
 from visualization_msgs.msg import Marker, MarkerArray
 
-MAP, ODOM, BASE = "map", "odom", "base_link"
+MAP, ODOM = "map", "odom"
 FULL_TURN = 6.2
 """Fields of view (rad) from which on a scan is taken for a full turn."""
 PERSON_HEIGHT = 1.7
@@ -62,12 +62,11 @@ def scan_message(scan: Scan, settings: LidarSettings, period: float, stamp: Time
     return message
 
 
-def odometry_message(pose: Pose, velocity: tuple[float, float], frame: str, stamp: Time) -> Odometry:
-    """A pose in a frame and a velocity (m/s, rad/s) in the robot's own."""
+def odometry_message(pose: Pose, velocity: tuple[float, float], frames: tuple[str, str], stamp: Time) -> Odometry:
+    """A pose in the first frame and a velocity (m/s, rad/s) in the second, the robot's own."""
     message = Odometry()
     message.header.stamp = stamp
-    message.header.frame_id = frame
-    message.child_frame_id = BASE
+    message.header.frame_id, message.child_frame_id = frames
     message.pose.pose.position.x = pose.x
     message.pose.pose.position.y = pose.y
     message.pose.pose.orientation = quaternion(pose.heading)

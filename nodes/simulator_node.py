@@ -270,8 +270,8 @@ class Simulator(Node):
         wheels = (drive.linear, drive.angular)
         truth = (simulation.speed, simulation.turn_rate)
         told, true = frames.in_odom(simulation.odometry.pose), frames.in_map(simulation.pose)
-        self._odometry.publish(messages.odometry_message(told, wheels, messages.ODOM, stamp))
-        self._truth.publish(messages.odometry_message(true, truth, messages.MAP, stamp))
+        self._odometry.publish(messages.odometry_message(told, wheels, (messages.ODOM, self._model.footprint), stamp))
+        self._truth.publish(messages.odometry_message(true, truth, (messages.MAP, self._model.footprint), stamp))
         self._signals.publish(simulation, stamp)
 
     def _publish_scan(self) -> None:

@@ -66,6 +66,13 @@ def test_frames_lead_from_the_map_to_every_sensor(running: System) -> None:
     assert "- Translation:" in wheel.stdout
 
 
+def test_odometry_names_the_frame_that_tf_moves(running: System) -> None:
+    robot(running)
+    moved = once(running, "/tf")
+    assert "child_frame_id: base_footprint\n" in once(running, "/odom")
+    assert "frame_id: odom\n  child_frame_id: base_footprint\n" in moved
+
+
 def test_the_correction_puts_drifted_odometry_right(running: System) -> None:
     robot(running, "-p", "odometry.heading_noise:=0.3", "-p", "odometry.distance_noise:=0.3")
     echo = running.executable("tf2_ros", "tf2_echo", "map", "base_footprint")

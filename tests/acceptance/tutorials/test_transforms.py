@@ -78,3 +78,53 @@ def test_what_does_not_come_is_told_with_its_reason(running: System) -> None:
 def test_nobody_who_answers(running: System) -> None:
     ask = "buffer.lookup_transform('map', 'base', Time())"
     assert asking(running, ask, 0.5).stdout == "TimeoutException The BufferServer is not ready.\nafter 0.0\n"
+
+
+LISTENING = """
+import rclpy
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.time import Time
+from tf2_ros import TransformException
+from tf2_ros.buffer import Buffer
+from tf2_ros.transform_broadcaster import TransformBroadcaster
+from tf2_ros.transform_listener import TransformListener
+from geometry_msgs.msg import TransformStamped
+
+class Carrot(Node):
+    '''A frame that runs away from the one it hangs on, a metre a second.'''
+    def __init__(self):
+        super().__init__('carrot')
+        self.began = self.get_clock().now()
+        self.buffer = Buffer()
+        self.listener = TransformListener(self.buffer, self)
+        self.broadcaster = TransformBroadcaster(self)
+        self.create_timer(0.1, self.tell)
+        self.create_timer(2.0, self.ask)
+
+    def tell(self):
+        frame = TransformStamped()
+        frame.header.stamp = self.get_clock().now().to_msg()
+        frame.header.frame_id, frame.child_frame_id = 'turtle', 'carrot'
+        frame.transform.translation.x = (self.get_clock().now() - self.began).nanoseconds * 1e-9
+        self.broadcaster.sendTransform(frame)
+
+    def ask(self):
+        now = self.get_clock().now() - Duration(seconds=0.1)
+        past = now - Duration(seconds=1.0)
+        way = self.buffer.lookup_transform_full('carrot', now, 'carrot', past, 'turtle')
+        print('moved', round(way.transform.translation.x, 1), flush=True)
+        try:
+            self.buffer.lookup_transform('turtle', 'carrot', past - Duration(seconds=60.0))
+        except TransformException as error:
+            print(type(error).__name__, flush=True)
+
+rclpy.init()
+rclpy.spin(Carrot())
+"""
+
+
+def test_a_listener_looks_into_the_past(running: System) -> None:
+    carrot = running.python("-c", LISTENING)
+    running.run(2.5)
+    assert carrot.stdout == "moved -1.0\nExtrapolationException\n"
