@@ -28,6 +28,7 @@ from bot_console.tui.panes.broken import BrokenPane
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.plot.pane import PlotPane
+from bot_console.tui.recording import RecordingApp
 from bot_console.tui.safety.line_risk import risk_of
 from bot_console.tui.safety.quitting import Quitting
 from bot_console.tui.safety.safety_news import SafetyNews
@@ -38,7 +39,6 @@ from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.screens.output import OutputScreen
 from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.screens.tuning_door import TuningDoor
-from bot_console.tui.terminal.guard import GuardedApp
 from bot_console.tui.theme import THEMES
 from bot_console.tui.time_cursor import TimeCursor
 from bot_console.tui.widgets.key_bar import KeyBar
@@ -67,7 +67,7 @@ AT_ONCE = frozenset(next(key.keys for key in keymap.TABLE["app"] if key.id == "a
 """Keys that never wait for those typed before."""
 
 
-class BotConsoleApp(GuardedApp, TuningDoor):
+class BotConsoleApp(RecordingApp, TuningDoor):
     """rqt for the terminal."""
 
     TITLE = "bot-console"

@@ -49,6 +49,8 @@ TABLE: dict[str, tuple[Key, ...]] = {
         Key("app.previous", "shift+tab", "next_pane(-1)", "Previous pane", priority=True),
         Key("app.arrange", "V", "arrange", "Arrange the panes: split, resize, close, layouts", shown="V"),
         Key("app.zoom", "z", "zoom", "Maximise this pane, and back"),
+        Key("app.record", "R", "record", "Record all topics into a bag, or end it", shown="R"),
+        Key("app.keep_past", "Z", "keep_past", "Save what was: the last minutes as a bag", shown="Z"),
         Key(
             "app.quit",
             "q",
@@ -75,7 +77,7 @@ TABLE: dict[str, tuple[Key, ...]] = {
         Key("logs.hide", "x", "alike(True)", "Hide lines like this one: a rule that stays"),
         Key("logs.highlight", "plus,equals_sign", "alike(False)", "Highlight lines like this one: a rule that stays"),
         Key("logs.only", "o", "only_highlighted", "Highlighted lines only, or all"),
-        Key("logs.rules", "R", "rules", "The rules: switch, change, delete", shown="R"),
+        Key("logs.rules", "F", "rules", "The rules: switch, change, delete", shown="F"),
         Key("logs.off", "t", "suspend_filters", "Everything for now; again: the filters as they were"),
         Key("logs.fold", "r", "fold", "Repeats on one line, with their number, or each of them"),
         Key("logs.next_error", "E", "next_error", "Next error", shown="E"),

@@ -33,6 +33,7 @@ from bot_console.tui.console.protocol import Answer, LogSource, LogView, Stream
 from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.console.values import refusal
 from fake_profiles import CLOSED, FakeProfiles
+from fake_recording import FakeRecording
 from fake_series import START, FakeSeries
 from fake_sights import FakeSights
 from fake_traffic import FakeTraffic
@@ -76,6 +77,10 @@ class FakeConsole(FakeProfiles, FakeSeries):
         self.closed = False
         self._steps = Journal()
         self._watched = {}
+
+    @property
+    def recording(self) -> FakeRecording:
+        return FakeRecording(self)
 
     def change(self, **parts: Any) -> None:
         """Replace parts of the snapshot."""

@@ -111,11 +111,11 @@ def test_rules_hide_and_highlight_until_they_are_changed() -> None:
         await session.press("o")
         shown = seqs(session)
         assert 0 < len(shown) < every and "highlighted only" in session.text()
-        await session.press("o", "R", "c", "c", "c", "c", "c", "c")
+        await session.press("o", "F", "c", "c", "c", "c", "c", "c")
         assert "● hide" in session.text(), "behind the last colour it hides"
         await session.press("space", "escape")
         assert len(seqs(session)) == every, "it is off"
-        await session.press("R", "enter")
+        await session.press("F", "enter")
         session.app.focused.value = "sev:["
         await session.settle()
         assert "severity '[' is none of" in session.text()

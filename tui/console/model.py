@@ -12,6 +12,7 @@ from enum import Enum, IntEnum
 from types import MappingProxyType
 from typing import TypeAlias
 
+from bot_console.tui.console.recording import RecordingInfo
 from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
 
 Value: TypeAlias = "bool | int | float | str | tuple[bool | int | float | str | bytes, ...] | None"
@@ -388,6 +389,7 @@ class ConsoleSnapshot:
     drive: DriveInfo = field(default_factory=DriveInfo)
     launch: LaunchInfo = field(default_factory=LaunchInfo)
     link: LinkInfo = field(default_factory=LinkInfo)
+    recording: RecordingInfo = field(default_factory=RecordingInfo)
     profiles: tuple[Profile, ...] = ()
     active_profile: str = ""
     """The profile that was applied last and not undone; empty where there was none."""

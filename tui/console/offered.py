@@ -6,7 +6,7 @@ nodes come and go.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 from rclpy.node import Node
@@ -67,6 +67,17 @@ class OfferedSubscription:
         self._asked = asked
         if before is not None:
             self._node.destroy_subscription(before)
+
+    def drain(self) -> Iterator[tuple[bytes, int]]:
+        """The serialized messages that wait, with the time at which each was sent (ns since the epoch; 0: unknown).
+
+        For nodes that nobody spins: this costs a third of what an executor's callbacks do.
+        """
+        if self._subscription is None:
+            return
+        with self._subscription.handle as handle:
+            while (taken := handle.take_message(self._kind, True)) is not None:
+                yield bytes(taken[0]), taken[1]["source_timestamp"] or 0
 
     def destroy(self) -> None:
         """Hear no more."""

@@ -26,6 +26,7 @@ from bot_console.tui.console.model import (
 )
 
 if TYPE_CHECKING:
+    from bot_console.tui.console.recording import Recording
     from bot_console.tui.console.robot.robot_model import Pose
     from bot_console.tui.console.sights.model import Sights
     from bot_console.tui.console.traffic import Traffic
@@ -177,6 +178,11 @@ class ConsoleReading(Protocol):
 
 class Console(ConsoleReading, Protocol):
     """A ROS system as the panes see it: what is known of it, and what can be asked of it."""
+
+    @property
+    def recording(self) -> Recording:
+        """Records it into bags."""
+        ...
 
     @property
     def traffic(self) -> Traffic:

@@ -16,6 +16,9 @@ from bot_console.tui.text.yaml_faults import UNREADABLE, fault_of
 LARGEST = 100_000
 """Bytes of a settings file; what is larger is none."""
 
+KEEP_MINUTES = 2.0
+KEEP_MEGABYTES = 64.0
+
 TEMPLATE = f"""\
 # Settings of bot-console. Every line may be left out; `bot-console config` shows this file, `bot-console config --edit`
 # opens it in $EDITOR, and `bot-console config --check` says what is wrong with it.
@@ -28,6 +31,11 @@ glyphs: auto
 
 # What the first screen shows: last (as it was left), or the name of a layout.
 layout: last
+
+# Recording: all topics of a system that this console has started are kept in memory for so many minutes, in at most so
+# many megabytes, so that Z can save what was; 0 keeps nothing.
+keep_minutes: {KEEP_MINUTES:g}
+keep_megabytes: {KEEP_MEGABYTES:g}
 
 # Keys: the id of an action, as `bot-console config --keys` lists them, and the keys that do it from now on.
 keys: {{}}
@@ -45,6 +53,8 @@ class Settings:
     layout: str = "last"
     keys: Mapping[str, str] = field(default_factory=dict[str, str])
     problems: tuple[str, ...] = ()
+    keep_minutes: float = KEEP_MINUTES
+    keep_megabytes: float = KEEP_MEGABYTES
 
 
 def settings_file() -> Path:
@@ -89,9 +99,20 @@ def _settings(data: object, path: str) -> Settings:
     theme = one("theme", "dark", lambda name: _one_of(name, THEME_NAMES))
     glyphs = one("glyphs", "auto", lambda name: _one_of(name, GLYPHS))
     layout = one("layout", "last", lambda _: "")
+    keep = [
+        _number(given.pop(name, default), most, default, f"{path}: {name}", wrong)
+        for name, default, most in (("keep_minutes", KEEP_MINUTES, 60.0), ("keep_megabytes", KEEP_MEGABYTES, 4096.0))
+    ]
     keys = _keys(given.pop("keys", None), path, wrong)
     wrong += [f"{path}: '{str(name)[:40]}' is no setting" for name in given]
-    return Settings(theme, glyphs, layout, keys, tuple(wrong))
+    return Settings(theme, glyphs, layout, keys, tuple(wrong), keep[0], keep[1])
+
+
+def _number(value: object, most: float, default: float, name: str, wrong: list[str]) -> float:
+    if isinstance(value, (int, float)) and not isinstance(value, bool) and 0 <= value <= most:
+        return float(value)
+    wrong.append(f"{name}: a number from 0 to {most:g}")
+    return default
 
 
 def _one_of(name: str, known: Sequence[str]) -> str:

@@ -49,6 +49,10 @@ def status_text(snapshot: ConsoleSnapshot, held_back: int = 0, acknowledged: int
     errors = errors_of(snapshot) - acknowledged
     if errors:
         parts.append(counted(errors, "new error" if acknowledged else "error"))
+    if snapshot.recording.folder:
+        parts.append(f"● REC {harmless(snapshot.recording.folder.rpartition('/')[2])}")
+    if snapshot.recording.problem:
+        parts.append(f"✗ {harmless(snapshot.recording.problem)}")
     parts.append(drive_text(snapshot.drive))
     if snapshot.active_profile:
         parts.append(profile_text(snapshot))

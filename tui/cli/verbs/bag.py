@@ -97,7 +97,7 @@ def _find(name: str) -> Any:
 
 
 def _record(given: argparse.Namespace) -> int:
-    from bot_console.tui.console.bags.recorder import Recorder, Ring
+    from bot_console.tui.console.bags.recorder import PACE, Recorder, Ring
     from bot_console.tui.console.bags.writer import BagWriter
 
     if not (given.all or given.topics or given.regex):
@@ -120,13 +120,17 @@ def _record(given: argparse.Namespace) -> int:
             logger.warning(f"Topic '{name}' is not recorded: {recorder.unknown[name]}")
         told.update(recorder.subscribed, recorder.unknown)
 
-    node.create_timer(0.5, tell)
+    import rclpy
+
+    control = rclpy.create_node(f"_{RECORDER}_control", start_parameter_services=False)
+    control.create_timer(PACE, recorder.turn)
+    control.create_timer(0.5, tell)
     if isinstance(sink, Ring):
-        _offer_snapshots(node, sink, given.output)
+        _offer_snapshots(control, sink, given.output)
         logger.info(f"Keeping the last {given.snapshot_duration:g} s; `bot-console bag snapshot` writes them")
     else:
         logger.info(f"Recording to {folder}")
-    _spin(node, given.duration)
+    _spin(control, given.duration)
     recorder.close()
     if isinstance(sink, BagWriter):
         sink.close()
@@ -150,7 +154,7 @@ def _offer_snapshots(node: Any, ring: Any, output: Path | None) -> None:
         answer.success, answer.message = True, f"{count} messages in {folder.resolve()}"
         return answer
 
-    node.create_service(Trigger, "~/snapshot", write)
+    node.create_service(Trigger, SNAPSHOT, write)
 
 
 def _snapshot(given: argparse.Namespace) -> int:
@@ -272,12 +276,13 @@ def _node(name: str) -> Any:
 
 def _spin(node: Any, duration: float | None, stopped: threading.Event | None = None) -> None:
     """Spin until the time has come, or somebody stops it or ends the program in order."""
-    import rclpy
-    from rclpy.executors import ExternalShutdownException
+    from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 
     end = None if duration is None else time.monotonic() + duration
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
     try:
         while not (stopped is not None and stopped.is_set()) and (end is None or time.monotonic() < end):
-            rclpy.spin_once(node, timeout_sec=0.1)
+            executor.spin_once(timeout_sec=0.1)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass

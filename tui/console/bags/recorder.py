@@ -12,8 +12,14 @@ from bot_console.tui.console.offered import OfferedSubscription
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
+PACE = 0.1
+"""Seconds between two turns."""
 LOOK = 0.5
 """Seconds between two looks for new topics."""
+ONE_CLOCK = 1_000_000_000
+"""Nanoseconds by which a message's time of sending may lie back and still be believed."""
+OVERHEAD = 200
+"""Bytes that a kept message takes beside its own."""
 BEST = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -34,7 +40,10 @@ class Sink(Protocol):
 
 
 class Recorder:
-    """Hands all messages of the topics that are wanted to a sink."""
+    """Hands all messages of the topics that are wanted to a sink, whenever it is asked to.
+
+    Its node is spun by nobody: `turn` takes what waits, some times in a second, for a fraction of what callbacks cost.
+    """
 
     def __init__(self, node: Node, sink: Sink, wanted: Callable[[str], bool], find: Callable[[str], Any]) -> None:
         """`find` gives the class of a type's name, and raises `ImportError` and the like where there is none."""
@@ -42,19 +51,37 @@ class Recorder:
         self._sink = sink
         self._wanted = wanted
         self._find = find
+        self._looked = 0.0
+        self._last = 0
         self.subscribed: dict[str, OfferedSubscription] = {}
         self.unknown: dict[str, str] = {}
         """Topics that cannot be recorded, and why."""
-        self._timer = node.create_timer(LOOK, self.look)
-        self.look()
+        self.turn()
 
     def close(self) -> None:
-        """Record no more; the sink can be closed then."""
-        self._node.destroy_timer(self._timer)
+        """Take what still waits and record no more; the sink can be closed then."""
+        self._take()
         for each in self.subscribed.values():
             each.destroy()
 
-    def look(self) -> None:
+    def turn(self) -> None:
+        """Take what waits; now and then look for new topics, and flush. To be called every `PACE` seconds."""
+        self._take()
+        if time.monotonic() - self._looked >= LOOK:
+            self._looked = time.monotonic()
+            self._look()
+
+    def _take(self) -> None:
+        now = time.time_ns()
+        found = [(sent, name, data) for name, each in self.subscribed.items() for data, sent in each.drain()]
+        # All of a turn are taken at once, so the time of sending tells better when one came, unless clocks differ.
+        stamped = [(sent if 0 <= now - sent < ONE_CLOCK else now, name, data, sent) for sent, name, data in found]
+        stamped.sort(key=_received)
+        for received, name, data, sent in stamped:
+            self._last = max(self._last, received)
+            self._sink.write(name, data, self._last, sent)
+
+    def _look(self) -> None:
         """Subscribe what has come, follow what is offered now, and flush."""
         self._sink.flush()
         for name, types in self._node.get_topic_names_and_types():
@@ -75,13 +102,17 @@ class Recorder:
             return
         offers = self._node.get_publishers_info_by_topic(name)
         self._sink.topic(name, kind, noted(each.qos_profile for each in offers), _hash(offers))
-
-        def take(data: bytes) -> None:
-            self._sink.write(name, data, time.time_ns(), 0)
-
         self.subscribed[name] = OfferedSubscription(
-            self._node, kind, name, take, BEST, eager=False, once_weak=True, raw=True
+            self._node, kind, name, _nobody, BEST, eager=False, once_weak=True, raw=True
         )
+
+
+def _received(entry: tuple[int, str, bytes, int]) -> int:
+    return entry[0]
+
+
+def _nobody(data: bytes) -> None:
+    """Called back by nobody: what comes is drained."""
 
 
 class Ring:
@@ -102,10 +133,20 @@ class Ring:
     def write(self, topic: str, data: bytes, received: int, sent: int) -> None:
         """Add a message, and forget those that are too old or too many."""
         self._kept.append((received, topic, data))
-        self._held += len(data)
+        self._held += len(data) + OVERHEAD
         oldest = received - int(self._seconds * 1e9)
         while self._kept and (self._kept[0][0] < oldest or self._held > self._most):
-            self._held -= len(self._kept.popleft()[2])
+            self._held -= len(self._kept.popleft()[2]) + OVERHEAD
+
+    @property
+    def begin(self) -> int:
+        """When the first message that is kept came (ns since the epoch); 0 where there is none."""
+        return self._kept[0][0] if self._kept else 0
+
+    @property
+    def span(self) -> float:
+        """Seconds from the first message that is kept to the last."""
+        return (self._kept[-1][0] - self._kept[0][0]) / 1e9 if self._kept else 0.0
 
     def flush(self) -> None:
         """Nothing is written before it is asked for."""

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import Future
 from threading import Event
 
+from bot_console.tui.console.bags.room import Recordings
 from bot_console.tui.console.connection.no_console import CLOSED, refused_profile
 from bot_console.tui.console.logs.file import open_log
 from bot_console.tui.console.logs.search import matching
@@ -27,6 +28,7 @@ from bot_console.tui.console.model import (
 from bot_console.tui.console.node import ConsoleNode
 from bot_console.tui.console.parameters.shelf import Shelf
 from bot_console.tui.console.protocol import Answer, LogSource, LogView, Samples
+from bot_console.tui.console.recording import Recording, RingSize
 from bot_console.tui.console.robot.robot_model import Pose
 from bot_console.tui.console.sights.model import Sights
 from bot_console.tui.console.traffic import Traffic
@@ -45,12 +47,19 @@ class LinkedConsole:
         views: LogViews,
         shelf: Shelf,
         capabilities: Capabilities,
+        ring: RingSize | None = None,
     ) -> None:
         self._node = node
         self._logs = logs
         self._views = views
         self._shelf = shelf
         self._capabilities = capabilities
+        self._recordings = Recordings(ring)
+
+    @property
+    def recording(self) -> Recording:
+        """Records into bags."""
+        return self._recordings
 
     @property
     def traffic(self) -> Traffic:
@@ -77,6 +86,7 @@ class LinkedConsole:
             active_profile=node.setter.profile,
             profile_changes=node.profile_changes(self._profile(node.setter.profile)),
             capabilities=self._capabilities,
+            recording=self._recordings.info,
         )
 
     def log(self, seq: int) -> LogRecord | None:
@@ -215,6 +225,7 @@ class LinkedConsole:
 
     def close(self) -> None:
         """Zero velocity, then leave the ROS system; whoever still waits for an answer is refused."""
+        self._recordings.close()
         self._views.close()
         self._node.drive.close()
         Event().wait(LAST_WORD)

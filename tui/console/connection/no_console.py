@@ -18,6 +18,7 @@ from bot_console.tui.console.model import (
     Value,
 )
 from bot_console.tui.console.protocol import Answer, ConsoleReading, LogFindings, LogSource, LogView, Samples, Stream
+from bot_console.tui.console.recording import Recording, RecordingInfo
 from bot_console.tui.console.robot.robot_model import Pose
 from bot_console.tui.console.sights.idle import IdleSights
 from bot_console.tui.console.sights.model import Sights
@@ -105,6 +106,27 @@ class NothingKnown:
         return ()
 
 
+class NoRecording:
+    """Records nothing and says why."""
+
+    info = RecordingInfo()
+
+    def __init__(self, refusal: Answer) -> None:
+        self._refusal = refusal
+
+    def start(self, folder: str) -> Future[Answer]:
+        """Refused."""
+        return done(self._refusal)
+
+    def stop(self) -> Future[Answer]:
+        """Refused."""
+        return done(self._refusal)
+
+    def keep(self, folder: str) -> Future[Answer]:
+        """Refused."""
+        return done(self._refusal)
+
+
 class NoConsole:
     """Refuses every request with the reason; what is to be read is `known`."""
 
@@ -112,6 +134,7 @@ class NoConsole:
         self._why = why
         self._refusal = Answer(False, why)
         self._idle: Traffic = IdleTraffic(why)
+        self._no_recording = NoRecording(self._refusal)
         self._blind: Sights = IdleSights(why)
         self.snapshot = known.snapshot
         self.log = known.log
@@ -124,6 +147,11 @@ class NoConsole:
         self.pose_at = known.pose_at
         self.plottable = known.plottable
         self.profile_differences = known.profile_differences
+
+    @property
+    def recording(self) -> Recording:
+        """Records into bags."""
+        return self._no_recording
 
     @property
     def traffic(self) -> Traffic:

@@ -9,6 +9,7 @@ from concurrent.futures import Future
 from bot_console.tui.console.connection.no_console import NoConsole, done
 from bot_console.tui.console.model import LaunchArgument
 from bot_console.tui.console.protocol import Answer, CommandLine, Console, Stream
+from bot_console.tui.console.recording import Recording
 from bot_console.tui.console.sights.model import Sights
 from bot_console.tui.console.topics.reading import ReadingTraffic
 from bot_console.tui.console.traffic import Traffic
@@ -36,6 +37,11 @@ class ReadOnlyConsole(NoConsole):
         super().__init__(WHY, console)
         self._console = console
         self._tell = tell
+
+    @property
+    def recording(self) -> Recording:
+        """Records into bags."""
+        return self._console.recording
 
     @property
     def traffic(self) -> Traffic:

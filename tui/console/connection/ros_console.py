@@ -33,6 +33,7 @@ from bot_console.tui.console.model import (
 )
 from bot_console.tui.console.parameters.provenance import Learn, Provenance
 from bot_console.tui.console.protocol import Answer, Console, LogSource, LogView, Samples
+from bot_console.tui.console.recording import Recording, RingSize
 from bot_console.tui.console.robot.robot_model import Pose
 from bot_console.tui.console.sights.model import Sights
 from bot_console.tui.console.traffic import Traffic
@@ -65,12 +66,14 @@ class RosConsole:
         history: Path | None = None,
         link: Callable[[], LinkInfo] = lambda: NO_LINK,
         foreign: bool = False,
+        ring: RingSize | None = None,
     ) -> None:
         """`own_profiles` is where profiles are saved, `workspace_profiles` finds more folders that may hold some.
 
         `history` is the file that keeps parameter changes for later runs; None: they are not kept.
 
-        `link` tells how a network is; `foreign` that the system is not ours, see `ConsoleNode`.
+        `link` tells how a network is; `foreign` that the system is not ours, see `ConsoleNode`; `ring` what is kept of
+        all topics in memory, None: nothing.
         """
         self._own_profiles = own_profiles
         self._workspace_profiles = workspace_profiles
@@ -82,6 +85,7 @@ class RosConsole:
         self._history_file = history
         self._link = link
         self._foreign = foreign
+        self._ring = ring
         self._zeroed = False
         self._problem = ""
         self._ready = threading.Event()
@@ -120,7 +124,7 @@ class RosConsole:
             self._learn = node.learn
             node.setter.profile = self._active_profile
             self._heard = node.loggers
-            linked = LinkedConsole(node, logs, self._views, shelf, self._capabilities)
+            linked = LinkedConsole(node, logs, self._views, shelf, self._capabilities, self._ring)
             self._connected = True
             if self._closed:
                 self._now = NoConsole(CLOSED, linked)
@@ -178,6 +182,11 @@ class RosConsole:
         if not _same(old, new):
             self._snapshot = replace(new, seq=old.seq + 1)
         return self._snapshot
+
+    @property
+    def recording(self) -> Recording:
+        """Records into bags."""
+        return self._now.recording
 
     @property
     def traffic(self) -> Traffic:

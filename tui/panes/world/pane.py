@@ -11,6 +11,7 @@ from bot_console.tui.console.robot.robot_model import Pose, TurtleField, WorldIn
 from bot_console.tui.format import clock_text
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.widgets.picture import Picture
+from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.words import Words
 from textual.app import ComposeResult
 
@@ -113,6 +114,7 @@ class WorldPane(Pane):
         """The map and a line of facts."""
         yield WorldMap()
         yield Words(id="world-facts")
+        yield Prompt(id="world-prompt")
 
     def focus_target(self) -> None:
         """The pane itself takes the keys."""

@@ -14,7 +14,7 @@ from bot_console.tui.console.bags.definitions import definition, type_name
 from bot_console.tui.console.bags.player import Player, Playing
 from bot_console.tui.console.bags.qos import noted, offered
 from bot_console.tui.console.bags.reader import Bag, NoBag
-from bot_console.tui.console.bags.recorder import Recorder, Ring
+from bot_console.tui.console.bags.recorder import OVERHEAD, Recorder, Ring
 from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.files.save_file import NotSaved
 from geometry_msgs.msg import Twist
@@ -165,8 +165,7 @@ def test_recorded_and_played_again(tmp_path: Path, node: rclpy.node.Node) -> Non
     for text in ("one", "two"):
         publisher.publish(String(data=text))
         other.publish(String(data="no"))
-        rclpy.spin_once(node, timeout_sec=0.1)
-        rclpy.spin_once(node, timeout_sec=0.1)
+        recorder.turn()
     recorder.close()
     writer.close()
     bag = Bag(tmp_path / "bag")
@@ -191,7 +190,7 @@ def test_a_topic_whose_type_is_not_here_is_told(tmp_path: Path, node: rclpy.node
 
 
 def test_a_ring_keeps_the_last_seconds_and_no_more_than_its_bytes(tmp_path: Path) -> None:
-    ring = Ring(seconds=10, most=1000)
+    ring = Ring(seconds=10, most=100_000)
     ring.topic("/words", String, [], "")
     data = serialize_message(String(data="x"))
     for second in range(1, 31):
@@ -200,6 +199,8 @@ def test_a_ring_keeps_the_last_seconds_and_no_more_than_its_bytes(tmp_path: Path
     assert ring.pour(writer) == 11
     writer.close()
     assert Bag(tmp_path / "bag").metadata.begin == 20 * SECOND
+    ring = Ring(seconds=10, most=2 * (400 + OVERHEAD) + 200)
+    ring.topic("/words", String, [], "")
     for second in range(31, 60):
         ring.write("/words", b"\0" * 400, second * SECOND // 100 + 30 * SECOND, 0)
     shutil.rmtree(tmp_path / "bag")

@@ -1,0 +1,41 @@
+"""R records and ends, Z saves the last minutes; the status line says that it records."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from bot_console.tui.console.recording import RecordingInfo
+from piloting import Session, run
+from samples import live
+
+
+def test_recording_begins_and_ends_by_the_same_key(tmp_path: Path) -> None:
+    async def play(session: Session) -> None:
+        await session.press("5", "R")
+        assert "rosbag2_" in session.app.focused.value
+        session.app.focused.value = str(tmp_path / "drive")
+        await session.press("enter")
+        assert ("record", str(tmp_path / "drive")) in session.console.asked
+        session.app.pull()
+        await session.settle()
+        assert "● REC drive" in session.text()
+        await session.press("R")
+        session.app.pull()
+        await session.settle()
+        assert ("end", "") in session.console.asked and "REC" not in session.text()
+
+    run(live(), play, (120, 40))
+
+
+def test_the_last_minutes_are_saved_and_where_none_are_kept_it_is_said(tmp_path: Path) -> None:
+    async def play(session: Session) -> None:
+        await session.press("2", "Z")
+        assert ("keep", "") in session.console.asked, "which answers why not"
+        session.console.change(recording=RecordingInfo(kept_s=120.0))
+        await session.press("Z")
+        assert "save the last 2 min" in session.text()
+        session.app.focused.value = str(tmp_path / "was")
+        await session.press("enter")
+        assert ("keep", str(tmp_path / "was")) in session.console.asked
+
+    run(live(), play, (120, 40))

@@ -1,0 +1,114 @@
+"""Recording in the console: a bag begun, ended, and the last minutes saved afterwards."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future
+from pathlib import Path
+
+import pytest
+import rclpy
+from bot_console.tui.console.bags.reader import Bag
+from bot_console.tui.console.bags.recorder import Ring
+from bot_console.tui.console.bags.room import Recordings
+from bot_console.tui.console.bags.tape import Tape
+from bot_console.tui.console.bags.writer import BagWriter
+from bot_console.tui.console.protocol import Answer
+from bot_console.tui.console.recording import RingSize
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.serialization import deserialize_message, serialize_message
+from rosgraph_msgs.msg import Clock
+from std_msgs.msg import String
+
+LATCHED = [{"durability": "transient_local", "reliability": "reliable", "depth": 1}]
+
+
+def texts(folder: Path, topic: str = "/words") -> list[str]:
+    return [deserialize_message(each.data, String).data for each in Bag(folder).messages([topic])]
+
+
+def told(future: Future[Answer]) -> Answer:
+    return future.result(timeout=20)
+
+
+@pytest.fixture
+def node() -> Iterator[rclpy.node.Node]:
+    rclpy.init()
+    made = rclpy.create_node("bags")
+    yield made
+    made.destroy_node()
+    rclpy.try_shutdown()
+
+
+@pytest.fixture
+def recordings() -> Iterator[Callable[[RingSize | None], Recordings]]:
+    made: list[Recordings] = []
+
+    def make(ring: RingSize | None) -> Recordings:
+        made.append(Recordings(ring))
+        return made[-1]
+
+    yield make
+    for each in made:
+        each.close()
+
+
+def test_a_bag_is_recorded_from_begin_to_end(
+    tmp_path: Path, node: rclpy.node.Node, recordings: Callable[[RingSize | None], Recordings]
+) -> None:
+    latched = node.create_publisher(
+        String, "/map_name", QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    )
+    latched.publish(String(data="office"))
+    publisher = node.create_publisher(String, "/words", 10)
+    node.create_publisher(Clock, "/clock", 10)
+    room = recordings(None)
+    assert not told(room.stop()).ok and not told(room.keep("x")).ok and room.info.folder == ""
+    assert told(room.start(str(tmp_path / "bag"))).ok
+    assert room.info.folder == str(tmp_path / "bag") and room.info is room.info
+    assert "already" in told(room.start("another")).text  # by which time all topics are heard
+    assert publisher.get_subscription_count() == 1
+    for number in range(20):
+        publisher.publish(String(data=str(number)))
+    answer = told(room.stop())
+    assert answer.ok and "messages of" in answer.text and room.info.folder == ""
+    again = told(room.start(str(tmp_path / "bag")))
+    assert not again.ok and "is there already" in again.text
+    assert texts(tmp_path / "bag") == [str(number) for number in range(20)]
+    room.close()
+    assert texts(tmp_path / "bag", "/map_name") == ["office"]
+    assert "/clock" not in Bag(tmp_path / "bag").metadata.topics
+    assert told(room.start(str(tmp_path / "late"))) == Answer(False, "the console has closed")
+
+
+def test_what_was_is_saved_afterwards_with_what_had_been_latched(tmp_path: Path) -> None:
+    tape = Tape(Ring(10.0, 10_000_000))
+    tape.topic("/map_name", String, LATCHED)
+    tape.topic("/rosout", String, LATCHED)
+    tape.topic("/words", String, [])
+    say = lambda text: serialize_message(String(data=text))  # noqa: E731
+    tape.write("/map_name", say("office"), 10**9, 0)
+    tape.write("/rosout", say("a line"), 10**9, 0)
+    for second in range(2, 60):
+        tape.write("/words", say(str(second)), second * 10**9, 0)
+    writer = BagWriter(tmp_path / "bag")
+    tape.pour(writer)
+    writer.close()
+    assert texts(tmp_path / "bag") == [str(second) for second in range(49, 60)]
+    assert texts(tmp_path / "bag", "/map_name") == ["office"] and texts(tmp_path / "bag", "/rosout") == []
+    assert Bag(tmp_path / "bag").metadata.begin == 49 * 10**9
+
+
+def test_a_full_disk_ends_the_bag_and_not_the_ring(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    tape = Tape(Ring(10.0, 10_000))
+    tape.topic("/words", String, [])
+    tape.begin(BagWriter(tmp_path / "bag"), 10**9)
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(tape.writer, "write", full)
+    tape.write("/words", b"x", 10**9, 0)
+    assert tape.writer is None and "No space left" in tape.problem and "bag" in tape.problem
+    tape.write("/words", b"y", 2 * 10**9, 0)
+    assert tape.ring is not None and tape.ring.span == 1.0

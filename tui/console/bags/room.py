@@ -1,0 +1,162 @@
+"""Recording in the console: a node and a thread of its own, so that a slow disk holds nobody up."""
+
+from __future__ import annotations
+
+import queue
+import threading
+import time
+from collections.abc import Callable
+from concurrent.futures import Future
+from typing import Any
+
+import rclpy
+from bot_console.tui.console.bags.needed import Missing
+from bot_console.tui.console.bags.recorder import PACE, Recorder, Ring
+from bot_console.tui.console.bags.tape import Tape
+from bot_console.tui.console.bags.writer import BagWriter
+from bot_console.tui.console.connection.no_console import done
+from bot_console.tui.console.protocol import Answer
+from bot_console.tui.console.recording import RecordingInfo, RingSize
+from bot_console.tui.files.save_file import NotSaved, typed_path
+from rclpy.context import Context
+from rosidl_runtime_py.utilities import get_message
+
+NAME = "_bot_console_recorder"
+CLOCK = "/clock"
+CLOSING = 3.0
+"""Seconds that a bag has to be finished when the console ends."""
+
+
+class Recordings:
+    """Records all topics; its methods may be called from any thread."""
+
+    def __init__(self, ring: RingSize | None = None) -> None:
+        """Where nothing is kept in memory there is neither node nor thread before something is recorded."""
+        self._tape = Tape(Ring(ring.seconds, ring.bytes) if ring else None)
+        self._info = RecordingInfo(kept_s=ring.seconds if ring else 0.0)
+        self._orders: queue.SimpleQueue[tuple[Callable[[], Answer], Future[Answer]]] = queue.SimpleQueue()
+        self._closing = threading.Event()
+        self._thread: threading.Thread | None = None
+        self._lock = threading.Lock()
+        if ring:
+            self._run()
+
+    @property
+    def info(self) -> RecordingInfo:
+        """How it stands."""
+        writer = self._tape.writer
+        now = RecordingInfo(str(writer.folder) if writer else "", self._info.kept_s, self._tape.problem)
+        if now != self._info:
+            self._info = now
+        return self._info
+
+    def start(self, folder: str) -> Future[Answer]:
+        """Record all topics into a new bag."""
+
+        def begin() -> Answer:
+            if self._tape.writer is not None:
+                return Answer(False, f"{self._tape.writer.folder} is being recorded already")
+            try:
+                self._tape.begin(BagWriter(typed_path(folder)), time.time_ns())
+            except (Missing, NotSaved, OSError) as error:
+                return Answer(False, f"not recorded: {error}")
+            return Answer(True, f"records all topics into {folder}")
+
+        return self._order(begin)
+
+    def stop(self) -> Future[Answer]:
+        """End the bag."""
+        if self._thread is None:
+            return done(Answer(False, "nothing is being recorded"))
+
+        def end() -> Answer:
+            try:
+                writer = self._tape.end()
+            except (NotSaved, OSError) as error:
+                return Answer(False, f"the bag has no end, which `bag info` adds: {error}")
+            if writer is None:
+                return Answer(False, self._tape.problem or "nothing is being recorded")
+            about = writer.metadata
+            return Answer(True, f"{about.count} messages of {len(about.topics)} topics in {writer.folder}")
+
+        return self._order(end)
+
+    def keep(self, folder: str) -> Future[Answer]:
+        """Save what is kept in memory."""
+        ring = self._tape.ring
+        if ring is None:
+            return done(Answer(False, "nothing is kept in memory (setting keep_minutes)"))
+
+        def pour() -> Answer:
+            try:
+                writer = BagWriter(typed_path(folder))
+                count = self._tape.pour(writer)
+                writer.close()
+            except (Missing, NotSaved, OSError) as error:
+                return Answer(False, f"not saved: {error}")
+            return Answer(True, f"the last {ring.span:.0f} s, {count} messages, in {folder}")
+
+        return self._order(pour)
+
+    def close(self) -> None:
+        """Finish what is being recorded, and leave the graph."""
+        self._closing.set()
+        if self._thread is not None:
+            self._thread.join(CLOSING)
+
+    def _order(self, work: Callable[[], Answer]) -> Future[Answer]:
+        """Have something done between two turns of the recorder."""
+        future: Future[Answer] = Future()
+        self._orders.put((work, future))
+        if self._closing.is_set():
+            self._obey()
+        else:
+            self._run()
+        return future
+
+    def _run(self) -> None:
+        with self._lock:
+            if self._thread is None:
+                self._thread = threading.Thread(target=self._serve, name="bot-console-recorder", daemon=True)
+                self._thread.start()
+
+    def _serve(self) -> None:
+        context = Context()
+        rclpy.init(args=[], context=context)
+        node: Any = rclpy.create_node(
+            NAME, context=context, use_global_arguments=False, enable_rosout=False, start_parameter_services=False
+        )
+        recorder: Recorder | None = None
+        try:
+            while not self._closing.wait(PACE):
+                wanted = self._tape.ring is not None or self._tape.writer is not None
+                if recorder is not None:
+                    recorder.turn() if wanted else recorder.close()
+                    recorder = recorder if wanted else None
+                elif wanted:
+                    recorder = Recorder(node, self._tape, _recorded, get_message)
+                self._obey()  # after the turn: a bag that is ended has all that came before
+            if recorder is not None:
+                recorder.close()
+            self._tape.end()
+        finally:
+            self._closing.set()
+            self._obey()
+            node.destroy_node()
+            context.try_shutdown()
+
+    def _obey(self) -> None:
+        while True:
+            try:
+                work, future = self._orders.get_nowait()
+            except queue.Empty:
+                return
+            try:
+                future.set_result(Answer(False, "the console has closed") if self._closing.is_set() else work())
+            except Exception as error:  # the border of the thread: whoever asked is told
+                future.set_result(Answer(False, f"{type(error).__name__}: {error}"))
+
+
+def _recorded(topic: str) -> bool:
+    """All but the clock, a third of all messages: a bag has times of its own, which `bag play --clock` tells."""
+    return topic != CLOCK
