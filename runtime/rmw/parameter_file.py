@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 from typing import Any
 
+from bot_console.runtime.remote_address import is_remote
 from bot_console.runtime.rmw.names import validate_namespace, validate_node_name
 from bot_console.runtime.rmw.parameter_overrides import NodeOverrides, ParameterOverrides, ParameterYamlError
 from bot_console.runtime.rmw.parameter_value import ValueWriter, yaml_events
@@ -14,9 +15,16 @@ _WILDCARDS = ("*", "**")
 
 
 def read_parameter_file(path: str, overrides: ParameterOverrides) -> None:
-    """Add the values of a file to the overrides; raises `ParameterYamlError`."""
+    """Add the values of a file to the overrides; raises `ParameterYamlError`. The file may be on a server (https://)."""
     import yaml
 
+    if is_remote(path):
+        from bot_console.runtime.remote_parameters import RemoteError, local_copy
+
+        try:
+            path = str(local_copy(path))
+        except RemoteError as error:
+            raise ParameterYamlError(str(error)) from None
     try:
         with open(path, "rb") as file:
             content = file.read()

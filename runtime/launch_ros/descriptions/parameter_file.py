@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.process.scratch import scratch_file
+from bot_console.runtime.remote_address import is_remote
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
 
@@ -39,11 +40,13 @@ class ParameterFile:
     def evaluate(self, context: LaunchContext) -> Path:
         """The path; of a file with substitutions, that of a copy in which they are evaluated. The first time counts.
 
-        Raises `OSError` for a file with substitutions that cannot be read, `SubstitutionFailure` for one that is no
+        Of a file on a server it is the path of the copy that was fetched. Raises `OSError` for a file on a server that
+        cannot be had, and for one with substitutions that cannot be read, `SubstitutionFailure` for one that is no
         YAML any more.
         """
         if self.__evaluated is None:
-            path = Path(perform_substitutions(context, self.__param_file))
+            place = perform_substitutions(context, self.__param_file)
+            path = _fetched(place) if is_remote(place) else Path(place)
             self.__allow_substs = perform_typed_substitution(context, self.__allow_substs, data_type=bool)
             self.__evaluated = _substituted(context, path) if self.__allow_substs else path
         return self.__evaluated
@@ -53,6 +56,12 @@ class ParameterFile:
         if self.__allow_substs is True and self.__evaluated is not None:
             self.__evaluated.unlink(missing_ok=True)
             self.__evaluated = None
+
+
+def _fetched(address: str) -> Path:
+    from bot_console.runtime.remote_parameters import local_copy
+
+    return local_copy(address)
 
 
 def _substituted(context: LaunchContext, path: Path) -> Path:

@@ -1,0 +1,10 @@
+"""Whether a parameter file is on a server; costs nothing to import, unlike what fetches it."""
+
+from __future__ import annotations
+
+SCHEMES = ("https://", "http://")
+
+
+def is_remote(place: str) -> bool:
+    """Whether a parameter file is named by an address, not by a path."""
+    return place.lower().startswith(SCHEMES)

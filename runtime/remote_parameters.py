@@ -1,0 +1,208 @@
+"""Parameter files on a server: fetched by `https://`, kept, and taken from there while the server is out of reach."""
+
+from __future__ import annotations
+
+import hashlib
+import http.client
+import json
+import os
+import secrets
+import ssl
+import sys
+import time
+import urllib.error
+import urllib.parse
+import urllib.request
+from email.message import Message
+from pathlib import Path
+from typing import IO, Any
+
+from bot_console.runtime.user_folders import cache_folder
+
+SCHEME = "https://"
+LARGEST = 1_000_000
+"""Bytes of a parameter file at most."""
+SILENCE = 5.0
+"""Seconds that a server may be silent."""
+PATIENCE = 15.0
+"""Seconds that all of it may take."""
+PIECE = 65_536
+
+
+class RemoteError(OSError):
+    """A parameter file cannot be had from a server; the text says why."""
+
+
+def local_copy(address: str) -> Path:
+    """The path of what stands at an address now; or, with a WARN on stderr, of what stood there when last asked.
+
+    The certificate of the server is verified, by `SSL_CERT_FILE` where that is set. Only a text that is YAML is kept.
+    Raises `RemoteError`: for `http://` and certificates that do not fit, whoever is on the way could write the file;
+    for a server that answers, but not with a parameter file; and for one out of reach, of which no copy is kept.
+    """
+    _check(address)
+    kept = _Kept(address)
+    try:
+        answer = _asked(address, kept.tag)
+    except _OutOfReach as error:
+        if not kept.path.is_file():
+            raise RemoteError(f"{address} is out of reach ({error}), and there is no copy of it here") from None
+        age = _age(time.time() - kept.path.stat().st_mtime)
+        print(
+            f"[WARN] [bot-console]: {address} is out of reach ({error}); its copy of {age} ago is used: {kept.path}",
+            file=sys.stderr,
+        )
+        return kept.path
+    if answer is None:
+        kept.path.touch()  # which tells how old a copy is
+    else:
+        _check_yaml(address, answer[0])
+        kept.keep(*answer)
+    return kept.path
+
+
+class _OutOfReach(Exception):
+    """The server did not answer, or said that it cannot for now."""
+
+
+class _Kept:
+    """The copy of one address, whole or not at all: the text, and beside it the server's name for that version."""
+
+    def __init__(self, address: str) -> None:
+        name = hashlib.blake2b(address.encode(), digest_size=12).hexdigest()
+        self._folder = cache_folder() / "parameters"
+        self._address = address
+        self.path = self._folder / f"{name}.yaml"
+        self._about = self._folder / f"{name}.json"
+
+    @property
+    def tag(self) -> str:
+        """The ETag of what is kept; empty where there is none, or where the two files do not belong together."""
+        try:
+            about: Any = json.loads(self._about.read_bytes())
+            fits = about["digest"] == _digest(self.path.read_bytes()) and about["address"] == self._address
+            return str(about["tag"]) if fits else ""
+        except (OSError, ValueError, KeyError, TypeError):
+            return ""
+
+    def keep(self, content: bytes, tag: str) -> None:
+        about = {"address": self._address, "tag": tag, "digest": _digest(content)}
+        try:
+            self._folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+            _replace(self.path, content)
+            _replace(self._about, json.dumps(about).encode())
+        except OSError as error:
+            raise RemoteError(f"{self._address}: its copy {self.path} cannot be written: {error.strerror}") from None
+
+
+def _digest(content: bytes) -> str:
+    return hashlib.blake2b(content, digest_size=16).hexdigest()
+
+
+def _replace(path: Path, content: bytes) -> None:
+    temporary = path.with_name(f"{path.name}.{secrets.token_hex(4)}")
+    try:
+        with open(temporary, "xb", opener=lambda name, flags: os.open(name, flags, 0o600)) as file:
+            file.write(content)
+            file.flush()
+            os.fsync(file.fileno())
+        temporary.replace(path)
+    except OSError:
+        temporary.unlink(missing_ok=True)
+        raise
+
+
+def _check(address: str) -> None:
+    if not address.lower().startswith(SCHEME):
+        raise RemoteError(f"{address}: anybody on the way could change what comes by http; give an https:// address")
+    wrong = f"{address} is no address; write for instance https://host/robot.yaml"
+    try:
+        parts = urllib.parse.urlsplit(address)
+        fits = bool(parts.hostname) and parts.port != 0
+    except ValueError:
+        raise RemoteError(wrong) from None
+    if not fits or not address.isascii() or any(letter <= " " for letter in address):
+        raise RemoteError(wrong)
+    if parts.username or parts.password:
+        raise RemoteError("a password in an address would stand in logs and process lists; it is not taken")
+
+
+class _OnlyHttps(urllib.request.HTTPRedirectHandler):
+    """Follows a server to another place, never out of TLS."""
+
+    def redirect_request(
+        self, req: urllib.request.Request, fp: IO[bytes], code: int, msg: str, headers: Message, newurl: str
+    ) -> urllib.request.Request | None:
+        if not newurl.lower().startswith(SCHEME):
+            raise RemoteError(f"{req.full_url} leads to {newurl}, which is not https: not followed")
+        return super().redirect_request(req, fp, code, msg, headers, newurl)  # type: ignore[arg-type] -- as typeshed has it in some versions
+
+
+def _asked(address: str, tag: str) -> tuple[bytes, str] | None:
+    """Content and ETag; None where it is the one that is known already."""
+    request = urllib.request.Request(address, headers={"User-Agent": "bot-console", "Accept-Encoding": "identity"})
+    if tag:
+        request.add_header("If-None-Match", tag)
+    try:
+        handlers = (urllib.request.HTTPSHandler(context=ssl.create_default_context()), _OnlyHttps())
+        with urllib.request.build_opener(*handlers).open(request, timeout=SILENCE) as answer:
+            return _content(address, answer), answer.headers.get("ETag", "")
+    except urllib.error.HTTPError as error:
+        with error:
+            if error.code == http.client.NOT_MODIFIED and tag:
+                return None
+            if error.code >= http.client.INTERNAL_SERVER_ERROR or error.code == http.client.TOO_MANY_REQUESTS:
+                raise _OutOfReach(f"it answers {error.code} {error.reason}") from None
+            raise RemoteError(f"{address}: the server answers {error.code} {error.reason}") from None
+    except RemoteError:
+        raise
+    except (OSError, http.client.HTTPException) as error:
+        why = getattr(error, "reason", None) or error
+        if isinstance(why, ssl.SSLCertVerificationError):
+            raise RemoteError(
+                f"{address}: its certificate is not trusted: {why.verify_message}; "
+                "SSL_CERT_FILE names the file of an authority of your own"
+            ) from None
+        raise _OutOfReach(_words(why)) from None
+
+
+def _content(address: str, answer: Any) -> bytes:
+    """The body, as far as size and time allow."""
+    end = time.monotonic() + PATIENCE
+    content = b""
+    while piece := answer.read1(PIECE):
+        content += piece
+        if len(content) > LARGEST:
+            raise RemoteError(f"{address} is larger than {LARGEST // 1000} kB, which no parameter file is")
+        if time.monotonic() > end:
+            raise _OutOfReach(f"it took more than {PATIENCE:g} s")
+    if answer.length:
+        raise _OutOfReach("it broke off")
+    return content
+
+
+def _check_yaml(address: str, content: bytes) -> None:
+    """Raise `RemoteError` for what is no YAML. Only its events are looked at: nothing is built from it."""
+    import yaml
+
+    loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+    try:
+        for _ in yaml.parse(content.decode("utf-8-sig"), Loader=loader):
+            pass
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        line = getattr(getattr(error, "problem_mark", None), "line", None)
+        where = f", line {line + 1}" if line is not None else ""
+        raise RemoteError(f"{address} is no YAML{where}; the copy of before was kept") from None
+
+
+def _words(why: object) -> str:
+    if isinstance(why, TimeoutError):
+        return f"silent for {SILENCE:g} s"
+    return str(getattr(why, "strerror", None) or why).lower()
+
+
+def _age(seconds: float) -> str:
+    for size, name in ((86_400, "days"), (3_600, "hours"), (60, "minutes")):
+        if seconds >= 2 * size:
+            return f"{int(seconds // size)} {name}"
+    return f"{max(0, int(seconds))} s"

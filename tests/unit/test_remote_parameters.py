@@ -1,0 +1,210 @@
+"""Parameter files from a real HTTPS server with a certificate made on the spot; what is kept, and what is refused."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import ssl
+import subprocess
+import threading
+from collections.abc import Iterator
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+
+import pytest
+from bot_console.runtime import remote_parameters
+from bot_console.runtime.remote_parameters import RemoteError, local_copy
+from bot_console.runtime.rmw.arguments import ArgumentsError, parse
+from launch_ros.parameter_descriptions import ParameterFile
+
+from launch import LaunchContext
+
+pytestmark = pytest.mark.skipif(shutil.which("openssl") is None, reason="openssl makes the certificate")
+FIRST = b"/robot:\n  ros__parameters:\n    speed: 1.5\n"
+SECOND = b"/robot:\n  ros__parameters:\n    speed: 2.5\n"
+
+
+class Server(ThreadingHTTPServer):
+    """Answers each request with what the test says."""
+
+    daemon_threads = True
+
+    def __init__(self, certificate: Path) -> None:
+        super().__init__(("127.0.0.1", 0), Answers)
+        context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+        context.load_cert_chain(certificate)
+        self.socket = context.wrap_socket(self.socket, server_side=True)
+        self.content, self.tag, self.status, self.location, self.length = FIRST, '"1"', 200, "", -1
+        self.asked: list[str] = []
+
+    @property
+    def address(self) -> str:
+        return f"https://localhost:{self.server_port}/robot.yaml"
+
+    def handle_error(self, request: object, client_address: object) -> None:
+        """A client that breaks off is part of some tests."""
+
+
+class Answers(BaseHTTPRequestHandler):
+    server: Server
+
+    def do_GET(self) -> None:
+        known = self.headers.get("If-None-Match", "")
+        self.server.asked.append(known)
+        status = 200 if self.path.startswith("/there") else self.server.status
+        status = 304 if known and known == self.server.tag and status == 200 else status
+        self.send_response(status)
+        if self.server.location:
+            self.send_header("Location", self.server.location)
+        if status != 304:
+            self.send_header("ETag", self.server.tag)
+            length = self.server.length if self.server.length >= 0 else len(self.server.content)
+            self.send_header("Content-Length", str(length))
+        self.end_headers()
+        if status != 304:
+            self.wfile.write(self.server.content)
+
+    def log_message(self, *_: object) -> None:
+        """Nothing."""
+
+
+@pytest.fixture(scope="module")
+def certificate(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("tls")
+    words = ["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes"]
+    words += ["-keyout", "key.pem", "-out", "certificate.pem", "-days", "2", "-subj", "/CN=localhost"]
+    subprocess.run([*words, "-addext", "subjectAltName=DNS:localhost"], cwd=folder, check=True, capture_output=True)
+    both = folder / "both.pem"
+    both.write_text((folder / "key.pem").read_text() + (folder / "certificate.pem").read_text())
+    return both
+
+
+@pytest.fixture
+def server(certificate: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Server]:
+    monkeypatch.setenv("BOT_CONSOLE_USER_DIR", str(tmp_path))
+    monkeypatch.setenv("SSL_CERT_FILE", str(certificate.with_name("certificate.pem")))
+    monkeypatch.setenv("no_proxy", "localhost")
+    made = Server(certificate)
+    thread = threading.Thread(target=made.serve_forever, args=(0.02,), daemon=True)
+    thread.start()
+    yield made
+    made.shutdown()
+    made.server_close()
+
+
+def test_a_file_is_fetched_once_and_then_only_asked_about(server: Server) -> None:
+    path = local_copy(server.address)
+    assert path.read_bytes() == FIRST
+    assert local_copy(server.address) == path
+    assert server.asked == ["", '"1"']
+    server.content, server.tag = SECOND, '"2"'
+    assert local_copy(server.address).read_bytes() == SECOND
+    assert path.stat().st_mode & 0o777 == 0o600
+
+
+def test_a_server_out_of_reach_is_told_and_the_last_copy_is_used(
+    server: Server, capsys: pytest.CaptureFixture[str]
+) -> None:
+    local_copy(server.address)
+    server.shutdown()
+    server.server_close()
+    assert local_copy(server.address).read_bytes() == FIRST
+    said = capsys.readouterr().err
+    assert said.startswith(f"[WARN] [bot-console]: {server.address} is out of reach (connection refused); its copy of ")
+    with pytest.raises(RemoteError, match="and there is no copy of it here"):
+        local_copy(server.address + "?other")
+
+
+def test_a_server_that_cannot_for_now_is_out_of_reach(server: Server, capsys: pytest.CaptureFixture[str]) -> None:
+    local_copy(server.address)
+    server.status = 503
+    assert local_copy(server.address).read_bytes() == FIRST
+    assert "it answers 503" in capsys.readouterr().err
+
+
+def test_a_file_that_breaks_off_is_not_taken(server: Server) -> None:
+    local_copy(server.address)
+    server.content, server.tag, server.length = SECOND[:20], '"2"', len(SECOND)
+    assert local_copy(server.address).read_bytes() == FIRST
+
+
+def test_a_server_that_is_gone_for_good_or_sends_no_yaml_is_an_error(server: Server) -> None:
+    path = local_copy(server.address)
+    server.content, server.tag = b"a: [", '"2"'
+    with pytest.raises(RemoteError, match="is no YAML, line"):
+        local_copy(server.address)
+    server.status = 404
+    with pytest.raises(RemoteError, match="answers 404"):
+        local_copy(server.address)
+    assert path.read_bytes() == FIRST
+
+
+def test_what_is_too_large_is_refused(server: Server, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(remote_parameters, "LARGEST", 1000)
+    server.content = b"# " + b"x" * 2000
+    with pytest.raises(RemoteError, match="larger than 1 kB"):
+        local_copy(server.address)
+
+
+def test_a_server_leads_to_another_place_but_never_out_of_tls(server: Server) -> None:
+    server.status, server.location = 302, "http://localhost/robot.yaml"
+    with pytest.raises(RemoteError, match="which is not https: not followed"):
+        local_copy(server.address)
+    server.location = "file:///etc/passwd"
+    with pytest.raises(RemoteError, match="is not allowed"):
+        local_copy(server.address)
+
+
+def test_a_server_that_leads_to_another_place_within_tls_is_followed(server: Server) -> None:
+    server.status, server.location = 302, server.address.replace("robot", "there")
+    assert local_copy(server.address).read_bytes() == FIRST
+
+
+def test_a_certificate_that_is_not_trusted_is_refused_though_a_copy_is_there(
+    server: Server, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    local_copy(server.address)
+    monkeypatch.delenv("SSL_CERT_FILE")
+    with pytest.raises(RemoteError, match=r"its certificate is not trusted: self.signed"):
+        local_copy(server.address)
+    with pytest.raises(RemoteError, match="not trusted"):
+        local_copy(server.address.replace("localhost", "127.0.0.1"))
+
+
+@pytest.mark.parametrize(
+    ("address", "why"),
+    [
+        ("http://localhost/a.yaml", "give an https:// address"),
+        ("https:///a.yaml", "is no address"),
+        ("https://host:port/a.yaml", "is no address"),
+        ("https://host/a b.yaml", "is no address"),
+        ("https://me:secret@host/a.yaml", "a password in an address"),
+    ],
+)
+def test_addresses_that_are_not_taken(address: str, why: str) -> None:
+    with pytest.raises(RemoteError, match=why) as refused:
+        local_copy(address)
+    assert "secret" not in str(refused.value)
+
+
+def test_a_copy_that_was_changed_by_hand_is_fetched_anew(server: Server) -> None:
+    path = local_copy(server.address)
+    path.write_bytes(b"changed: true")
+    assert local_copy(server.address).read_bytes() == FIRST
+    assert server.asked == ["", ""]
+
+
+def test_a_node_takes_its_parameters_from_there(server: Server) -> None:
+    found = parse(["--ros-args", "--params-file", server.address]).parameters
+    assert found.for_node("/robot") == {"speed": 1.5}
+    with pytest.raises(ArgumentsError, match="give an https:// address"):
+        parse(["--ros-args", "--params-file", "http://localhost/a.yaml"])
+
+
+def test_a_launch_file_does_too_and_asks_once(server: Server) -> None:
+    file = ParameterFile(server.address)
+    path = file.evaluate(LaunchContext())
+    assert path.read_bytes() == FIRST
+    assert file.evaluate(LaunchContext()) == path
+    assert len(server.asked) == 1
+    assert os.fspath(path).endswith(".yaml")
