@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from emulator import Emulator
 from standin_ros import make_standin
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -18,6 +19,8 @@ if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
 
 CONSOLE = ["-m", "bot_console.tui"]
+FRAME_END = b"\x1b[6n"
+"""The question to the terminal behind each frame."""
 ROBOT = """
 import rclpy
 from geometry_msgs.msg import Twist
@@ -30,6 +33,24 @@ node.create_subscription(Twist, "/cmd_vel", lambda message: node.get_logger().in
 node.get_logger().warning("{name} is up")
 try:
     rclpy.spin(node)
+except (KeyboardInterrupt, ExternalShutdownException):
+    pass
+"""
+CROWD = """
+import rclpy
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from std_msgs.msg import String
+
+rclpy.init()
+executor = SingleThreadedExecutor()
+nodes = [rclpy.create_node(f"part_{number:02}") for number in range(50)]
+for number, node in enumerate(nodes):
+    node.declare_parameter("share", number / 50)
+    for side in ("left", "right"):
+        node.create_publisher(String, f"/wire_{number:02}_{side}", 10)
+    executor.add_node(node)
+try:
+    executor.spin()
 except (KeyboardInterrupt, ExternalShutdownException):
     pass
 """
@@ -50,13 +71,19 @@ def sourced(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
 
 
 @pytest.fixture
+def program() -> str:
+    """What the robot runs."""
+    return ROBOT.format(name="rover")
+
+
+@pytest.fixture
 def robot(
-    sourced: dict[str, str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    sourced: dict[str, str], program: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[subprocess.Popen[bytes]]:
     """A robot of that ROS 2, in a process of its own."""
     for name in ("PYTHONPATH", "ROS_DISTRO", "RMW_IMPLEMENTATION"):
         monkeypatch.setenv(name, sourced[name])
-    process = subprocess.Popen([sys.executable, "-c", ROBOT.format(name="rover")])
+    process = subprocess.Popen([sys.executable, "-c", program])
     yield process
     process.kill()
     process.wait()
@@ -83,6 +110,29 @@ def test_the_console_shows_it_launches_beside_it_and_leaves_it_alone(
     assert terminal.wait() == 0
     assert terminal.is_usable()
     assert robot.poll() is None
+    terminal.close()
+
+
+@pytest.mark.parametrize("program", [pytest.param(CROWD, id="crowd")])
+def test_a_robot_of_fifty_nodes_and_a_hundred_topics(robot: subprocess.Popen[bytes], tmp_path: Path) -> None:
+    terminal = Terminal([*CONSOLE, "attach", "--ros"], tmp_path)
+    screen, fed = Emulator(120, 40), 0
+
+    def shows(*words: str) -> bool:
+        nonlocal fed
+        whole = max(fed, terminal.output.rfind(FRAME_END))
+        screen.feed(terminal.output[fed:whole].decode())
+        fed = whole
+        text = "\n".join(screen.lines())
+        return all(each in text for each in words)
+
+    terminal.read_until(lambda: shows("part_00", "part_05"), "its first nodes")
+    terminal.type("1/part_49\r")
+    terminal.read_until(lambda: shows("part_49", "0.98"), "the last node's parameter")
+    terminal.type("9/wire_49_right\r")
+    terminal.read_until(lambda: shows("/wire_49_right", "1 of 1"), "the last topic, of more than a hundred")
+    terminal.type("q")
+    assert terminal.wait() == 0
     terminal.close()
 
 
