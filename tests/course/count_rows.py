@@ -8,17 +8,28 @@ import xml.etree.ElementTree as ElementTree
 from collections import Counter
 
 
-def main(path: str) -> None:
-    """Print one line, and one for each reason."""
-    cases = [
-        each for each in ElementTree.parse(path).iter("testcase") if (each.get("name") or "").startswith("test_row[C")
-    ]
+def main(path: str) -> str:
+    """Print one line, and one for each reason; what is wrong with the tests that rows name, or nothing."""
+    tree = ElementTree.parse(path)
+    cases = [each for each in tree.iter("testcase") if (each.get("name") or "").startswith("test_row[C")]
     skipped = [each.find("skipped") for each in cases]
     reasons = Counter(str(each.get("message")) for each in skipped if each is not None)
-    print(f"course rows: {len(cases) - sum(reasons.values())} checked, {sum(reasons.values())} skipped")
+    named = [str(each.get("value")) for case in cases for each in case.iter("property")]
+    numbers = len(cases) - sum(reasons.values()) - len(named), len(named), sum(reasons.values())
+    print("course rows: {} checked, {} shown by tests of screens, {} skipped".format(*numbers))
     for reason, count in reasons.most_common():
         print(f"  {count:3} {reason}")
+    missing = sorted(set(named) - passed(tree))
+    return "\n".join(f"{each} shows rows of the course, and was not run or did not pass" for each in missing)
+
+
+def passed(tree: ElementTree.ElementTree) -> set[str]:
+    """The ids of all tests that passed, without their parameters."""
+    bad = {"skipped", "failure", "error"}
+    found = [each for each in tree.iter("testcase") if not bad & {part.tag for part in each}]
+    names = ((each.get("classname", "").replace(".", "/"), each.get("name", "").partition("[")[0]) for each in found)
+    return {f"{path}.py::{name}" for path, name in names}
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    sys.exit(main(sys.argv[1]) or 0)

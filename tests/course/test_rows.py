@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from course.page import make_workspace, page
 from course.rows import Row, rows
+from course.shown import SHOWN, is_there
 from course.table import CHECKS, COMPLETE, OWN, reason
 
 for _module in sorted(Path(__file__).parent.glob("checks_*.py")):
@@ -28,14 +29,23 @@ def complete(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.parametrize("row", rows().values(), ids=str)
-def test_row(row: Row, workspace: Path, complete: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_row(row: Row, request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    if row.number in SHOWN:
+        request.getfixturevalue("record_property")("shown_by", SHOWN[row.number])
+        assert is_there(SHOWN[row.number])
+        return
     check = CHECKS.get(row.number)
     if check is None:
         pytest.skip(reason(row.number))
+    workspace, complete = (request.getfixturevalue(each) for each in ("workspace", "complete"))
     monkeypatch.chdir(workspace / "src" / "my_package")
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
     with page(complete if row.number in COMPLETE else workspace, tmp_path, own=row.number in OWN) as running:
         check(running, row)
+
+
+def test_no_row_is_both_checked_and_shown() -> None:
+    assert not SHOWN.keys() & CHECKS.keys()
 
 
 @pytest.mark.skipif(bool(os.environ.get("BOT_CONSOLE_COURSE")), reason="there is a course")

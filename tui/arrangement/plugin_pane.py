@@ -75,7 +75,19 @@ class PluginPane(Pane):
 
     def focus_target(self) -> None:
         """The widget's first part that takes keys, else the frame."""
-        next((each for each in self.query(Widget) if each.focusable), self).focus()
+        next(iter(self._parts()), self).focus()
+
+    def next_part(self, step: int) -> bool:
+        """Tab goes through the widget's parts before it leaves the pane."""
+        parts, focused = self._parts(), self.screen.focused
+        at = parts.index(focused) + step if focused in parts else -1
+        if not 0 <= at < len(parts):
+            return False
+        parts[at].focus()
+        return True
+
+    def _parts(self) -> list[Widget]:
+        return [each for each in self.query(Widget) if each.focusable]
 
     def _hand_on(self, name: str, *args: object) -> None:
         method = getattr(self._widget, name, None)

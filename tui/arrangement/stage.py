@@ -110,10 +110,12 @@ class Stage:
         self.lay_out()
 
     def next(self, step: int) -> None:
-        """Go to the next pane: of those seen together, else of all."""
+        """Go to the next pane: of those seen together, else of all; through a plug-in's parts on the way."""
+        now = self.current()
+        if now is not None and now.display and now.next_part(step):
+            return
         seen = self.visible()
         found = seen if len(seen) > 1 else self.panes()
-        now = self.current()
         target = found[(found.index(now) + step) % len(found)] if now in found else found[0]
         self._focused = target.id or ""
         if target.display:

@@ -174,6 +174,10 @@ class Pane(Container):
     def let_go(self) -> None:
         """Stop whatever must not go on without the pane; called when it ends by a fault."""
 
+    def next_part(self, step: int) -> bool:
+        """Give the keyboard to the part of the pane `step` after the one that has it; False where there is none."""
+        return False
+
     def focus_target(self) -> None:
         """Take the keyboard: focus the part of the pane that the keys are for."""
         next((each for each in self.query(Widget) if each.focusable), self).focus()

@@ -8,7 +8,7 @@ from bot_console.tui.console.model import LogFilter, Severity
 from bot_console.tui.format import counted
 from bot_console.tui.panes.logs.rules import RuleBook
 
-LEVELS = (Severity.UNSET, Severity.INFO, Severity.WARN, Severity.ERROR)
+LEVELS = (Severity.UNSET, Severity.INFO, Severity.WARN, Severity.ERROR, Severity.FATAL)
 
 
 @dataclass

@@ -1,0 +1,72 @@
+"""Which test shows a row about the console's screens: most of chapter 4 by keyboard, beside the page's own nodes.
+
+The row checks that the test is there; that it was run and passed is checked at the end of the checks (`count_rows.py`).
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable
+from functools import lru_cache
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+CHAPTER, PARAMETERS = "tests/pilot/test_chapter_4.py", "tests/pilot/test_parameters_pane.py"
+LOGS, LAUNCH, PLOT = "tests/pilot/test_logs_pane.py", "tests/pilot/test_launch_pane.py", "tests/pilot/test_plot_pane.py"
+TUNED = f"{CHAPTER}::test_step_1_the_speed_is_tuned_while_the_robot_runs"
+FIELDS = f"{CHAPTER}::test_step_1_a_text_field_and_a_checkbox"
+SINE = f"{CHAPTER}::test_step_2_a_sine_wave_is_plotted"
+WAITS = f"{CHAPTER}::test_the_page_s_lines_of_rqt_plot_wait_for_what_nobody_publishes"
+ARROWS = f"{CHAPTER}::test_step_3_nodes_topics_and_arrows"
+ERRORS = f"{CHAPTER}::test_step_4_an_error_is_found_among_warnings"
+DASHBOARD = f"{CHAPTER}::test_step_5_a_dashboard_is_built_saved_and_loaded"
+WORKFLOW = f"{CHAPTER}::test_the_workflow_shows_all_of_it_side_by_side"
+STEERED = f"{CHAPTER}::test_the_robot_is_steered_by_key"
+MENU = f"{CHAPTER}::test_each_plug_in_of_the_menu_is_a_pane_and_messages_are_published"
+OWN_PLUGIN = f"{CHAPTER}::test_a_plug_in_of_ones_own_starts_and_stops_the_robot"
+SLIDER = f"{PARAMETERS}::test_the_slider_stands_beside_its_value_and_the_description_fills_a_wide_row"
+LAUNCHED = f"{LAUNCH}::test_a_launch_file_is_picked_and_its_arguments_are_filled_in"
+OPENING, SECOND_TERMINAL = "tests/pilot/test_opening.py", "tests/acceptance/console/test_second_terminal.py"
+
+_SHOWN: tuple[tuple[str, Iterable[int]], ...] = (
+    (TUNED, (134, 135, 136, *range(140, 144), 192, 193, 283, 284, 325, 348, 388)),
+    (FIELDS, (138, 139)),
+    (SLIDER, (137, 194)),  # as printed, the robot declares no range (N15)
+    (SINE, (146, 147, 148, 149, 151, 152, 153, 328)),
+    (f"{PLOT}::test_the_window_grows_and_shrinks_and_limits_can_be_given", (150,)),
+    (ARROWS, (*range(154, 164), 200, 201, 327, 378)),
+    (ERRORS, (*range(164, 171), *range(172, 176), *range(202, 206), 326)),
+    (DASHBOARD, (*range(176, 185), 211, 217)),
+    (WORKFLOW, (*range(186, 192), 197)),
+    (LAUNCHED, (185, 324)),
+    (f"{PARAMETERS}::test_a_refusal_snaps_back_and_says_who_refused_and_why", (195,)),
+    (f"{PARAMETERS}::test_the_command_is_shown_and_copied_and_values_are_saved", (196,)),
+    (WAITS, (198, 199)),
+    (f"{LOGS}::test_rules_hide_and_highlight_until_they_are_changed", (206,)),
+    (f"{LOGS}::test_the_next_error_the_whole_message_copy_and_save", (207,)),
+    (STEERED, (208, 209, 210)),
+    (MENU, range(212, 217)),
+    (OWN_PLUGIN, (*range(218, 222), 353, 390)),
+    ("tests/unit/nodes/test_presets.py::test_the_modes_of_the_pages_robot_are_presets", (350,)),
+    ("tests/pilot/test_history_pane.py::test_all_changes_are_listed_the_newest_first_with_who_and_why", (352,)),
+    (f"{SECOND_TERMINAL}::test_verbs_of_a_second_terminal_reach_the_robot", (386,)),
+    (f"{SECOND_TERMINAL}::test_a_second_console_is_asked_for_and_does_not_take_the_robot_along", (387,)),
+    (
+        "tests/pilot/test_opening.py::test_a_line_of_rqt_plot_replaces_the_curves_and_waits_for_what_is_not_there",
+        (389,),
+    ),
+)
+SHOWN: dict[int, str] = {number: test for test, numbers in _SHOWN for number in numbers}
+"""The test's id, as pytest writes it, by the number of the row."""
+
+
+def is_there(test: str) -> bool:
+    """Whether a file has the test of that id, and nothing skips it always."""
+    path, _, name = test.partition("::")
+    return name in _tests(ROOT / path)
+
+
+@lru_cache
+def _tests(path: Path) -> frozenset[str]:
+    functions = [each for each in ast.parse(path.read_text("utf-8")).body if isinstance(each, ast.FunctionDef)]
+    return frozenset(each.name for each in functions if not any("skip" in ast.unparse(d) for d in each.decorator_list))

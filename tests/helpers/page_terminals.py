@@ -1,0 +1,116 @@
+"""The course page's terminals: its commands as node processes in real time, and the console's screen beside them."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Awaitable, Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from bot_console.runtime.process import RealTime
+from bot_console.runtime.process.virtual.install import reinstall_stdio, uninstall_virtual_process
+from bot_console.runtime.workspace import discover
+from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.console.connection.ros_console import RosConsole
+from bot_console.tui.look import Look
+from bot_console.tui.pane_table import PaneEntry
+from course.page import make_workspace
+from fake_launcher import FakeLauncher
+from piloting import Session
+from systems import Program, System
+from textual.events import Paste
+
+PATIENCE = 30.0
+"""Seconds after which a test gives up; nothing is measured by it."""
+
+
+class Screen(Session):
+    """A session over a real console, which answers when it can."""
+
+    async def until(self, true: Callable[[], object], what: str) -> None:
+        """Let the app go on until something is so."""
+        deadline = time.monotonic() + PATIENCE
+        while not true():
+            assert time.monotonic() < deadline, f"no {what} on\n{self.text()}"
+            await self.pilot.pause(0.02)
+            await self.settle()
+
+    async def shows(self, *texts: str) -> None:
+        """Wait until all of it stands on the screen, in whatever spacing."""
+        await self.until(lambda: all(each in " ".join(self.text().split()) for each in texts), f"{texts}")
+
+    async def line(self, text: str) -> None:
+        """A command of the page, copied and put in after the colon."""
+        await self.press(":")
+        await self.enter(text)
+
+    async def enter(self, text: str) -> None:
+        """Paste a text into the field that has the keyboard, which is quicker than its letters, and press Enter."""
+        self.app.post_message(Paste(text))
+        await self.settle()
+        await self.press("enter")
+
+
+class Terminals:
+    """A workspace with the page's package, terminals in it, and one console for all of a module's tests."""
+
+    def __init__(self, workspace: Path) -> None:
+        self.workspace = workspace
+        self.system: System = System(RealTime())  # type: ignore[arg-type] # it only starts and asks, nothing is stepped
+        self.programs: list[Program] = []
+        self.console = RosConsole()
+        self.console.start()
+        assert self.console.wait_ready(PATIENCE)
+
+    def start(self, command: str) -> Program:
+        """Type a `ros2` line into a terminal of its own, where it goes on."""
+        self.programs.append(self.system.ros2(*command.split()[1:]))
+        return self.programs[-1]
+
+    def ask(self, command: str) -> Program:
+        """Type a `ros2` line into another terminal, to its end."""
+        return self.system.finish(self.start(command))
+
+    def node(self, text: str) -> Program:
+        """Start a node that the page leaves to the reader."""
+        self.programs.append(self.system.python("-c", text))
+        return self.programs[-1]
+
+    def show(
+        self,
+        play: Callable[[Screen], Awaitable[None]],
+        size: tuple[int, int] = (120, 40),
+        look: Look | None = None,
+        plugins: Callable[[], Sequence[PaneEntry]] = tuple,
+    ) -> None:
+        """Open the console beside the terminals and play a scene in it."""
+
+        async def main() -> None:
+            launcher = FakeLauncher()
+            app = BotConsoleApp(self.console, launcher, refresh_hz=0, look=look, plugins=plugins)
+            async with app.run_test(size=size, notifications=True) as pilot:
+                reinstall_stdio()
+                screen: Any = Screen(app, pilot, self.console, launcher)  # type: ignore[arg-type] # a real one
+                await screen.settle()
+                await play(screen)
+                assert app.faults.seen == [], "a pane has ended by a fault"
+
+        asyncio.run(main())
+
+
+@contextmanager
+def terminals(folder: Path) -> Iterator[Terminals]:
+    """The page's workspace and its terminals, all ended with the block."""
+    before = discover.workspace()
+    discover.use(discover.Workspace([make_workspace(folder) / "src"]))
+    running = Terminals(folder)
+    try:
+        yield running
+    finally:
+        running.console.close()
+        for each in running.programs:
+            each.process.kill()
+        discover.use(before)
+        uninstall_virtual_process()
