@@ -149,7 +149,6 @@ def test_one_that_is_frozen_is_shown_as_such_until_it_goes_on(system: System) ->
     assert system.launcher.kill(process.key).result(PATIENCE).ok
 
 
-@pytest.mark.soak
 def test_those_that_never_end_are_named_with_their_figures_and_the_robot_can_be_stopped(system: System) -> None:
     system.start("loops", HEAD + "while True:\n    pass\n")
     system.start("computes", HEAD + "sum(iter(int, 1))\n")
