@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Callable, Sequence
 from typing import NoReturn
@@ -32,6 +33,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             return ros2.taking_part(words)
     from bot_console.tui.cli.arguments import parse
 
+    os.getcwd()  # raises where the folder was deleted, which is said in one line; nodes could not be started in it
     options = parse(words)
     if options.headless:
         from bot_console.tui.cli.headless.run import run

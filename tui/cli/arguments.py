@@ -116,6 +116,8 @@ def parse(words: Sequence[str]) -> Options:
     profile, pairs = _profile_and_pairs(parser, given)
     if given.simulator is not None and not given.launch:
         parser.error("--simulator and --no-simulator go with --launch: the robot system brings its own robot")
+    if given.launch is not None and not given.launch.strip():
+        parser.error("--launch: give the name of a launch file")
     if given.allow_missing:
         if not given.launch:
             parser.error("--allow-missing goes with --launch: of the robot system nothing is missing")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Callable
 from contextlib import ExitStack
@@ -69,10 +70,14 @@ def _refusal(options: Options) -> str:
 
 def _host(options: Options) -> Host:
     """A launch host for this console alone."""
-    folder = state_folder()
-    folder.mkdir(parents=True, exist_ok=True)
+    log = state_folder() / HOST_LOG
+    try:
+        log.parent.mkdir(parents=True, exist_ok=True)
+        log.open("ab").close()
+    except OSError:  # a home that cannot be written is no reason to have no robot
+        log = Path(os.devnull)
     words = [word for each in options.workspace for word in ("--workspace", str(each))]
-    return start_host(words, log=folder / HOST_LOG)
+    return start_host(words, log=log)
 
 
 def _attach_instead(there: list[str]) -> bool:

@@ -19,6 +19,7 @@ from bot_console.tui.cli.system.background_system import SWITCH
 from bot_console.tui.cli.system.domain import domain, robot_there, take_part
 from bot_console.tui.cli.system.system_log import new_log
 from bot_console.tui.console.launch_host.door import DOOR
+from bot_console.tui.files.folders import OVERRIDE, state_folder
 from bot_console.tui.files.save_file import save_file
 
 STARTING = 60.0
@@ -72,7 +73,12 @@ def up(words: Sequence[str]) -> int:
         who = there.told() if there else ", ".join(robot)
         print(f"a robot runs already in ROS domain {domain()}: {who}; bot-console attach shows it", file=sys.stderr)
         return 1
-    log = new_log(os.getpid())
+    try:
+        log = new_log(os.getpid())
+    except OSError as error:
+        why = f"the log cannot be kept in {state_folder()}: {error.strerror}"
+        print(f"not started: {why}; {OVERRIDE} names another folder", file=sys.stderr)
+        return 1
     line = [sys.executable, "-m", SWITCH, str(log), *words]
     with log.open("ab") as output:
         process = subprocess.Popen(

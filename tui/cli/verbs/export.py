@@ -15,6 +15,7 @@ def run(words: list[str]) -> int:
     parser = argparse.ArgumentParser("bot-console export", description="Write the robot's package for colcon.")
     parser.add_argument("folder", metavar="DIR", help="where the package's folder is made")
     given = parser.parse_args(words)
+    from bot_console.runtime.terse import place_fault
     from bot_console.runtime.workspace.exporting import NAME, export
 
     try:
@@ -30,7 +31,7 @@ def run(words: list[str]) -> int:
                     save_file(_free_name(place / each), (place / each).read_bytes())
                 save_file(place / each, (made / each).read_bytes())
     except (OSError, ValueError) as error:
-        parser.exit(1, f"not exported: {error}\n")
+        parser.exit(1, f"not exported: {place_fault(error) or error}\n")
     print(f"{place}: build it with  colcon build --packages-select {NAME}")
     return 0
 

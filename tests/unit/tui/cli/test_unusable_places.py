@@ -1,0 +1,69 @@
+"""A home that cannot be written, a folder that was deleted, an empty name: told in one line each, where at all."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+
+import pytest
+from bot_console.runtime.terse import told
+from bot_console.tui.cli import main, show
+from bot_console.tui.cli.arguments import parse
+from bot_console.tui.cli.verbs import background
+from bot_console.tui.files.folders import OVERRIDE
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="a working folder cannot be deleted")
+MOVED = "the folder you are in was deleted; go to another one (cd) and try again\n"
+
+
+@pytest.fixture
+def no_home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A place where no folder can be made, for whatever user."""
+    (tmp_path / "file").touch()
+    monkeypatch.setenv(OVERRIDE, str(tmp_path / "file" / "user"))
+    return tmp_path / "file" / "user"
+
+
+@pytest.fixture
+def deleted_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "gone").mkdir()
+    monkeypatch.chdir(tmp_path / "gone")
+    (tmp_path / "gone").rmdir()
+
+
+def test_a_console_needs_no_home(no_home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    logs: list[Path] = []
+    monkeypatch.setattr(show, "start_host", lambda words, log: logs.append(log))
+    show._host(parse([]))
+    assert logs == [Path(os.devnull)]
+
+
+def test_a_background_system_says_where_its_log_would_go(
+    no_home: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(background, "take_part", lambda: "")
+    monkeypatch.setattr(background, "robot_there", list)
+    assert background.up([]) == 1
+    said = capsys.readouterr().err
+    assert said.startswith(f"not started: the log cannot be kept in {no_home}/state: ") and OVERRIDE in said
+
+
+@pytest.mark.parametrize("words", [["--headless"], [], ["--launch", "x.launch.py"]])
+def test_a_run_in_a_deleted_folder_is_refused_in_one_line(
+    words: list[str], deleted_folder: None, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert told(lambda: main(words)) == 1
+    assert capsys.readouterr().err.endswith(MOVED)
+
+
+def test_an_export_from_a_deleted_folder_says_so(deleted_folder: None, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["export", "x"])
+    assert capsys.readouterr().err == f"not exported: {MOVED}"
+
+
+def test_an_empty_name_is_no_launch_file(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        parse(["--launch", ""])
+    assert "--launch: give the name of a launch file" in capsys.readouterr().err
