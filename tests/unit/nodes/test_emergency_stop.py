@@ -6,12 +6,12 @@ import itertools
 from collections.abc import Iterator
 
 import pytest
+from bot_console.runtime.rmw.local import LocalBus
 from bot_console_robot.emergency_stop import ARBITER, BASE, GONE, EmergencyStop
 from rclpy.clock import Clock, ClockType
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
-from rclpy.node_parts.graph import NodeGraph
 
 _domains = itertools.count(3500)
 
@@ -65,11 +65,11 @@ def test_a_base_whose_monitor_has_gone_locks_after_some_looks(rig: Rig) -> None:
 def test_it_does_not_follow_the_graph_in_which_others_may_make_hundreds_of_nodes(
     rig: Rig, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def never(self: NodeGraph) -> None:
+    def never(self: LocalBus) -> None:
         raise AssertionError("the graph was asked for")
 
     rig.settle()
-    monkeypatch.setattr(NodeGraph, "_ros_tables", never)
+    monkeypatch.setattr(LocalBus, "tables", never)
     rig.settle(looks=GONE)
     rig.stops[0].stop("somebody", "a test")
     assert rig.settle(looks=GONE).lock.held
