@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from concurrent.futures import Future
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,7 @@ class FakeProfiles:
     current: ConsoleSnapshot
     asked: list[tuple[Any, ...]]
     closed: bool
+    fetching: Future[Answer]
 
     def choose_robot(self, robot: str) -> None:
         self.asked.append(("choose_robot", robot))
@@ -29,6 +31,11 @@ class FakeProfiles:
     def all_saved(self) -> None:
         """All values are in a file now."""
         raise NotImplementedError
+
+    def fetch_profile(self, address: str) -> Future[Answer]:
+        self.asked.append(("fetch profile", address))
+        self.fetching = Future()
+        return self.fetching
 
     def open_profile(self, path: str) -> Answer:
         self.asked.append(("open profile", path))

@@ -213,3 +213,23 @@ def test_a_launch_profile_asks_stops_what_runs_and_then_launches() -> None:
         assert launcher.asked[-1][1:] == ("/p/two.launch.py", {"robots": "2"})
 
     run((console, launcher), play, (120, 40))
+
+
+def test_an_address_is_fetched_and_then_seen_before_it_is_applied(tmp_path) -> None:
+    path = tmp_path / "served.yaml"
+    path.write_text("/robot_navigator: {ros__parameters: {max_speed: 1.5}}\n")
+
+    async def play(session: Session) -> None:
+        await session.press("7", "o")
+        await session.type("https://config.example/served.yaml")
+        await session.press("enter")
+        assert session.console.asked[-1] == ("fetch profile", "https://config.example/served.yaml")
+        assert "fetching https://config.example/served.yaml ..." in session.text()
+        session.console.fetching.set_result(session.console.open_profile(str(path)))
+        await session.settle()
+        await session.settle()
+        assert "fetching" not in session.text()
+        assert "max_speed" in session.text()
+        assert applied(session) == []
+
+    run(live(), play)

@@ -289,6 +289,10 @@ class Console(ConsoleReading, Protocol):
         """Take a file in as a profile, so that it is seen what it would change; the text is its name, or why not."""
         ...
 
+    def fetch_profile(self, address: str) -> Future[Answer]:
+        """Take in what stands at an address (`https://`) as a profile; the text is its name, or why not."""
+        ...
+
     def save_profile(self, name: str, description: str = "") -> Answer:
         """Save all that runs as a profile of the user's, under a name and with a line on what it is for."""
         ...

@@ -70,6 +70,7 @@ class Session:
             history=state_folder() / HISTORY,
             own_profiles=config_folder() / "profiles",
             workspace_profiles=config_folders,
+            fetch=_fetched,
             ring=None if options.attach else _ring(),
         )
         self.launcher = system(self.console)
@@ -177,6 +178,13 @@ def graph_events(domain: int, changed: Callable[[tuple[str, str]], None]) -> Cal
     from bot_console.runtime.rmw.middleware import bus_of
 
     return bus_of(domain).on_graph_change(changed)
+
+
+def _fetched(address: str) -> Path:
+    """The copy of a parameter file on a server."""
+    from bot_console.runtime.remote_parameters import local_copy
+
+    return local_copy(address)
 
 
 @contextlib.contextmanager

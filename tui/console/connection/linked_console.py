@@ -212,6 +212,10 @@ class LinkedConsole:
         """Take a file in as a profile."""
         return self._shelf.open(path)
 
+    def fetch_profile(self, address: str) -> Future[Answer]:
+        """Take in what stands at an address as a profile, as soon as it has come."""
+        return self._shelf.fetch(address)
+
     def save_profile(self, name: str, description: str = "") -> Answer:
         """Save what runs as a profile."""
         answer = self._shelf.save(name, description, self._node.parameters.trees)

@@ -227,6 +227,10 @@ class NoConsole:
         """Refused: the future raises `ValueError`."""
         return refused_profile(self._why)
 
+    def fetch_profile(self, address: str) -> Future[Answer]:
+        """Refused."""
+        return done(self._refusal)
+
     def open_profile(self, path: str) -> Answer:
         """Refused."""
         return self._refusal

@@ -65,6 +65,10 @@ class ReadOnlyConsole(NoConsole):
         """Forget the records of this console."""
         self._console.clear_logs()
 
+    def fetch_profile(self, address: str) -> Future[Answer]:
+        """Take in what stands at an address, to see what it would change."""
+        return self._console.fetch_profile(address)
+
     def open_profile(self, path: str) -> Answer:
         """Take a file in, to see what it would change."""
         return self._console.open_profile(path)

@@ -66,11 +66,14 @@ class RosConsole:
         history: Path | None = None,
         link: Callable[[], LinkInfo] = lambda: NO_LINK,
         foreign: bool = False,
+        fetch: Callable[[str], Path] | None = None,
         ring: RingSize | None = None,
     ) -> None:
         """`own_profiles` is where profiles are saved, `workspace_profiles` finds more folders that may hold some.
 
         `history` is the file that keeps parameter changes for later runs; None: they are not kept.
+
+        `fetch` gives the copy of a parameter file on a server, or raises `OSError`; in any thread.
 
         `link` tells how a network is; `foreign` that the system is not ours, see `ConsoleNode`; `ring` what is kept of
         all topics in memory, None: nothing.
@@ -84,6 +87,7 @@ class RosConsole:
         self._graph_events = graph_events
         self._history_file = history
         self._link = link
+        self._fetch = fetch
         self._foreign = foreign
         self._ring = ring
         self._zeroed = False
@@ -118,7 +122,7 @@ class RosConsole:
             logs = LogStore()
             self._add = logs.add
             self._views = LogViews(logs)
-            shelf = Shelf(self._profile_folders, self._own_profiles, self._workspace_profiles())
+            shelf = Shelf(self._profile_folders, self._own_profiles, self._workspace_profiles(), self._fetch)
             self._profile_names = {os.path.realpath(each.path): each.name for each in shelf.profiles}
             node = ConsoleNode(logs.add, self._graph_events, self._provenance, self._history(), foreign=self._foreign)
             self._learn = node.learn
@@ -312,6 +316,10 @@ class RosConsole:
     def apply_profile(self, name: str, *, reset_world: bool = False) -> Future[tuple[SetOutcome, ...]]:
         """Set a profile's values live."""
         return self._now.apply_profile(name, reset_world=reset_world)
+
+    def fetch_profile(self, address: str) -> Future[Answer]:
+        """Take in what stands at an address as a profile."""
+        return self._now.fetch_profile(address)
 
     def open_profile(self, path: str) -> Answer:
         """Take a file in as a profile."""

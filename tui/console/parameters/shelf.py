@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
-from pathlib import Path
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Future
+from dataclasses import replace
+from pathlib import Path, PurePosixPath
+from urllib.parse import urlsplit
 
 from bot_console.tui.console.model import ParameterTree, Profile
 from bot_console.tui.console.parameters.file import save
@@ -18,11 +22,21 @@ _NAME = re.compile(r"[\w][\w .+-]*")
 class Shelf:
     """Looks for profiles in folders; `own` is where new ones are saved, and is looked into first."""
 
-    def __init__(self, folders: Sequence[Path], own: Path | None = None, mixed: Sequence[Path] = ()) -> None:
+    def __init__(
+        self,
+        folders: Sequence[Path],
+        own: Path | None = None,
+        mixed: Sequence[Path] = (),
+        fetch: Callable[[str], Path] | None = None,
+    ) -> None:
+        """`fetch` gives the copy of what stands at an address, or raises `OSError`; it is called in another thread."""
         self._folders = tuple(folders)
         self._own = own
         self._mixed = tuple(mixed)
+        self._fetch = fetch
         self._opened: dict[str, Path] = {}
+        self._addresses: dict[Path, str] = {}
+        """Where the opened files that were fetched come from."""
         self.profiles: tuple[Profile, ...] = ()
         """The same object until something has come, gone or changed."""
         self.look_again()
@@ -33,10 +47,39 @@ class Shelf:
         own = [self._own] if self._own is not None else []
         found = [*find([*self._folders, *own], mixed=self._mixed)]
         known = {Path(each.path).resolve() for each in found}
-        found += [load(path) for path in self._opened.values() if path.resolve() not in known]
+        found += [self._load(path) for path in list(self._opened.values()) if path.resolve() not in known]
         profiles = tuple(sorted(found, key=lambda each: each.name))
         if profiles != self.profiles:
             self.profiles = profiles
+
+    def _load(self, path: Path) -> Profile:
+        """An opened file; one that was fetched has the name that its address ends in."""
+        profile = load(path)
+        address = self._addresses.get(path)
+        if address is None:
+            return profile
+        name = PurePosixPath(urlsplit(address).path).stem or address
+        return replace(profile, name=name, title=f"{profile.title} ({address})".lstrip())
+
+    def fetch(self, address: str) -> Future[Answer]:
+        """Fetch a parameter file and take it in; the answer's text as of `open`."""
+        answer: Future[Answer] = Future()
+        fetch = self._fetch
+        if fetch is None:
+            answer.set_result(Answer(False, "this console fetches nothing; give the path of a file"))
+            return answer
+
+        def work() -> None:
+            try:
+                path = fetch(address)
+            except OSError as error:
+                answer.set_result(Answer(False, str(error)))
+                return
+            self._addresses[path] = address
+            answer.set_result(self.open(str(path)))
+
+        threading.Thread(target=work, name="fetch", daemon=True).start()
+        return answer
 
     def open(self, path: str) -> Answer:
         """Take a file in; the answer's text is the name under which it stands, or why it cannot be used."""

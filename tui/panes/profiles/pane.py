@@ -24,6 +24,7 @@ from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.words import Words
 from textual.app import ComposeResult
 
+ADDRESSES = ("https://", "http://")
 MOST = 6
 """Profiles that are seen at once."""
 
@@ -208,10 +209,21 @@ class ProfilesPane(ListPane):
 
     def action_open_file(self) -> None:
         """Ask for a parameter file and show what it would change."""
-        self.ask(Line("parameter file", self._open, check=wrong_path))
+        self.ask(Line("parameter file, or https://", self._open, check=wrong_path))
 
-    def _open(self, path: str) -> None:
-        answer = self.console.open_profile(path)
+    def _open(self, place: str) -> None:
+        if place.strip().lower().startswith(ADDRESSES):
+            self._told = f"fetching {place.strip()} ..."
+            self._compare()
+            answer = self.console.fetch_profile(place.strip())
+            answer.add_done_callback(lambda done: self.host.call_later(self._opened, answer_of(done)))
+        else:
+            self._opened(self.console.open_profile(place))
+
+    def _opened(self, answer: Answer) -> None:
+        """Go to a profile that was taken in."""
+        self._told = ""
+        self._compare()
         if not answer.ok:
             self.notify(answer.text, severity="error", markup=False)
             return
