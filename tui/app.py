@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from concurrent.futures import Future
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
 from bot_console.tui import keymap
 from bot_console.tui.arrangement.stage import Stage
-from bot_console.tui.commands import Command, all_commands, options_for
+from bot_console.tui.commanding.desk import Desk
 from bot_console.tui.console.connection.no_console import NoCommandLine
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import CommandLine, Console, Launcher
@@ -22,21 +20,18 @@ from bot_console.tui.format import brief, harmless
 from bot_console.tui.keys.keyboard import Keyboard
 from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.look import Look
-from bot_console.tui.opening import Opening, is_rqt, rqt_opening
+from bot_console.tui.opening import Opening
 from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.panes.broken import BrokenPane
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.plot.pane import PlotPane
 from bot_console.tui.recording import RecordingApp
-from bot_console.tui.safety.line_risk import risk_of
 from bot_console.tui.safety.quitting import Quitting
 from bot_console.tui.safety.safety_news import SafetyNews
 from bot_console.tui.safety.stopping import Stopping
 from bot_console.tui.screens.arrange import ArrangeScreen
-from bot_console.tui.screens.door import screen_for
 from bot_console.tui.screens.help import HelpScreen
-from bot_console.tui.screens.output import OutputScreen
 from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.screens.tuning_door import TuningDoor
 from bot_console.tui.theme import THEMES
@@ -44,7 +39,7 @@ from bot_console.tui.time_cursor import TimeCursor
 from bot_console.tui.widgets.key_bar import KeyBar
 from bot_console.tui.widgets.pane_area import PaneArea
 from bot_console.tui.widgets.prompt.line import Prompt
-from bot_console.tui.widgets.prompt.question import Asker, Choice
+from bot_console.tui.widgets.prompt.question import Asker
 from bot_console.tui.widgets.status_bar import StatusBar
 from bot_console.tui.widgets.stream_panel import StreamPanel
 from bot_console.tui.widgets.tabs import Tabs
@@ -99,7 +94,6 @@ class BotConsoleApp(RecordingApp, TuningDoor):
         self.set_keymap({**look.keys})
         self.console_of_robot = console
         self.launcher = launcher
-        self._command_line = command_line or NoCommandLine()
         self._refresh_hz = refresh_hz
         self._opening = opening or Opening()
         self.time_cursor = TimeCursor()
@@ -108,6 +102,7 @@ class BotConsoleApp(RecordingApp, TuningDoor):
         self.stage = Stage(self, look.arrangement, self._opening.pane, lambda: self._snapshot)
         self._quitting = Quitting(self, console)
         self._stopping = Stopping(self, console)
+        self.desk = Desk(self, self.stage, self._stopping, console, command_line or NoCommandLine(), self.open)
         self._safety_news = SafetyNews(console)
         self._plugins = plugins
         self.faults = Faults(self, self, self._panes_changed)
@@ -128,6 +123,7 @@ class BotConsoleApp(RecordingApp, TuningDoor):
             for each in sorted(PANES, key=lambda entry: entry.place):
                 yield self.made(each.load(), each.id)
         yield StreamPanel()
+        yield self.desk.field()
         yield StatusBar()
         yield KeyBar()
         yield Static("", id="too-small", markup=False)
@@ -158,8 +154,7 @@ class BotConsoleApp(RecordingApp, TuningDoor):
             for pane in self.panes():
                 if pane.children:  # none at the end, when the screen is taken apart
                     pane.tick()
-            for panel in self.screen_stack[0].query(StreamPanel):
-                panel.look()
+            self.desk.look()
 
     def pull(self) -> None:
         """Take the newest snapshot and let the visible panes draw what is new."""
@@ -266,24 +261,12 @@ class BotConsoleApp(RecordingApp, TuningDoor):
             self.push_screen(HelpScreen(pane.scopes, pane.TITLE, pane.HELP or ""))
 
     def action_palette(self) -> None:
-        """Ask for a command: an action by its words, or a `ros2` line."""
-        known = {**all_commands(self, self.current_pane), **self._plugin_commands()}
-        self.push_screen(
-            screen_for(
-                Choice(
-                    "Commands",
-                    lambda chosen: known[chosen].run() if chosen in known else self.run_ros2(chosen),
-                    find=partial(options_for, known, lambda line: risk_of(line, self._snapshot)),
-                    hint="words of a command, or a ros2 line",
-                    empty="No command has these words; a line that begins with ros2 is run.",
-                )
-            )
-        )
+        """Ask for a command: an action by its words."""
+        self.desk.palette()
 
-    def _plugin_commands(self) -> Mapping[str, Command]:
-        return {
-            each.id: Command(f"Pane: {each.title}", "", partial(self.stage.go, each.id)) for each in self.stage.plugins
-        }
+    def action_command_line(self) -> None:
+        """Ask for a line: a verb of the console, or one of `ros2`."""
+        self.desk.ask_line()
 
     def action_acknowledge(self) -> None:
         """Count only the errors that come from now on."""
@@ -318,7 +301,7 @@ class BotConsoleApp(RecordingApp, TuningDoor):
     def on_pane_line_wanted(self, event: Pane.LineWanted) -> None:
         """Run a line that a pane names."""
         event.stop()
-        self.run_ros2(event.line)
+        self.desk.runner.run(event.line)
 
     def on_pane_pane_wanted(self, event: Pane.PaneWanted) -> None:
         """Show another pane at what one names."""
@@ -375,26 +358,6 @@ class BotConsoleApp(RecordingApp, TuningDoor):
         text = f"bot-console: ended by a fault of its own, the robot was stopped: {reason(error)}"
         return text + (f"; details in {details}" if details else "")
 
-    def run_ros2(self, line: str) -> None:
-        """Run a `ros2` line and show what it prints; one that names a program of rqt opens a pane."""
-        if is_rqt(line.split()):
-            opening, left = rqt_opening(line.split())
-            notes = [*opening.notes, *(f"{each} is not taken over" for each in left)]
-            if opening.perspective:
-                file = opening.perspective
-                notes.append(f"perspective {file} is opened at the start only: bot-console --perspective-file {file}")
-            self.open(replace(opening, notes=tuple(notes)))
-            return
-        if (stream := self._command_line.stream(line)) is not None:
-            self.screen_stack[0].query_one(StreamPanel).begin(line, stream)
-            return
-        answer = self._command_line.run(line)
-        answer.add_done_callback(lambda done: self.call_later(self._show_output, line, done))
-
     def action_end_stream(self) -> None:
         """End the line that goes on below the panes."""
-        self.screen_stack[0].query_one(StreamPanel).end()
-
-    def _show_output(self, line: str, done: Future[str]) -> None:
-        error = done.exception()
-        self.push_screen(OutputScreen(line, str(error) if error else done.result()))
+        self.desk.end_stream()

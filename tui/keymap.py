@@ -14,14 +14,15 @@ TABLE: dict[str, tuple[Key, ...]] = {
     "app": (
         Key("app.help", "question_mark,f1", "help", "Help for this pane", footer=True, shown="?", short="Help"),
         Key(
-            "app.palette",
-            "colon,ctrl+p",
-            "palette",
-            "Command palette",
+            "app.line",
+            "colon",
+            "command_line",
+            "Command line: set, plot, layout, record, stop, release, help, or a line of ros2",
             footer=True,
             shown=":",
             short="Commands",
         ),
+        Key("app.palette", "ctrl+p", "palette", "Command palette: every action by its words"),
         Key(
             "app.stop",
             "exclamation_mark",
@@ -265,6 +266,14 @@ TABLE: dict[str, tuple[Key, ...]] = {
         Key("box.end", "G,end", "end_of_box(1)", "To the bottom", shown="G"),
     ),
     "help": (Key("help.close", "question_mark,f1", "dismiss", "Close"),),
+    "command": (
+        Key("command.complete", "tab", "complete(1)", "Complete the word; then the next candidate"),
+        Key("command.back", "shift+tab", "complete(-1)", "The candidate before"),
+        Key("command.earlier", "up", "history(-1)", "An earlier line that begins as this one does"),
+        Key("command.later", "down", "history(1)", "The line after it"),
+        Key("command.search", "ctrl+r", "search_history", "An earlier line that has what was typed"),
+        Key("command.give_up", "escape", "give_up", "Give up"),
+    ),
     "prompt": (Key("prompt.give_up", "escape", "give_up", "Give up"),),
     "question": (Key("question.give_up", "escape", "give_up", "Close without an answer"),),
     "confirm": (

@@ -10,6 +10,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
+from bot_console.tui.commanding.completing import live_names
 from bot_console.tui.console.logs.file import open_log
 from bot_console.tui.console.logs.search import matching
 from bot_console.tui.console.logs.store import LogStore
@@ -370,6 +371,14 @@ class FakeCommandLine:
 
     def stream(self, line: str) -> Stream | None:
         return None
+
+    def commands(self) -> Sequence[str]:
+        return ("node", "topic", "param")
+
+    def complete(self, words: Sequence[str], snapshot: ConsoleSnapshot) -> Future[Sequence[str]]:
+        before = [*words[:-1]]
+        live = live_names(snapshot, ["topic", "list"]) or []
+        return done(live if before in (["topic", "echo"], ["topic", "hz"]) else ["echo", "hz", "list"])
 
     def run(self, line: str) -> Future[str]:
         self._asked.append(("run", line))

@@ -16,7 +16,8 @@ OURS = {key.id for keys in TABLE.values() for key in keys}
 
 OVER = {
     "help": ("1", "question_mark"),
-    "palette": ("1", "colon"),
+    "palette": ("1", "ctrl+p"),
+    "command line": ("1", "colon"),
     "message": ("2", "enter"),
     "node": ("3", "enter"),
     "process": ("8", "j", "enter"),

@@ -130,7 +130,7 @@ def test_a_help_that_is_longer_than_the_screen_scrolls() -> None:
     run(live(), play)
 
 
-@pytest.mark.parametrize("key", ["colon", "ctrl+p"])
+@pytest.mark.parametrize("key", ["ctrl+p"])
 def test_the_palette_opens_and_runs_an_action(key: str) -> None:
     async def play(session: Session) -> None:
         await session.press(key)

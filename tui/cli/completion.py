@@ -10,10 +10,24 @@ import contextlib
 import io
 import os
 from collections.abc import Callable, Iterable, Sequence
+from typing import Protocol
 
 from bot_console.tui.cli.arguments import profile_names
 
-Source = Callable[[Sequence[str]], Iterable[str]]
+
+class Names(Protocol):
+    """Where names come from."""
+
+    def asked(self, *words: str) -> list[str]:
+        """The lines that a verb of `ros2` prints; none where it fails."""
+        ...
+
+    def live(self, *words: str) -> list[str]:
+        """The same, for verbs that tell of what runs."""
+        ...
+
+
+Source = Callable[[Names, Sequence[str]], Iterable[str]]
 """Gives the candidates for a place, from the words before it."""
 
 
@@ -24,15 +38,15 @@ def run(words: Sequence[str]) -> int:
     return 0
 
 
-def candidates(words: Sequence[str]) -> list[str]:
+def candidates(words: Sequence[str], names: Names | None = None) -> list[str]:
     """What the last of the words may become; the words before it are complete."""
     *before, begun = words or [""]
     if before and before[0] == "ros2":
         before = before[1:]
-    return sorted({each for each in _offered(before, begun) if each.startswith(begun)})
+    return sorted({each for each in _offered(names or ShellNames(), before, begun) if each.startswith(begun)})
 
 
-def _offered(before: list[str], begun: str) -> Iterable[str]:
+def _offered(names: Names, before: list[str], begun: str) -> Iterable[str]:
     from bot_console.runtime.importer import install
 
     install()
@@ -42,7 +56,7 @@ def _offered(before: list[str], begun: str) -> Iterable[str]:
         return [*COMMANDS, *_OURS]
     command = load(before[0])
     if command is None:
-        return _OUR_SOURCES[before[0]](before[1:]) if before[0] in _OUR_SOURCES else _OURS.get(before[0], ())
+        return _OUR_SOURCES[before[0]](names, before[1:]) if before[0] in _OUR_SOURCES else _OURS.get(before[0], ())
     verb = next((each for each in command.verbs if len(before) > 1 and each.name == before[1]), None)
     if command.verbs and verb is None:
         return [each.name for each in command.verbs] if len(before) == 1 else ()
@@ -51,7 +65,7 @@ def _offered(before: list[str], begun: str) -> Iterable[str]:
     key = (before[0], verb.name if verb else "")
     given = [word for word in before[2 if verb else 1 :] if not word.startswith("-")]
     places = _PLACES.get(key) or _PLACES.get((before[0], "*"), ())
-    return places[len(given)](given) if len(given) < len(places) else ()
+    return places[len(given)](names, given) if len(given) < len(places) else ()
 
 
 def _options(arguments: Callable[[argparse.ArgumentParser], None]) -> list[str]:
@@ -60,48 +74,50 @@ def _options(arguments: Callable[[argparse.ArgumentParser], None]) -> list[str]:
     return [option for action in parser._actions for option in action.option_strings]  # pyright: ignore[reportPrivateUsage] -- argparse offers no other way
 
 
-def _asked(*words: str) -> list[str]:
-    """The lines that a verb prints; none where it fails."""
-    from ros2cli.command_line import main
+class ShellNames:
+    """For a shell: a process that ends at once, and may print nothing else."""
 
-    printed = io.StringIO()
-    with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(io.StringIO()):
-        failed = main(words)
-    return [] if failed else [line.strip() for line in printed.getvalue().splitlines()]
+    def asked(self, *words: str) -> list[str]:
+        """The lines that a verb prints; none where it fails."""
+        from ros2cli.command_line import main
+
+        printed = io.StringIO()
+        with contextlib.redirect_stdout(printed), contextlib.redirect_stderr(io.StringIO()):
+            failed = main(words)
+        return [] if failed else [line.strip() for line in printed.getvalue().splitlines()]
+
+    def live(self, *words: str) -> list[str]:
+        """The same of what runs in the domain; at once nothing where nobody is there."""
+        from bot_console.tui.cli.system.domain import others_take_part, take_part
+
+        return self.asked(*words) if others_take_part() and not take_part() else []
 
 
 def _names(*words: str) -> Source:
-    return lambda given: _asked(*words)
-
-
-def _live(*words: str) -> list[str]:
-    """The same of what runs in the domain; at once nothing where nobody is there."""
-    from bot_console.tui.cli.system.domain import others_take_part, take_part
-
-    return _asked(*words) if others_take_part() and not take_part() else []
+    return lambda names, given: names.asked(*words)
 
 
 def _running(*words: str) -> Source:
-    return lambda given: _live(*words)
+    return lambda names, given: names.live(*words)
 
 
-def _parameters(given: Sequence[str]) -> Iterable[str]:
-    return _live("param", "list", given[0])
+def _parameters(names: Names, given: Sequence[str]) -> Iterable[str]:
+    return names.live("param", "list", given[0])
 
 
-def _executables(given: Sequence[str]) -> Iterable[str]:
-    return (line.partition(" ")[2] for line in _asked("pkg", "executables", given[0]))
+def _executables(names: Names, given: Sequence[str]) -> Iterable[str]:
+    return (line.partition(" ")[2] for line in names.asked("pkg", "executables", given[0]))
 
 
-def _files(given: Sequence[str]) -> Iterable[str]:
+def _files(names: Names, given: Sequence[str]) -> Iterable[str]:
     return (name for name in os.listdir(".") if name.endswith((".py", ".xml", ".yaml", ".yml")))
 
 
-def _packages_and_files(given: Sequence[str]) -> Iterable[str]:
-    return [*_asked("pkg", "list"), *_files(given)]
+def _packages_and_files(names: Names, given: Sequence[str]) -> Iterable[str]:
+    return [*names.asked("pkg", "list"), *_files(names, given)]
 
 
-def _launch_files(given: Sequence[str]) -> Iterable[str]:
+def _launch_files(names: Names, given: Sequence[str]) -> Iterable[str]:
     from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
     try:
@@ -140,7 +156,11 @@ _OURS: dict[str, Sequence[str]] = {
 }
 """The commands that are not `ros2`'s, and what may follow them."""
 
-_OUR_SOURCES: dict[str, Source] = {"rqt_plot": _TOPIC, "rqt_reconfigure": _NODE, "up": lambda given: profile_names()}
+_OUR_SOURCES: dict[str, Source] = {
+    "rqt_plot": _TOPIC,
+    "rqt_reconfigure": _NODE,
+    "up": lambda names, given: profile_names(),
+}
 """Those of them after which names of what is there may follow."""
 
 _PLACES: dict[tuple[str, str], Sequence[Source]] = {

@@ -340,6 +340,14 @@ class CommandLine(Protocol):
         """Begin a line that goes on by itself, as `ros2 topic hz /odom` does; None for any other, which is not run."""
         ...
 
+    def commands(self) -> Sequence[str]:
+        """The words that a line may begin with, `ros2` itself left out."""
+        ...
+
+    def complete(self, words: Sequence[str], snapshot: ConsoleSnapshot) -> Future[Sequence[str]]:
+        """What the last of the words may become, which is empty or begins an option; `snapshot` knows what runs."""
+        ...
+
 
 class Launcher(Protocol):
     """The processes that launch files started; what it knows is in `ConsoleSnapshot.launch`."""

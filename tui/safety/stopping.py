@@ -21,9 +21,21 @@ class Stopping:
     def wanted(self) -> None:
         """Hold the robot still, or let it go; a stop that nobody has acknowledged is sent again."""
         drive = self._console.snapshot().drive
-        others = [each for each in drive.stops if not each.here]
         if not drive.stopped_here or (drive.lockable and not drive.stop_confirmed):
-            self._console.all_stop(True)
+            self.hold()
+        else:
+            self.release()
+
+    def hold(self) -> None:
+        """Hold the robot still."""
+        self._console.all_stop(True)
+
+    def release(self) -> None:
+        """Take all stops back, those of others after a question."""
+        drive = self._console.snapshot().drive
+        others = [each for each in drive.stops if not each.here]
+        if not drive.stopped_here and not others:
+            self._app.notify("Nobody holds the robot.")
         elif all(each.by_node for each in others):
             self._release(others)
         else:

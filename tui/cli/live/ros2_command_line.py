@@ -5,15 +5,20 @@ from __future__ import annotations
 import shlex
 import sys
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future
+from typing import TypeVar
 
 from bot_console.runtime.process import NodeProcess
+from bot_console.tui.cli.completion import candidates
 from bot_console.tui.cli.started_lines import launched_by
 from bot_console.tui.cli.verbs.colcon import answers
+from bot_console.tui.commanding.completing import live_names
 from bot_console.tui.console.lines import RunningLine, goes_on
+from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Launcher, Stream
 
+T = TypeVar("T")
 LINE_LIMIT = 15.0
 """Seconds after which a line that does not end by itself, and was not expected to go on, is interrupted."""
 STARTING = 30.0
@@ -26,19 +31,12 @@ class Ros2CommandLine:
     def __init__(self, launcher: Launcher | None = None) -> None:
         """`launcher` starts what `ros2 run` and `ros2 launch` name: it stays, and stands in the Launch pane."""
         self._launcher = launcher
+        self._known: dict[tuple[str, ...], list[str]] = {}
+        """What verbs have printed of what does not change while the console runs: packages, types."""
 
     def run(self, line: str) -> Future[str]:
         """Run a line beside the caller; what it printed, or the `ValueError` of a quotation mark without its twin."""
-        outcome: Future[str] = Future()
-
-        def work() -> None:
-            try:
-                outcome.set_result(self._done(line))
-            except Exception as error:  # the border of the thread
-                outcome.set_exception(error)
-
-        threading.Thread(target=work, name="ros2", daemon=True).start()
-        return outcome
+        return _beside(lambda: self._done(line))
 
     def stream(self, line: str) -> Stream | None:
         """Begin a line that goes on by itself; None for any other."""
@@ -47,6 +45,17 @@ class Ros2CommandLine:
         except ValueError:
             return None
         return _Streamed(words) if goes_on(words) else None
+
+    def commands(self) -> Sequence[str]:
+        """The words that a line may begin with."""
+        from ros2cli.command_line import COMMANDS
+
+        return [*COMMANDS, "colcon"]
+
+    def complete(self, words: Sequence[str], snapshot: ConsoleSnapshot) -> Future[Sequence[str]]:
+        """What the last of the words may become, found beside the caller."""
+        names = _Names(snapshot, self._known)
+        return _beside(lambda: candidates(words, names))
 
     def _done(self, line: str) -> str:
         words = _words(line)
@@ -59,6 +68,39 @@ class Ros2CommandLine:
             return wanted.problem
         answer = self._launcher.launch(wanted.file, wanted.arguments).result(STARTING)
         return f"{wanted.name} runs: it stands in the Launch pane, which ends it" if answer.ok else answer.text
+
+
+class _Names:
+    """Names for completion: of what runs as the console knows it, of the rest as the verbs print them."""
+
+    def __init__(self, snapshot: ConsoleSnapshot, known: dict[tuple[str, ...], list[str]]) -> None:
+        self._snapshot = snapshot
+        self._known = known
+
+    def asked(self, *words: str) -> list[str]:
+        """The lines that a verb prints."""
+        if words not in self._known:
+            self._known[words] = [each.strip() for each in _printed_by(words).splitlines()]
+        return self._known[words]
+
+    def live(self, *words: str) -> list[str]:
+        """The same, for verbs that tell of what runs."""
+        found = live_names(self._snapshot, words)
+        return found if found is not None else [each.strip() for each in _printed_by(words).splitlines()]
+
+
+def _beside(work: Callable[[], T]) -> Future[T]:
+    """Do some work in a thread of its own."""
+    outcome: Future[T] = Future()
+
+    def do() -> None:
+        try:
+            outcome.set_result(work())
+        except Exception as error:  # the border of the thread
+            outcome.set_exception(error)
+
+    threading.Thread(target=do, name="ros2", daemon=True).start()
+    return outcome
 
 
 class _Streamed:

@@ -258,6 +258,14 @@ class NoCommandLine:
         """There is none."""
         return None
 
+    def commands(self) -> Sequence[str]:
+        """There are none."""
+        return ()
+
+    def complete(self, words: Sequence[str], snapshot: ConsoleSnapshot) -> Future[Sequence[str]]:
+        """Nothing may follow."""
+        return done(())
+
 
 def refused_profile(why: str) -> Future[tuple[SetOutcome, ...]]:
     """A future that raises `ValueError` with the reason, as `Console.apply_profile` promises."""

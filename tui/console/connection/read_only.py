@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 
 from bot_console.tui.console.connection.no_console import NoConsole, done
-from bot_console.tui.console.model import LaunchArgument
+from bot_console.tui.console.model import ConsoleSnapshot, LaunchArgument
 from bot_console.tui.console.protocol import Answer, CommandLine, Console, Stream
 from bot_console.tui.console.recording import Recording
 from bot_console.tui.console.sights.model import Sights
@@ -138,6 +138,14 @@ class ReadOnlyCommandLine:
     def stream(self, line: str) -> Stream | None:
         """Begin a line that goes on; those that there are only read."""
         return self._lines.stream(line)
+
+    def commands(self) -> Sequence[str]:
+        """The words that a line may begin with."""
+        return self._lines.commands()
+
+    def complete(self, words: Sequence[str], snapshot: ConsoleSnapshot) -> Future[Sequence[str]]:
+        """What the last of the words may become."""
+        return self._lines.complete(words, snapshot)
 
     def run(self, line: str) -> Future[str]:
         """Run a line that only reads; any other is refused in its place."""

@@ -36,7 +36,7 @@ class LogsPane(ListPane):
     HELP = (
         "What the nodes log and print. The filter takes words (all must stand), !word (must not), node:name,\n"
         "sev:>=warn, at:file.py:12, time:14:03..14:05, time:-5m and re:pattern. s looks for words and hides nothing,\n"
-        "n and N go on. x hides, + highlights lines like the one at the cursor: rules that stay, R shows them.\n"
+        "n and N go on. x hides, + highlights lines like the one at the cursor: rules that stay, F shows them.\n"
         "Scrolling up stops following; nothing is lost meanwhile, f follows again."
     )
     BINDINGS = keymap.bindings("logs")
@@ -256,7 +256,7 @@ class LogsPane(ListPane):
         if problem:
             self.notify(problem, severity="warning")
         else:
-            self.notify(f"{'Hidden' if hide else f'In {rule.colour}'}: {words}\nR shows the rules, t everything.")
+            self.notify(f"{'Hidden' if hide else f'In {rule.colour}'}: {words}\nF shows the rules, t everything.")
 
     def action_rules(self) -> None:
         """Show and change what is hidden and what stands out."""

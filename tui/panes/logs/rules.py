@@ -17,7 +17,7 @@ LARGEST = 100_000
 """Bytes of a file of rules; of a larger one nothing is read."""
 HEAD = f"""\
 # Rules of the log, one a line: `{HIDE}` or a colour ({", ".join(COLOURS)}), then the words of a filter.
-# `{OFF}` in front of a rule switches it off. `R` in the Logs pane shows and changes them.
+# `{OFF}` in front of a rule switches it off. `F` in the Logs pane shows and changes them.
 """
 
 

@@ -1,0 +1,110 @@
+"""The command line: own verbs, `ros2` left out, completion, history, and errors that say what to type."""
+
+from __future__ import annotations
+
+from bot_console.tui.panes.plot.pane import PlotPane
+from bot_console.tui.screens.output import OutputScreen
+from bot_console.tui.screens.picker import PickerScreen
+from bot_console.tui.widgets.command_line import CommandField
+from piloting import Session, run
+from samples import SPEED, live
+from textual.widgets import Input
+
+
+async def line(session: Session, text: str) -> None:
+    await session.press("colon")
+    await session.type(text)
+    await session.press("enter")
+
+
+def field(session: Session) -> str:
+    return session.pane(CommandField).query_one(Input).value
+
+
+def test_a_value_is_set_or_refused_with_its_reason() -> None:
+    async def play(session: Session) -> None:
+        await line(session, "set robot_navigator max_speed 1.4")
+        assert ("set", "/robot_navigator", {"max_speed": 1.4}) in session.console.asked
+        assert "/robot_navigator max_speed = 1.4" in session.text()
+        await line(session, "set /robot_navigator max_speed 99")
+        assert "was refused" in session.text()
+
+    run(live(), play, (120, 40))
+
+
+def test_what_is_wrong_is_said_and_the_line_stays() -> None:
+    async def play(session: Session) -> None:
+        await line(session, "topc list")
+        assert "did you mean topic?" in session.text() and field(session) == "topc list"
+        await session.press("escape")
+        assert not session.pane(CommandField).is_open
+
+    run(live(), play, (120, 40))
+
+
+def test_stop_release_layout_plot_help_and_lines_of_ros2() -> None:
+    async def play(session: Session) -> None:
+        await line(session, "stop")
+        assert session.console.asked[-1] == ("all_stop", True)
+        await line(session, "release")
+        assert session.console.asked[-1] == ("all_stop", False)
+        await line(session, "layout tuning")
+        assert session.app.stage.arranging.arrangement.name == "tuning"
+        await line(session, f"plot {SPEED}")
+        assert session.pane(PlotPane).display and session.pane(PlotPane).paths == [SPEED]
+        await line(session, "node list")
+        assert session.console.asked[-1] == ("run", "node list") and isinstance(session.app.screen, OutputScreen)
+        await session.press("escape")
+        await line(session, "help")
+        assert "set NODE PARAMETER VALUE" in session.text() and "rqt_plot" in session.text()
+        await session.press("escape", "ctrl+p")
+        assert isinstance(session.app.screen, PickerScreen), "the palette has its own key"
+
+    run(live(), play, (120, 40))
+
+
+def test_tab_completes_and_the_keyboard_goes_back() -> None:
+    async def play(session: Session) -> None:
+        await session.press("2")
+        focused = session.app.focused
+        await session.press("colon")
+        await session.type("se")
+        await session.press("tab")
+        assert field(session) == "set "
+        await session.type("navigator")
+        await session.press("tab")
+        assert field(session) == "set /robot_navigator "
+        await session.type("max_sp")
+        await session.press("tab")
+        assert field(session) == "set /robot_navigator max_speed "
+        assert "set NODE PARAMETER VALUE" in session.text()
+        session.app.focused.value = "topic echo "  # type: ignore[union-attr]
+        await session.press("tab")
+        await session.press("tab")
+        first = field(session)
+        await session.press("tab", "shift+tab")
+        assert field(session) == first and first.startswith("topic echo /")
+        await session.press("escape")
+        assert session.app.focused is focused
+
+    run(live(), play)
+
+
+def test_earlier_lines_come_back() -> None:
+    async def play(session: Session) -> None:
+        for each in ("node list", "topic list"):
+            await line(session, each)
+            await session.press("escape", "escape")
+        await session.press("colon")
+        await session.type("no")
+        await session.press("up")
+        assert field(session) == "node list"
+        await session.press("down")
+        assert field(session) == "no"
+        session.app.focused.value = "list"  # type: ignore[union-attr]
+        await session.press("ctrl+r")
+        assert field(session) == "topic list"
+        await session.press("enter")
+        assert session.console.asked[-1] == ("run", "topic list")
+
+    run(live(), play)

@@ -1,0 +1,44 @@
+"""Lines typed before: kept from run to run, walked through by how they begin or by what they have."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from bot_console.tui.commanding.history import MOST, LineHistory
+
+
+def filled(path: Path, *lines: str) -> LineHistory:
+    history = LineHistory(path)
+    for each in lines:
+        history.add(each)
+    return history
+
+
+def test_they_outlive_the_run_each_once_the_newest_last(tmp_path: Path) -> None:
+    filled(tmp_path / "lines", "topic list", "set /a b 1", "topic list")
+    assert LineHistory(tmp_path / "lines").lines() == ["set /a b 1", "topic list"]
+
+
+def test_up_goes_through_those_that_begin_so_and_down_comes_back(tmp_path: Path) -> None:
+    history = filled(tmp_path / "lines", "topic list", "node list", "topic hz /odom")
+    typed, seen = "topic", []
+    for step in (-1, -1, -1, 1, 1, 1):
+        typed = history.step(typed, step)
+        seen.append(typed)
+    assert seen == ["topic hz /odom", "topic list", "topic list", "topic hz /odom", "topic", "topic"]
+    history.stay()
+    assert history.step("no", -1) == "node list"
+    history.stay()
+    assert history.step("list", -1, anywhere=True) == "node list"
+    assert history.step("node list", -1, anywhere=True) == "topic list"
+
+
+def test_what_cannot_be_kept_is_known_until_the_end(tmp_path: Path) -> None:
+    (tmp_path / "lines").mkdir()
+    assert filled(tmp_path / "lines", "a", "b").lines() == ["a", "b"]
+
+
+def test_only_so_many_are_kept(tmp_path: Path) -> None:
+    (tmp_path / "lines").write_text("".join(f"line {number}\n" for number in range(2 * MOST)))
+    history = filled(tmp_path / "lines", "new")
+    assert len(history.lines()) == MOST and history.lines()[-1] == "new"

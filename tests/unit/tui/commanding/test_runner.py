@@ -1,0 +1,77 @@
+"""Lines that are wrong say what to type instead, and what a line would take from the robot's safety is said."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import pytest
+from bot_console.tui.commanding.runner import LineRunner
+from fakes import FakeCommandLine
+from samples import live
+
+
+class Screen:
+    """Keeps what it was told; knows two layouts."""
+
+    def __init__(self) -> None:
+        self.told: list[str] = []
+
+    def notify(self, message: str, **_: Any) -> None:
+        self.told.append(message)
+
+    def call_later(self, callback: Any, *args: Any) -> None:
+        callback(*args)
+
+    def layouts(self) -> Sequence[str]:
+        return ("overview", "tuning")
+
+
+def runner() -> tuple[LineRunner, Any, FakeCommandLine]:
+    console, screen = live()[0], Screen()
+    lines = FakeCommandLine(console.asked)
+    host: Any = screen
+    return LineRunner(host, console, lines), screen, lines
+
+
+@pytest.mark.parametrize(
+    ("text", "mend"),
+    [
+        ("set", "write it as: set NODE PARAMETER VALUE"),
+        ("set /robot max_speed 1", "there is no node /robot with parameters"),
+        ("set /robot_navigator speed 1", "/robot_navigator has no parameter speed"),
+        ("set /robot_navigator max_speed fast", "'fast' is no number"),
+        ("layout none", "there is no layout none; there are"),
+        ("topc list", "there is no command topc; did you mean topic?"),
+        ("zzz", "^p finds an action"),
+        ("stop now", "write it as: stop"),
+        ("help topic", "ros2 topic -h"),
+        ("topic echo 'x", "a quotation mark has no twin"),
+    ],
+)
+def test_what_is_wrong_says_what_to_type(text: str, mend: str) -> None:
+    assert mend in runner()[0].wrong(text)
+
+
+@pytest.mark.parametrize(
+    "text", ["", "topic list", "ros2 node list", "rqt_plot /a/b", "plot /a", "release", "layout tuning"]
+)
+def test_what_may_be_right_is_run(text: str) -> None:
+    assert runner()[0].wrong(text) == ""
+
+
+@pytest.mark.parametrize("begin", ["set", "param set", "ros2 param set"])
+def test_what_a_value_takes_from_safety_is_said_before_enter(begin: str) -> None:
+    assert runner()[0].outlook(f"{begin} /robot_navigator max_speed 4.0").startswith("⚠")
+    assert not runner()[0].outlook(f"{begin} /robot_navigator max_speed 0.5").startswith("⚠")
+
+
+def test_a_recording_is_begun_once_and_ended() -> None:
+    lines, screen, _ = runner()
+    lines.run("record stop")
+    lines.run("record bags/mine")
+    lines.run("record other")
+    lines.run("record stop")
+    assert screen.told[0] == "Nothing is recorded; record begins it."
+    assert "bags/mine is being recorded; record stop ends it." in screen.told
+    assert lines.wrong("record a b") == "write it as: record [FOLDER] | record stop"

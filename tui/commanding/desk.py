@@ -1,0 +1,116 @@
+"""Where words become deeds: the palette, the command line, and what lines act on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from typing import Any
+
+from bot_console.tui.arrangement.stage import Stage
+from bot_console.tui.commanding.completing import Completion
+from bot_console.tui.commanding.palette import Command, all_commands, options_for
+from bot_console.tui.commanding.runner import LineRunner
+from bot_console.tui.console.protocol import CommandLine, Console, Stream
+from bot_console.tui.layout.named import OVERVIEW
+from bot_console.tui.opening import Opening
+from bot_console.tui.safety.line_risk import risk_of
+from bot_console.tui.safety.stopping import Stopping
+from bot_console.tui.screens.door import screen_for
+from bot_console.tui.widgets.command_line import CommandField
+from bot_console.tui.widgets.prompt.question import Choice
+from bot_console.tui.widgets.stream_panel import StreamPanel
+from textual.app import App
+
+
+class Desk:
+    """Takes words from a person, and does what they say on the screen; `tui.commanding.runner.Host`."""
+
+    def __init__(
+        self,
+        app: App[None],
+        stage: Stage,
+        stopping: Stopping,
+        console: Console,
+        lines: CommandLine,
+        open: Callable[[Opening], None],
+    ) -> None:
+        self._app = app
+        self._stage = stage
+        self._stopping = stopping
+        self._console = console
+        self._open = open
+        self.runner = LineRunner(self, console, lines)
+        self._completion = Completion(self.runner.offered)
+
+    def field(self) -> CommandField:
+        """The command line, to be put on the screen."""
+        return CommandField(self.runner, self._completion)
+
+    def ask_line(self) -> None:
+        """Open the command line."""
+        self._app.screen_stack[0].query_one(CommandField).open()
+
+    def look(self) -> None:
+        """Show what has come for the command line and for the line below the panes; called now and then."""
+        for panel in self._app.screen_stack[0].query(StreamPanel):
+            panel.look()
+        for field in self._app.screen_stack[0].query(CommandField):
+            field.look()
+
+    def palette(self) -> None:
+        """Ask for a command: an action by its words, or a line."""
+        known = {**all_commands(self._app, self._stage.current()), **self._plugins()}
+        self._app.push_screen(
+            screen_for(
+                Choice(
+                    "Commands",
+                    lambda chosen: known[chosen].run() if chosen in known else self.runner.run(chosen),
+                    find=partial(options_for, known, lambda line: risk_of(line, self._console.snapshot())),
+                    hint="words of a command, or a ros2 line",
+                    empty="No command has these words; a line that begins with ros2 is run.",
+                )
+            )
+        )
+
+    def _plugins(self) -> Mapping[str, Command]:
+        return {
+            each.id: Command(f"Pane: {each.title}", "", partial(self._stage.go, each.id))
+            for each in self._stage.plugins
+        }
+
+    def notify(self, message: str, *, severity: Any = "information", title: str = "") -> None:
+        """Tell something in a corner."""
+        self._app.notify(message, severity=severity, title=title)
+
+    def push_screen(self, screen: Any, /) -> None:
+        """Put something over the panes."""
+        self._app.push_screen(screen)
+
+    def call_later(self, callback: Callable[..., Any], /, *args: Any) -> object:
+        """Call back in the thread that draws."""
+        return self._app.call_later(callback, *args)
+
+    def open(self, opening: Opening) -> None:
+        """Show a pane with what is asked for."""
+        self._open(opening)
+
+    def show_stream(self, line: str, stream: Stream) -> None:
+        """Show a line that goes on below the panes."""
+        self._app.screen_stack[0].query_one(StreamPanel).begin(line, stream)
+
+    def end_stream(self) -> None:
+        """End the line below the panes."""
+        self._app.screen_stack[0].query_one(StreamPanel).end()
+
+    def load_layout(self, name: str) -> None:
+        """Show a layout."""
+        self._stage.go(OVERVIEW)
+        self._stage.arranging.load(name)
+
+    def layouts(self) -> Sequence[str]:
+        """The names of the layouts."""
+        return sorted(self._stage.arranging.arrangement.layouts())
+
+    def hold_robot(self, hold: bool) -> None:
+        """Hold the robot, or release it, after a question where others hold it too."""
+        (self._stopping.hold if hold else self._stopping.release)()

@@ -1,0 +1,73 @@
+"""The lines typed before, kept from run to run."""
+
+from __future__ import annotations
+
+import contextlib
+from pathlib import Path
+
+from bot_console.tui.files.folders import state_folder
+from bot_console.tui.files.save_file import NotSaved, save_file
+
+MOST = 1000
+"""Lines that are kept."""
+LARGEST = 1 << 20
+"""Bytes of a file of lines; of a larger one the end is read."""
+
+
+class LineHistory:
+    """Lines, the newest last, and a walk through those that begin with a text or have it."""
+
+    def __init__(self, path: Path | None = None) -> None:
+        self._path = path
+        self._lines: list[str] | None = None
+        self._sought: str | None = None
+        """What was typed when the walk began."""
+        self._at = 0
+
+    @property
+    def file(self) -> Path:
+        """Where the lines are kept."""
+        return self._path or state_folder() / "command-lines.txt"
+
+    def lines(self) -> list[str]:
+        """All of them; none where the file cannot be read."""
+        if self._lines is None:
+            self._lines = []
+            with contextlib.suppress(OSError), self.file.open("rb") as file:
+                file.seek(max(0, file.seek(0, 2) - LARGEST))
+                text = file.read().decode("utf-8", "replace")
+                self._lines = [each for each in text.split("\n") if each.strip()][-MOST:]
+        return self._lines
+
+    def add(self, line: str) -> None:
+        """Keep a line; one that was typed before becomes the newest. Where the file cannot be written it is for now."""
+        known = self.lines()
+        self._lines = [*(each for each in known if each != line), line][-MOST:]
+        self.stay()
+        with contextlib.suppress(NotSaved):
+            save_file(self.file, "".join(f"{each}\n" for each in self._lines))
+
+    def stay(self) -> None:
+        """The text was changed: the next step begins a new walk."""
+        self._sought = None
+
+    def step(self, typed: str, step: int, *, anywhere: bool = False) -> str:
+        """The line before (`step` -1) or after the one that is shown, of those that begin with what was typed.
+
+        With `anywhere` those that have it. Behind the newest stands what was typed; beyond the ends nothing changes.
+        """
+        lines = self.lines()
+        if self._sought is None:
+            self._sought, self._at = typed, len(lines)
+        sought = self._sought
+
+        def fits(line: str) -> bool:
+            return line != typed and (sought in line if anywhere else line.startswith(sought))
+
+        at = self._at + step
+        while 0 <= at < len(lines) and not fits(lines[at]):
+            at += step
+        if at < 0:
+            return typed
+        self._at = min(at, len(lines))
+        return lines[at] if at < len(lines) else sought

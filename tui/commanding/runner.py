@@ -1,0 +1,215 @@
+"""Lines that a person typed: run by their first word, or refused with what to type instead."""
+
+from __future__ import annotations
+
+import shlex
+import time
+from collections.abc import Callable, Sequence
+from concurrent.futures import Future
+from dataclasses import replace
+from difflib import get_close_matches
+from typing import Any, Protocol
+
+from bot_console.tui.commanding.verbs import VERBS, places, setting_of, wrong_use
+from bot_console.tui.console.model import ChangeSource, SetOutcome
+from bot_console.tui.console.protocol import Answer, CommandLine, Console, Stream
+from bot_console.tui.format import harmless, value_text
+from bot_console.tui.opening import RQT_PANES, Opening, is_rqt, rqt_opening
+from bot_console.tui.safety.line_risk import risk_of
+from bot_console.tui.screens.output import OutputScreen
+
+STAMP = "%Y_%m_%d-%H_%M_%S"
+"""Of the folder of a bag, as `ros2 bag record` names it."""
+
+
+class Host(Protocol):
+    """The screen, as far as lines act on it."""
+
+    def notify(self, message: str, *, severity: Any = ..., title: str = ...) -> None:
+        """Tell something in a corner."""
+        ...
+
+    def push_screen(self, screen: Any, /) -> object:
+        """Put something over the panes."""
+        ...
+
+    def call_later(self, callback: Callable[..., Any], /, *args: Any) -> object:
+        """Call back in the thread that draws."""
+        ...
+
+    def open(self, opening: Opening) -> None:
+        """Show a pane with what is asked for."""
+        ...
+
+    def show_stream(self, line: str, stream: Stream) -> None:
+        """Show a line that goes on below the panes."""
+        ...
+
+    def load_layout(self, name: str) -> None:
+        """Show a layout; raises `LookupError` for one that is not there."""
+        ...
+
+    def layouts(self) -> Sequence[str]:
+        """The names of the layouts."""
+        ...
+
+    def hold_robot(self, hold: bool) -> None:
+        """Hold the robot, or release it, after a question where others hold it too."""
+        ...
+
+
+class LineRunner:
+    """Runs lines, and says beforehand what is wrong with one."""
+
+    def __init__(self, host: Host, console: Console, lines: CommandLine) -> None:
+        self._host = host
+        self._console = console
+        self._lines = lines
+
+    def wrong(self, line: str) -> str:
+        """What is wrong with a line, and how to mend it; empty when nothing is that can be known beforehand."""
+        try:
+            words = shlex.split(line)
+        except ValueError:
+            return "a quotation mark has no twin"
+        if not words:
+            return ""
+        if words[0] in VERBS:
+            return self._wrong_verb(words)
+        verb = words[1] if words[0] == "ros2" and len(words) > 1 else words[0]
+        known = [*VERBS, *RQT_PANES, "ros2", *self._lines.commands()]
+        if verb in known or is_rqt(words):
+            return ""
+        like = get_close_matches(verb, known, 1, 0.6)
+        mend = f"did you mean {like[0]}?" if like else "help lists the commands, ^p finds an action by its words"
+        return f"there is no command {verb}; {mend}"
+
+    def _wrong_verb(self, words: Sequence[str]) -> str:
+        wrong = wrong_use(words)
+        if not wrong and words[0] == "set":
+            try:
+                setting_of(words[1:], self._console.snapshot())
+            except ValueError as error:
+                return str(error)
+        if not wrong and words[0] == "layout" and words[1] not in self._host.layouts():
+            return f"there is no layout {words[1]}; there are {', '.join(self._host.layouts())}"
+        if not wrong and words[0] == "help" and len(words) > 1 and words[1] not in VERBS:
+            return f"no verb of the console is {words[1]}; ros2 {words[1]} -h tells of those of ros2"
+        return wrong
+
+    def outlook(self, line: str) -> str:
+        """What a line would take from the robot's safety, else how its verb is written."""
+        words = line.split()
+        as_set = ["ros2", "param", *words] if words[:1] == ["set"] else words
+        full = as_set if as_set[:1] == ["ros2"] else ["ros2", *as_set]
+        why = risk_of(" ".join(full), self._console.snapshot())
+        if why:
+            return f"⚠ {why}"
+        return VERBS[words[0]].usage if words and words[0] in VERBS else ""
+
+    def offered(self, words: Sequence[str]) -> Future[Sequence[str]]:
+        """What the last of the words, which may be empty, may become."""
+        *before, begun = words
+        if before and before[0] in VERBS:
+            snapshot, layouts, paths = self._console.snapshot(), self._host.layouts, self._console.plottable
+            return _done(places(before, snapshot, layouts, paths))
+        own = [] if before else [*VERBS, "ros2", *RQT_PANES]
+        if not before and not begun:
+            return _done([*own, *self._lines.commands()])
+        return self._lines.complete(words, self._console.snapshot())
+
+    def run(self, line: str) -> None:
+        """Run a line; what is wrong with it is told."""
+        wrong = self.wrong(line)
+        if wrong:
+            self._host.notify(wrong, severity="error")
+            return
+        words = shlex.split(line)
+        if words and words[0] in VERBS:
+            getattr(self, f"_{words[0]}")(words[1:])
+        elif is_rqt(words):
+            self._open(words)
+        elif words:
+            self._ros2(line)
+
+    def _open(self, words: Sequence[str]) -> None:
+        opening, left = rqt_opening(words)
+        notes = [*opening.notes, *(f"{each} is not taken over" for each in left)]
+        if opening.perspective:
+            file = opening.perspective
+            notes.append(f"perspective {file} is opened at the start only: bot-console --perspective-file {file}")
+        self._host.open(replace(opening, notes=tuple(notes)))
+
+    def _ros2(self, line: str) -> None:
+        stream = self._lines.stream(line)
+        if stream is not None:
+            self._host.show_stream(line, stream)
+            return
+        answer = self._lines.run(line)
+        answer.add_done_callback(lambda done: self._host.call_later(self._show_output, line, done))
+
+    def _show_output(self, line: str, done: Future[str]) -> None:
+        error = done.exception()
+        self._host.push_screen(OutputScreen(line, str(error) if error else done.result()))
+
+    def _help(self, words: Sequence[str]) -> None:
+        known = {name: VERBS[name] for name in (words or sorted(VERBS))}
+        wide = max(len(each.usage) for each in known.values())
+        lines = [f"{each.usage:<{wide}}  {each.about}" for each in known.values()]
+        if not words:
+            lines += ["", "Any other line is one of ros2, which need not be written:", " ".join(self._lines.commands())]
+            lines += ["and the programs of rqt, which open panes:", " ".join(RQT_PANES)]
+        self._host.push_screen(OutputScreen("help", "\n".join(lines)))
+
+    def _layout(self, words: Sequence[str]) -> None:
+        self._host.load_layout(words[0])
+
+    def _plot(self, words: Sequence[str]) -> None:
+        self._host.open(Opening("plot", tuple(words)))
+
+    def _stop(self, _: Sequence[str]) -> None:
+        self._host.hold_robot(True)
+
+    def _release(self, _: Sequence[str]) -> None:
+        self._host.hold_robot(False)
+
+    def _set(self, words: Sequence[str]) -> None:
+        wanted = setting_of(words, self._console.snapshot())
+        answer = self._console.set_parameters(wanted.node, {wanted.name: wanted.value}, ChangeSource.EDIT)
+        answer.add_done_callback(lambda done: self._host.call_later(self._tell_set, done))
+
+    def _tell_set(self, done: Future[tuple[SetOutcome, ...]]) -> None:
+        error = done.exception()
+        for each in () if error else done.result():
+            what = f"{each.node} {each.name} = {value_text(each.value)}"
+            refused = f"{what} was refused: {each.reason}"
+            self._host.notify(what if each.accepted else refused, severity="information" if each.accepted else "error")
+        if error:
+            self._host.notify(harmless(str(error)), severity="error")
+
+    def _record(self, words: Sequence[str]) -> None:
+        recording = self._console.recording
+        folder = recording.info.folder
+        if [*words] == ["stop"]:
+            if folder:
+                self._tell_later(recording.stop())
+            else:
+                self._host.notify("Nothing is recorded; record begins it.")
+        elif folder:
+            self._host.notify(f"{folder} is being recorded; record stop ends it.", severity="warning")
+        else:
+            self._tell_later(recording.start(words[0] if words else f"rosbag2_{time.strftime(STAMP)}"))
+
+    def _tell_later(self, answer: Future[Answer]) -> None:
+        answer.add_done_callback(lambda done: self._host.call_later(self._tell, done))
+
+    def _tell(self, done: Future[Answer]) -> None:
+        error = done.exception()
+        answer = Answer(False, str(error)) if error else done.result()
+        self._host.notify(answer.text, severity="information" if answer.ok else "error")
+
+
+def _done(names: Sequence[str]) -> Future[Sequence[str]]:
+    future: Future[Sequence[str]] = Future()
+    future.set_result(names)
+    return future

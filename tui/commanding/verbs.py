@@ -1,0 +1,92 @@
+"""The console's own verbs of the command line; everything else is a line of `ros2`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from bot_console.tui.console.model import ConsoleSnapshot, ParameterInfo, Value
+from bot_console.tui.format import parse_value
+
+
+@dataclass(frozen=True)
+class Verb:
+    """A verb: how it is written, what it does, and what stands at its places."""
+
+    usage: str
+    about: str
+    least: int = 0
+    most: int = 99
+    """Words that must, and may, follow it."""
+
+
+VERBS: Mapping[str, Verb] = {
+    "help": Verb("help [VERB]", "all commands, or one", most=1),
+    "layout": Verb("layout NAME", "show a layout", 1, 1),
+    "plot": Verb("plot PATH ...", "curves of the plot: /topic/field or /node:parameter", 1),
+    "record": Verb("record [FOLDER] | record stop", "record all topics into a bag; end that", most=1),
+    "release": Verb("release", "let the robot move again", most=0),
+    "set": Verb("set NODE PARAMETER VALUE", "set a parameter", 3),
+    "stop": Verb("stop", "ALL STOP: hold the robot", most=0),
+}
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A parameter and the value that it is to have."""
+
+    node: str
+    name: str
+    value: Value
+
+
+def setting_of(words: Sequence[str], snapshot: ConsoleSnapshot) -> Setting:
+    """What `set NODE PARAMETER VALUE` means; raises `ValueError` with the mend."""
+    node, name, text = words[0], words[1], " ".join(words[2:])
+    parameter = _parameter(node, name, snapshot)
+    return Setting(parameter.node, name, parse_value(text, parameter))
+
+
+def _parameter(node: str, name: str, snapshot: ConsoleSnapshot) -> ParameterInfo:
+    tree = snapshot.parameters.get(f"/{node.lstrip('/')}")
+    if tree is None:
+        raise ValueError(f"there is no node {node} with parameters; tab shows those that are there")
+    found = tree.get(name)
+    if found is None:
+        raise ValueError(f"{tree.node} has no parameter {name}; tab shows those it has")
+    return found
+
+
+def wrong_use(words: Sequence[str]) -> str:
+    """What is wrong with the number of words after a verb of ours; empty when nothing is."""
+    verb = VERBS[words[0]]
+    return "" if verb.least <= len(words) - 1 <= verb.most else f"write it as: {verb.usage}"
+
+
+def places(
+    before: Sequence[str],
+    snapshot: ConsoleSnapshot,
+    layouts: Callable[[], Sequence[str]],
+    paths: Callable[[], Sequence[str]],
+) -> Sequence[str]:
+    """What may follow the words of a verb of ours."""
+    verb, *given = before
+    if verb == "set":
+        tree = snapshot.parameters.get(f"/{given[0].lstrip('/')}") if given else None
+        if not given:
+            return sorted(snapshot.parameters)
+        if tree is None or len(given) > 2:
+            return ()
+        found = tree.get(given[1]) if len(given) == 2 else None
+        if len(given) == 2:
+            return ("true", "false") if found and isinstance(found.value, bool) else ()
+        return [each.name for each in tree.parameters if not each.read_only]
+    if verb == "plot":
+        return paths()
+    if verb == "layout" and not given:
+        return layouts()
+    if verb == "help" and not given:
+        return sorted(VERBS)
+    if verb == "record":
+        return ("stop",) if not given else ()
+    return ()

@@ -1,0 +1,199 @@
+"""The command line below the panes: completed with Tab, with the lines of earlier runs."""
+
+from __future__ import annotations
+
+from typing import ClassVar, Protocol
+
+from bot_console.tui.commanding.completing import Completion, extended, split
+from bot_console.tui.commanding.history import LineHistory
+from bot_console.tui.format import cut, harmless
+from bot_console.tui.keymap import bindings
+from rich.cells import cell_len
+from rich.text import Text
+from textual.app import ComposeResult
+from textual.binding import BindingType
+from textual.containers import Horizontal, Vertical
+from textual.widget import Widget
+from textual.widgets import Input, Label, Static
+
+HINT = "tab completes · ↑ ↓ lines that begin so · ^r lines that have it · esc closes"
+
+
+class Lines(Protocol):
+    """What runs lines."""
+
+    def wrong(self, line: str) -> str:
+        """What is wrong with a line; empty when nothing is."""
+        ...
+
+    def outlook(self, line: str) -> str:
+        """What will come of it, or how it is written."""
+        ...
+
+    def run(self, line: str) -> None:
+        """Run it."""
+        ...
+
+
+class CommandField(Vertical):
+    """A line, what it may become above it, what is wrong with it beside it."""
+
+    DEFAULT_CSS = """
+    CommandField { display: none; height: 2; background: $panel; }
+    CommandField.open { display: block; }
+    CommandField Static { height: 1; background: $panel; color: $text-muted; padding: 0 1; text-wrap: nowrap; }
+    CommandField Horizontal { height: 1; background: $panel; }
+    CommandField Label { width: auto; color: $text-muted; padding: 0 0 0 1; }
+    CommandField Input { border: none; height: 1; padding: 0; background: $panel; width: 1fr; }
+    CommandField Input:focus { border: none; }
+    CommandField .wrong { color: $warning; padding: 0 1; }
+    """
+    BINDINGS: ClassVar[list[BindingType]] = [*bindings("command")]
+
+    def __init__(self, lines: Lines, completion: Completion) -> None:
+        super().__init__()
+        self._lines = lines
+        self._completion = completion
+        self._history = LineHistory()
+        self._before: Widget | None = None
+        self._tried = -1
+        """Which of the candidates stands in the line; -1: what was typed."""
+        self._typed = ""
+        """What stood there before the first of them."""
+        self._own_change = ""
+
+    def compose(self) -> ComposeResult:
+        """Candidates; the line."""
+        yield Static("", markup=False, id="command-candidates")
+        with Horizontal():
+            yield Label(":", markup=False)
+            yield Input(id="command-input", select_on_focus=False)
+            yield Label("", markup=False, classes="wrong", id="command-wrong")
+
+    @property
+    def _field(self) -> Input:
+        return self.query_one("#command-input", Input)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether a line is being typed."""
+        return self.has_class("open")
+
+    def open(self) -> None:
+        """Take the keyboard; the line is empty."""
+        if self.is_open:
+            return
+        self._before = self.screen.focused
+        self._history.stay()
+        self._put("")
+        self.add_class("open")
+        # At once, not by `focus`, which comes after the keys that are already on their way.
+        self.screen.set_focus(self._field)
+        self._begin()
+
+    def close(self) -> None:
+        """Vanish, and give the keyboard back to whom it was taken from."""
+        self.remove_class("open")
+        self._completion.forget()
+        if self.screen.focused is self._field:
+            self.screen.set_focus(self._before)
+        self._before = None
+
+    def look(self) -> None:
+        """Show candidates that have come meanwhile; called now and then."""
+        if self.is_open and self._tried < 0:
+            self._show()
+
+    def _put(self, text: str) -> None:
+        self._own_change = text
+        self._field.value = text
+        self._field.cursor_position = len(text)
+
+    def _begin(self) -> None:
+        """Complete from what stands there now."""
+        self._tried, self._typed = -1, self._field.value
+        self._complain("")
+        self._show()
+
+    def on_input_changed(self, event: Input.Changed) -> None:
+        """Find what may come next."""
+        event.stop()
+        if self.is_open and event.value != self._own_change:
+            self._own_change = "\0"
+            self._history.stay()
+            self._begin()
+
+    def on_input_submitted(self, event: Input.Submitted) -> None:
+        """Run the line, or say what is wrong with it."""
+        event.stop()
+        line = event.value.strip()
+        wrong = self._lines.wrong(line) if line else ""
+        if wrong:
+            self._complain(wrong)
+            return
+        self.close()
+        if line:
+            self._history.add(line)
+            self._lines.run(line)
+
+    def on_descendant_blur(self) -> None:
+        """Give up when the keyboard goes to a pane; nobody has it when the terminal loses it."""
+        focused = self.screen.focused
+        if self.is_open and focused is not None and focused is not self._field:
+            self.close()
+
+    def _complain(self, wrong: str) -> None:
+        said = wrong or self._lines.outlook(self._field.value)
+        self.query_one("#command-wrong", Label).update(harmless(cut(said, max(10, self.size.width * 2 // 3))))
+
+    def _show(self) -> None:
+        found = self._completion.found(self._typed)
+        waits = self._completion.waits
+        text = Text()
+        if not found:
+            text.append("looking ..." if waits else HINT)
+        first = 0 if self._tried < 0 else max(0, self._tried - 2)
+        for index, each in enumerate(found[first:], first):
+            name = harmless(each)
+            if text.cell_len + cell_len(name) > max(20, self.size.width - 12):
+                text.append(f"  +{len(found) - index}")
+                break
+            text.append(name, "reverse" if index == self._tried else "")
+            text.append("  ")
+        shown = self.query_one("#command-candidates", Static)
+        if getattr(shown, "said", None) != (text.plain, text.spans):
+            shown.said = (text.plain, text.spans)  # type: ignore[attr-defined] -- what is drawn already
+            shown.update(text, layout=False)
+
+    def action_complete(self, step: int) -> None:
+        """Complete the word as far as all candidates agree; then one candidate after the other."""
+        found = self._completion.found(self._typed)
+        if not found:
+            return
+        before, begun = split(self._typed)
+        longer = extended(found, begun)
+        if self._tried < 0 and len(longer) > len(begun) and len(found) > 1:
+            self._put(" ".join([*before, longer]))
+            self._begin()
+            return
+        if len(found) == 1:
+            self._put(" ".join([*before, found[0]]) + " ")
+            self._begin()
+            return
+        self._tried = (self._tried + step) % len(found) if self._tried >= 0 else (0 if step > 0 else len(found) - 1)
+        self._put(" ".join([*before, found[self._tried]]))
+        self._show()
+
+    def action_history(self, step: int) -> None:
+        """An earlier line that begins as this one does, or a later one."""
+        self._put(self._history.step(self._field.value, step))
+        self._begin()
+
+    def action_search_history(self) -> None:
+        """An earlier line that has what was typed."""
+        self._put(self._history.step(self._field.value, -1, anywhere=True))
+        self._begin()
+
+    def action_give_up(self) -> None:
+        """Close without running anything."""
+        self.close()
