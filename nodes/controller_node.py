@@ -26,7 +26,7 @@ class MotionController(Node):
     """Publishes `cmd_vel` from `cmd_vel_desired`, `goal_pose`, and the `route` while `follow_route` is true."""
 
     def __init__(self) -> None:
-        super().__init__("motion_controller")
+        super().__init__("motion_controller", enable_logger_service=True)
         self.declare_parameter("kp_linear", 3.0, number("Gain from speed or distance error (1/s)", 0.1, 20.0))
         self.declare_parameter("kp_angular", 6.0, number("Gain from turn rate or heading error (1/s)", 0.1, 20.0))
         self.declare_parameter("max_acceleration", 1.0, number("Maximum linear acceleration (m/s²)", 0.1, 10.0))

@@ -45,7 +45,7 @@ class Navigator(Node):
     """One goal at a time; a newer one takes its place."""
 
     def __init__(self) -> None:
-        super().__init__("bt_navigator")
+        super().__init__("bt_navigator", enable_logger_service=True)
         self.declare_parameter("max_speed", 0.4, number("Fastest on a way (m/s)", 0.05, 3.0))
         self.declare_parameter("max_turn_rate", 1.0, number("Fastest turn (rad/s)", 0.1, 4.0))
         self.declare_parameter("xy_goal_tolerance", 0.15, number("How near a goal counts as reached (m)", 0.02, 1.0))

@@ -31,7 +31,7 @@ class Presets(Node):
     """Sets are applied all or nothing: where a node refuses, those that had taken their values are put back."""
 
     def __init__(self) -> None:
-        super().__init__("presets")
+        super().__init__("presets", enable_logger_service=True)
         self.declare_parameter(
             "folder", str(preset_files.default_folder()), plain("Folder with a file for each preset")
         )

@@ -24,7 +24,7 @@ class RobotNavigator(Node):
     """Turns scans into velocity commands."""
 
     def __init__(self) -> None:
-        super().__init__("robot_navigator")
+        super().__init__("robot_navigator", enable_logger_service=True)
         self.declare_parameter("max_speed", 1.0, number("Maximum linear velocity (m/s)", 0.1, 5.0))
         self.declare_parameter("safety_distance", 0.5, number("Minimum obstacle clearance (m)", 0.1, 2.0))
         self.declare_parameter(

@@ -43,7 +43,7 @@ class SafetyMonitor(Node):
     """
 
     def __init__(self) -> None:
-        super().__init__("safety_monitor")
+        super().__init__("safety_monitor", enable_logger_service=True)
         self._declare()
         self._steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._robot_time = RobotTime(self, self._steady)

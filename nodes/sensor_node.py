@@ -19,7 +19,7 @@ class SensorHandler(Node):
     """Publishes `scan_filtered` and `detections`."""
 
     def __init__(self) -> None:
-        super().__init__("sensor_handler")
+        super().__init__("sensor_handler", enable_logger_service=True)
         self.declare_parameter("update_rate", 10.0, number("Rate of the filtered scan (Hz)", 0.5, 50.0))
         self.declare_parameter("filter_enabled", True, plain("Take out single stray beams"))
         self.declare_parameter(

@@ -47,7 +47,7 @@ class Simulator(Node):
     """
 
     def __init__(self) -> None:
-        super().__init__("simulator")
+        super().__init__("simulator", enable_logger_service=True)
         declare(self)
         trouble = problem(self, ())
         if trouble:

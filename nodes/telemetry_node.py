@@ -23,7 +23,7 @@ class TelemetryPublisher(Node):
     """Publishes `telemetry/...`, and a summary on `diagnostics` while `include_diagnostics` is true."""
 
     def __init__(self) -> None:
-        super().__init__("telemetry_publisher")
+        super().__init__("telemetry_publisher", enable_logger_service=True)
         self.declare_parameter("publish_rate", 1.0, number("Rate of the telemetry topics (Hz)", 0.1, 50.0))
         self.declare_parameter("include_diagnostics", True, plain("Publish a summary on the topic diagnostics"))
         self.add_post_set_parameters_callback(self._apply)

@@ -191,6 +191,15 @@ def test_a_logger_level_is_set_where_the_node_offers_it(rig: Rig) -> None:
     assert not answer.ok and "/nobody" in answer.text
 
 
+def test_the_levels_of_a_nodes_loggers_are_told(rig: Rig) -> None:
+    rig.console.set_logger_level(ROBOT, Severity.ERROR, "robot.arm").result(PATIENCE)
+    rig.console.set_logger_level(ROBOT, Severity.WARN).result(PATIENCE)
+    levels = {each.logger: each.severity for each in rig.console.logger_levels(ROBOT).result(PATIENCE)}
+    assert levels["robot"] is Severity.WARN
+    with pytest.raises(ValueError, match="/nobody"):
+        rig.console.logger_levels("/nobody").result(PATIENCE)
+
+
 def test_the_last_word_of_a_console_is_zero_velocity(rig: Rig) -> None:
     drive_until_heard(rig, 1.0, 0.5)
     rig.console.close()

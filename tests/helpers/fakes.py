@@ -30,7 +30,7 @@ from bot_console.tui.console.parameters.file import save
 from bot_console.tui.console.parameters.journal import Journal, Move, Step
 from bot_console.tui.console.parameters.origin import origin_text
 from bot_console.tui.console.parameters.profiles import differences
-from bot_console.tui.console.protocol import Answer, LogSource, LogView, Stream
+from bot_console.tui.console.protocol import Answer, LoggerLevel, LogSource, LogView, Stream
 from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.console.values import refusal
 from fake_profiles import CLOSED, FakeProfiles
@@ -75,6 +75,8 @@ class FakeConsole(FakeProfiles, FakeSeries):
         """What profiles would change, where that is scripted; else it follows from their values."""
         self.past = {}
         self.now = 60.0
+        self.levels: dict[str, Severity] = {}
+        """Levels of loggers that were set."""
         self.closed = False
         self._steps = Journal()
         self._watched = {}
@@ -305,11 +307,22 @@ class FakeConsole(FakeProfiles, FakeSeries):
             )
         return done(Answer(True))
 
-    def set_logger_level(self, node: str, severity: Severity) -> Future[Answer]:
+    def set_logger_level(self, node: str, severity: Severity, logger: str = "") -> Future[Answer]:
         known = {each.name for each in self.current.graph.services}
         if self.closed or (known and f"{node}/set_logger_levels" not in known):
             return done(Answer(False, CLOSED if self.closed else f"{node} offers no logger service"))
-        return done(Answer(True))
+        self.levels[logger or node.strip("/").replace("/", ".")] = severity
+        return done(Answer(True, f"{logger or node} logs {severity.name} and worse"))
+
+    def logger_levels(self, node: str) -> Future[tuple[LoggerLevel, ...]]:
+        known = {each.name for each in self.current.graph.services}
+        if self.closed or (known and f"{node}/set_logger_levels" not in known):
+            failed: Future[tuple[LoggerLevel, ...]] = Future()
+            failed.set_exception(ValueError(CLOSED if self.closed else f"{node} offers no logger service"))
+            return failed
+        own = node.strip("/").replace("/", ".")
+        found = {own: Severity.UNSET, **{each: level for each, level in self.levels.items() if each.startswith(own)}}
+        return done(tuple(LoggerLevel(node, each, level) for each, level in found.items()))
 
     def profile_differences(self, name: str) -> Sequence[ProfileDifference]:
         scripted = self.differences.get(name)

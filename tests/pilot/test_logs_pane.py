@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
-from bot_console.tui.console.model import Severity
+from bot_console.tui.console.model import Endpoint, Severity
 from bot_console.tui.panes.history.pane import HistoryPane
 from bot_console.tui.panes.logs.pane import LogsPane
 from bot_console.tui.panes.logs.rows import LogRows
@@ -214,5 +215,22 @@ def test_what_was_before_a_line_and_its_moment_in_the_plot() -> None:
         assert session.pane(PlotPane).display and cursor.stamp == START
         await session.press("2", "escape")
         assert cursor.stamp is None
+
+    run(live(), play)
+
+
+def test_levels_of_loggers_are_set_where_a_node_offers_it() -> None:
+    async def play(session: Session) -> None:
+        graph = session.console.current.graph
+        offered = Endpoint("/robot_navigator/set_logger_levels", ("rcl_interfaces/srv/SetLoggerLevels",))
+        session.console.change(graph=replace(graph, services=(*graph.services, offered)))
+        await session.press("2", "l")
+        assert "robot_navigator   D  I  W  E  F   as its parent" in session.text()
+        assert "offer no logger service" in session.text()
+        await session.press("w")
+        assert "robot_navigator   D  I [W] E  F   WARN and worse" in session.text()
+        assert session.console.levels == {"robot_navigator": Severity.WARN}
+        await session.press("u")
+        assert session.console.levels == {"robot_navigator": Severity.UNSET}
 
     run(live(), play)

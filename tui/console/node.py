@@ -14,6 +14,7 @@ import rclpy
 from bot_console.tui.console.calls import Calls, NoAnswer
 from bot_console.tui.console.graph.watch import GraphEvents, GraphWatch
 from bot_console.tui.console.launch.output import Add
+from bot_console.tui.console.logs.levels import LoggerLevels
 from bot_console.tui.console.model import (
     ChangeSource,
     GraphInfo,
@@ -34,14 +35,13 @@ from bot_console.tui.console.parameters.provenance import Provenance
 from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.console.parameters.setter import ParameterSetter
 from bot_console.tui.console.plot.watch import PlotWatch
-from bot_console.tui.console.protocol import Answer
+from bot_console.tui.console.protocol import Answer, LoggerLevel
 from bot_console.tui.console.robot.drive_node import DriveNode
 from bot_console.tui.console.robot.world_watch import WorldWatch
 from bot_console.tui.console.sights.room import NodeSights
 from bot_console.tui.console.topics.room import NodeTraffic
 from bot_console.tui.files.save_file import NotSaved, typed_path
-from rcl_interfaces.msg import Log, LoggerLevel
-from rcl_interfaces.srv import SetLoggerLevels
+from rcl_interfaces.msg import Log
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
@@ -90,6 +90,7 @@ class ConsoleNode:
         """Names of the loggers that `/rosout` has brought lines of."""
         self.journal = Journal(history=history)
         self.calls = Calls(self.node, self.executor)
+        self._levels = LoggerLevels(self.calls, self.loggers)
         self.plots = PlotWatch(self.node)
         self.world = WorldWatch(self.node)
         self._drive_node = DriveNode(self.context)
@@ -178,20 +179,13 @@ class ConsoleNode:
             return Answer(False, str(error))
         return Answer(bool(getattr(response, "success", True)), str(getattr(response, "message", "")) or repr(response))
 
-    def set_logger_level(self, node: str, severity: Severity) -> Future[Answer]:
-        """Set a node's logger level through its logger service, where it has one."""
-        return self.calls.run(self._set_logger_level(node, severity), _not_done)
+    def set_logger_level(self, node: str, severity: Severity, logger: str) -> Future[Answer]:
+        """Set a logger's level through its node's logger service, where it has one."""
+        return self.calls.run(self._levels.set(node, severity, logger), _not_done)
 
-    async def _set_logger_level(self, node: str, severity: Severity) -> Answer:
-        level = LoggerLevel(name=node.strip("/").replace("/", "."), level=int(severity))
-        try:
-            answer = await self.calls.ask(
-                SetLoggerLevels, f"{node}/set_logger_levels", SetLoggerLevels.Request(levels=[level])
-            )
-        except NoAnswer:
-            return Answer(False, f"{node} offers no logger service; create it with enable_logger_service=True")
-        result = answer.results[0]
-        return Answer(result.successful, result.reason or f"{node} logs {severity.name} and worse")
+    def logger_levels(self, node: str) -> Future[tuple[LoggerLevel, ...]]:
+        """The levels of a node's loggers."""
+        return self.calls.run(self._levels.of(node))
 
     def set(
         self, node: str, values: Mapping[str, Value], source: ChangeSource, *, atomically: bool

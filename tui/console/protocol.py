@@ -125,6 +125,15 @@ class Answer:
     text: str = ""
 
 
+@dataclass(frozen=True, slots=True)
+class LoggerLevel:
+    """From which severity on a logger logs; UNSET: from that of its parent on."""
+
+    node: str
+    logger: str
+    severity: Severity
+
+
 class ConsoleReading(Protocol):
     """What is known of a ROS system."""
 
@@ -274,8 +283,12 @@ class Console(ConsoleReading, Protocol):
         """Call any service with the given request fields."""
         ...
 
-    def set_logger_level(self, node: str, severity: Severity) -> Future[Answer]:
-        """Set a node's logger level live."""
+    def set_logger_level(self, node: str, severity: Severity, logger: str = "") -> Future[Answer]:
+        """Set the level of a node's logger live, or of a child of it; UNSET is that of its parent."""
+        ...
+
+    def logger_levels(self, node: str) -> Future[tuple[LoggerLevel, ...]]:
+        """The levels of a node's logger and of its children that have logged; raises `ValueError` with the reason."""
         ...
 
     def apply_profile(self, name: str, *, reset_world: bool = False) -> Future[tuple[SetOutcome, ...]]:

@@ -10,6 +10,7 @@ from bot_console.tui.keymap import TABLE
 from bot_console.tui.keys.key import Key
 from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.panes.broken import BrokenPane
+from bot_console.tui.panes.logs.levels_screen import LevelsScreen
 from bot_console.tui.panes.logs.rules_screen import RulesScreen
 from bot_console.tui.screens.arrange import ArrangeScreen
 from bot_console.tui.screens.box import Boxed
@@ -40,6 +41,7 @@ SCREENS = {
     "form": ArgumentsScreen,
     "fill": FillScreen,
     "rules": RulesScreen,
+    "levels": LevelsScreen,
     "tuning": TuningScreen,
 }
 OWNERS = {

@@ -27,7 +27,7 @@ from bot_console.tui.console.model import (
 )
 from bot_console.tui.console.node import ConsoleNode
 from bot_console.tui.console.parameters.shelf import Shelf
-from bot_console.tui.console.protocol import Answer, LogSource, LogView, Samples
+from bot_console.tui.console.protocol import Answer, LoggerLevel, LogSource, LogView, Samples
 from bot_console.tui.console.recording import Recording, RingSize
 from bot_console.tui.console.robot.robot_model import Pose
 from bot_console.tui.console.sights.model import Sights
@@ -188,9 +188,13 @@ class LinkedConsole:
         """Call any service."""
         return self._node.call(service, type_name, fields)
 
-    def set_logger_level(self, node: str, severity: Severity) -> Future[Answer]:
-        """Set a node's logger level."""
-        return self._node.set_logger_level(node, severity)
+    def set_logger_level(self, node: str, severity: Severity, logger: str = "") -> Future[Answer]:
+        """Set a logger's level."""
+        return self._node.set_logger_level(node, severity, logger)
+
+    def logger_levels(self, node: str) -> Future[tuple[LoggerLevel, ...]]:
+        """The levels of a node's loggers."""
+        return self._node.logger_levels(node)
 
     def profile_differences(self, name: str) -> Sequence[ProfileDifference]:
         """What a profile would change."""

@@ -17,7 +17,16 @@ from bot_console.tui.console.model import (
     Severity,
     Value,
 )
-from bot_console.tui.console.protocol import Answer, ConsoleReading, LogFindings, LogSource, LogView, Samples, Stream
+from bot_console.tui.console.protocol import (
+    Answer,
+    ConsoleReading,
+    LogFindings,
+    LoggerLevel,
+    LogSource,
+    LogView,
+    Samples,
+    Stream,
+)
 from bot_console.tui.console.recording import Recording, RecordingInfo
 from bot_console.tui.console.robot.robot_model import Pose
 from bot_console.tui.console.sights.idle import IdleSights
@@ -219,9 +228,15 @@ class NoConsole:
         """Refused."""
         return done(self._refusal)
 
-    def set_logger_level(self, node: str, severity: Severity) -> Future[Answer]:
+    def set_logger_level(self, node: str, severity: Severity, logger: str = "") -> Future[Answer]:
         """Refused."""
         return done(self._refusal)
+
+    def logger_levels(self, node: str) -> Future[tuple[LoggerLevel, ...]]:
+        """Refused: the future raises `ValueError`."""
+        refused: Future[tuple[LoggerLevel, ...]] = Future()
+        refused.set_exception(ValueError(self._why))
+        return refused
 
     def apply_profile(self, name: str, *, reset_world: bool = False) -> Future[tuple[SetOutcome, ...]]:
         """Refused: the future raises `ValueError`."""

@@ -32,7 +32,7 @@ from bot_console.tui.console.model import (
     Value,
 )
 from bot_console.tui.console.parameters.provenance import Learn, Provenance
-from bot_console.tui.console.protocol import Answer, Console, LogSource, LogView, Samples
+from bot_console.tui.console.protocol import Answer, Console, LoggerLevel, LogSource, LogView, Samples
 from bot_console.tui.console.recording import Recording, RingSize
 from bot_console.tui.console.robot.robot_model import Pose
 from bot_console.tui.console.sights.model import Sights
@@ -305,9 +305,13 @@ class RosConsole:
         """Call any service."""
         return self._now.call(service, type_name, fields)
 
-    def set_logger_level(self, node: str, severity: Severity) -> Future[Answer]:
-        """Set a node's logger level."""
-        return self._now.set_logger_level(node, severity)
+    def set_logger_level(self, node: str, severity: Severity, logger: str = "") -> Future[Answer]:
+        """Set a logger's level."""
+        return self._now.set_logger_level(node, severity, logger)
+
+    def logger_levels(self, node: str) -> Future[tuple[LoggerLevel, ...]]:
+        """The levels of a node's loggers."""
+        return self._now.logger_levels(node)
 
     def profile_differences(self, name: str) -> Sequence[ProfileDifference]:
         """What a profile would change."""

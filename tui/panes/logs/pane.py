@@ -14,6 +14,7 @@ from bot_console.tui.format import LETTERS, harmless
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.logs.before import happened_before, options_of
 from bot_console.tui.panes.logs.filtering import Filtering
+from bot_console.tui.panes.logs.levels_screen import LevelsScreen
 from bot_console.tui.panes.logs.likeness import options_like
 from bot_console.tui.panes.logs.rows import LogRows
 from bot_console.tui.panes.logs.rules import RuleBook
@@ -261,6 +262,10 @@ class LogsPane(ListPane):
     def action_rules(self) -> None:
         """Show and change what is hidden and what stands out."""
         self.host.push_screen(RulesScreen(self._filtering.rules, self._search))
+
+    def action_levels(self) -> None:
+        """Show the levels of loggers, to set them."""
+        self.host.push_screen(LevelsScreen(self.console, self.console.snapshot().graph))
 
     def stands_on_match(self, words: str) -> bool:
         """Every line that is shown matches the filter."""

@@ -21,7 +21,7 @@ from textual.binding import BindingType
 from textual.containers import Vertical
 from textual.screen import ModalScreen
 
-HINT = "space on/off · enter words · c colour · a add · d delete · esc closes"
+HINT = "space on/off · enter words · c colour · a add · d delete · esc"
 
 
 class RuleRows(ItemList[Rule]):

@@ -1,0 +1,62 @@
+"""Levels of loggers, asked and set live by the logger services of their nodes."""
+
+from __future__ import annotations
+
+from collections.abc import Container, Iterable
+from typing import Protocol
+
+from bot_console.tui.console.calls import Calls, NoAnswer
+from bot_console.tui.console.model import Severity
+from bot_console.tui.console.protocol import Answer, LoggerLevel
+from rcl_interfaces.msg import LoggerLevel as LevelMessage
+from rcl_interfaces.srv import GetLoggerLevels, SetLoggerLevels
+
+NONE_OFFERED = "offers no logger service; create it with enable_logger_service=True"
+
+
+class Names(Iterable[str], Container[str], Protocol):
+    """Names of loggers."""
+
+
+class LoggerLevels:
+    """Asks nodes in the console's executor."""
+
+    def __init__(self, calls: Calls, heard: Names) -> None:
+        """`heard` are the loggers that have logged: a node cannot be asked for those it has."""
+        self._calls = calls
+        self._heard = heard
+
+    async def of(self, node: str) -> tuple[LoggerLevel, ...]:
+        """The levels of a node's logger and of its children that have logged; raises `ValueError` with the reason."""
+        own = logger_of(node)
+        names = [own, *sorted(each for each in tuple(self._heard) if each.startswith(f"{own}."))]
+        try:
+            answer = await self._calls.ask(
+                GetLoggerLevels, f"{node}/get_logger_levels", GetLoggerLevels.Request(names=names)
+            )
+        except NoAnswer as error:
+            raise ValueError(f"{node} {NONE_OFFERED}" if "no service" in str(error) else str(error)) from None
+        return tuple(LoggerLevel(node, each.name, severity_of(each.level)) for each in answer.levels)
+
+    async def set(self, node: str, severity: Severity, logger: str) -> Answer:
+        """Set the level of a node's logger, or of a child of it."""
+        level = LevelMessage(name=logger or logger_of(node), level=int(severity))
+        try:
+            answer = await self._calls.ask(
+                SetLoggerLevels, f"{node}/set_logger_levels", SetLoggerLevels.Request(levels=[level])
+            )
+        except NoAnswer:
+            return Answer(False, f"{node} {NONE_OFFERED}")
+        result = answer.results[0]
+        says = f"{level.name} logs {severity.name} and worse" if severity else f"{level.name} logs as its parent does"
+        return Answer(result.successful, result.reason or says)
+
+
+def logger_of(node: str) -> str:
+    """The name of a node's own logger: that of `/arm/left` is `arm.left`."""
+    return node.strip("/").replace("/", ".")
+
+
+def severity_of(level: int) -> Severity:
+    """The severity with a number, or the next above it."""
+    return next((each for each in Severity if each >= level), Severity.FATAL)

@@ -1,0 +1,119 @@
+"""Levels of the loggers of all nodes, set live: what a node does not log nobody needs to hide."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from concurrent.futures import Future
+from functools import partial
+from typing import ClassVar
+
+from bot_console.tui import keymap
+from bot_console.tui.console.model import GraphInfo, Severity
+from bot_console.tui.console.protocol import Answer, Console, LoggerLevel
+from bot_console.tui.format import LETTERS, cut, harmless
+from bot_console.tui.panes.pane import answer_of
+from bot_console.tui.widgets.item_list import ItemList
+from bot_console.tui.widgets.words import Words
+from rich.segment import Segment
+from rich.text import Text
+from textual.app import App, ComposeResult
+from textual.binding import BindingType
+from textual.containers import Vertical
+from textual.screen import ModalScreen
+
+HINT = "d i w e f level · u as its parent · esc closes"
+LEVELS = (Severity.DEBUG, Severity.INFO, Severity.WARN, Severity.ERROR, Severity.FATAL)
+
+
+class LevelRows(ItemList[LoggerLevel]):
+    """One logger a line, with its level among the others."""
+
+    def key(self, item: LoggerLevel) -> object:
+        """A logger stays itself when its level changes."""
+        return item.node, item.logger
+
+    def row(self, index: int, width: int) -> list[Segment]:
+        """The logger, and the levels; the one that is set stands in brackets."""
+        level = self.rows[index]
+        marks = "".join(f"[{LETTERS[each]}]" if each is level.severity else f" {LETTERS[each]} " for each in LEVELS)
+        wide = min(40, max(len(each.logger) for each in self.rows))
+        set_here = f"{level.severity.name} and worse" if level.severity else "as its parent"
+        return [Segment(f" {cut(harmless(level.logger), wide, pad=True)}  {marks}  {set_here}")]
+
+
+class LevelsScreen(ModalScreen[None]):
+    """Asks every node that offers it, and shows what has answered so far."""
+
+    BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("levels")]
+    DEFAULT_CSS = """
+    LevelsScreen { align: center middle; }
+    LevelsScreen Vertical { width: 90%; max-width: 100; height: 60%; background: $panel; border: round $primary;
+                            padding: 0 1; }
+    LevelsScreen RowList { background: $panel; }
+    LevelsScreen Words { background: $panel; padding: 0; }
+    """
+
+    def __init__(self, console: Console, graph: GraphInfo) -> None:
+        super().__init__()
+        self._of_robot = console
+        served = {each.name for each in graph.services}
+        names = [each.name for each in graph.nodes if not each.hidden]
+        self._offering = [each for each in names if f"{each}/set_logger_levels" in served]
+        self._without = len(names) - len(self._offering)
+        self._found: dict[str, Sequence[LoggerLevel]] = {}
+
+    @property
+    def _host(self) -> App[object]:
+        return self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic, and its type is not told
+
+    def compose(self) -> ComposeResult:
+        """The loggers, and what is said of those that are missing."""
+        with Vertical() as box:
+            box.border_title = Text("Levels of loggers")
+            box.border_subtitle = HINT
+            yield LevelRows()
+            yield Words(id="levels-state")
+
+    @property
+    def _list(self) -> LevelRows:
+        return self.query_one(LevelRows)
+
+    def on_mount(self) -> None:
+        """Ask all nodes."""
+        self._list.focus()
+        self._say("")
+        for each in self._offering:
+            self._ask(each)
+
+    def _say(self, what: str) -> None:
+        every = self._without + len(self._offering)
+        without = f"{self._without} of {every} nodes offer no logger service (enable_logger_service=True)"
+        mend = without if self._without else ""
+        self.query_one("#levels-state", Words).say(what or mend)
+
+    def _ask(self, node: str) -> None:
+        answer = self._of_robot.logger_levels(node)
+        answer.add_done_callback(lambda done: self._host.call_later(self._came, node, done))
+
+    def _came(self, node: str, done: Future[tuple[LoggerLevel, ...]]) -> None:
+        if not self.is_mounted:
+            return
+        error = done.exception()
+        if error is not None:
+            self._say(str(error))
+            return
+        self._found[node] = done.result()
+        self._list.exchange([one for each in self._offering for one in self._found.get(each, ())])
+
+    def action_level(self, severity: int) -> None:
+        """Set the level of the logger at the cursor."""
+        level = self._list.current
+        if level is not None:
+            answer = self._of_robot.set_logger_level(level.node, Severity(severity), level.logger)
+            answer.add_done_callback(lambda done: self._host.call_later(partial(self._was_set, level.node), done))
+
+    def _was_set(self, node: str, done: Future[Answer]) -> None:
+        if self.is_mounted:
+            answer = answer_of(done)
+            self._say(answer.text if answer.ok else f"not set: {answer.text}")
+            self._ask(node)
