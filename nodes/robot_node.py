@@ -52,7 +52,7 @@ class RobotNavigator(Node):
         log.info(f" Safety: {'ENABLED' if rules.enable_safety else 'DISABLED'}")
 
     def _read_rules(self) -> Rules:
-        value: Callable[[str], Any] = lambda name: self.get_parameter(name).value  # noqa: E731
+        value: Callable[[str], Any] = lambda name: self.get_parameter(name).value  # noqa: E731 -- short for five reads
         return Rules(
             float(value("max_speed")),
             float(value("safety_distance")),

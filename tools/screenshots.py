@@ -16,10 +16,10 @@ from bot_console.runtime.importer import install
 
 install()
 
-from bot_console.tui.cli.arguments import Options  # noqa: E402
-from bot_console.tui.cli.live.session import Session  # noqa: E402
-from bot_console.tui.panes.parameters.table import ParameterRows  # noqa: E402
-from textual.pilot import Pilot  # noqa: E402
+from bot_console.tui.cli.arguments import Options
+from bot_console.tui.cli.live.session import Session
+from bot_console.tui.panes.parameters.table import ParameterRows
+from textual.pilot import Pilot
 
 FOLDER = Path(__file__).resolve().parents[1] / "docs" / "images"
 LARGE, SMALL = (120, 40), (80, 24)

@@ -23,27 +23,27 @@ from bot_console.runtime.workspace.demos import EXECUTABLES
 
 install()
 
-import rclpy  # noqa: E402
-import yaml  # noqa: E402
-from ament_index_python.packages import get_package_share_directory  # noqa: E402
-from bot_console.tui.cli import arguments as console_arguments  # noqa: E402
-from bot_console.tui.cli.verbs import run as console_run  # noqa: E402
-from bot_console.tui.keymap import TABLE  # noqa: E402
-from bot_console.tui.keys.key import key_text  # noqa: E402
-from bot_console_robot.controller_node import MotionController  # noqa: E402
-from bot_console_robot.robot_node import RobotNavigator  # noqa: E402
-from bot_console_robot.safety_node import SafetyMonitor  # noqa: E402
-from bot_console_robot.sensor_node import SensorHandler  # noqa: E402
-from bot_console_robot.simulator_node import Simulator  # noqa: E402
-from bot_console_robot.telemetry_node import TelemetryPublisher  # noqa: E402
-from launch.launch_description_sources import get_launch_description_from_any_launch_file  # noqa: E402
-from launch.utilities import perform_substitutions  # noqa: E402
-from rcl_interfaces.msg import ParameterDescriptor  # noqa: E402
-from rclpy.node import Node  # noqa: E402
-from rclpy.parameter import Parameter  # noqa: E402
-from ros2cli.command_line import COMMANDS, load  # noqa: E402
+import rclpy
+import yaml
+from ament_index_python.packages import get_package_share_directory
+from bot_console.tui.cli import arguments as console_arguments
+from bot_console.tui.cli.verbs import run as console_run
+from bot_console.tui.keymap import TABLE
+from bot_console.tui.keys.key import key_text
+from bot_console_robot.controller_node import MotionController
+from bot_console_robot.robot_node import RobotNavigator
+from bot_console_robot.safety_node import SafetyMonitor
+from bot_console_robot.sensor_node import SensorHandler
+from bot_console_robot.simulator_node import Simulator
+from bot_console_robot.telemetry_node import TelemetryPublisher
+from launch.launch_description_sources import get_launch_description_from_any_launch_file
+from launch.utilities import perform_substitutions
+from rcl_interfaces.msg import ParameterDescriptor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from ros2cli.command_line import COMMANDS, load
 
-from launch import LaunchContext  # noqa: E402
+from launch import LaunchContext
 
 ROOT = Path(__file__).resolve().parents[1]
 DOCS = ROOT / "docs"

@@ -20,7 +20,7 @@ class Frames:
     """The origin of `map` (m) and of `odom` (m, rad), both in the world."""
 
     map: Point = (0.0, 0.0)
-    odom: Pose = Pose()  # noqa: RUF009 -- frozen
+    odom: Pose = Pose()  # noqa: RUF009 -- Pose is frozen
 
     @classmethod
     def of(cls, world: World, origin: str) -> Frames:

@@ -33,7 +33,7 @@ def fixture(decorated: Callable[..., Any] | None = None, *, shutdown_when_idle: 
             running.close()
 
     described.__name__, described.__doc__, described.__module__ = name, decorated.__doc__, decorated.__module__
-    described.__signature__ = inspect.signature(decorated)  # type: ignore[attr-defined]
+    described.__signature__ = inspect.signature(decorated)  # type: ignore[attr-defined] -- pytest reads it
     made = pytest.fixture(**options)(described)
     setattr(made, _OPTIONS, (name, options.get("scope", "function")))
     return made

@@ -57,7 +57,7 @@ class Cache(SimpleFilter):
         """The time of the newest message; the name is upstream's."""
         return self.cache_times[-1] if self.cache_times else None
 
-    getLatestTime = getLastestTime  # noqa: N815
+    getLatestTime = getLastestTime  # noqa: N815 -- upstream's name
 
     def getOldestTime(self) -> Time | None:
         """The time of the oldest message."""

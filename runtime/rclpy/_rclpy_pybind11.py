@@ -38,7 +38,7 @@ class RMWError(RuntimeError):
     """The middleware refused a call, or got bytes that are no message."""
 
 
-class rmw_qos_policy_kind_t(IntEnum):  # noqa: N801
+class rmw_qos_policy_kind_t(IntEnum):  # noqa: N801 -- upstream's name
     """The policies of events, with the middleware's names; the values are those of `rclpy.qos.QoSPolicyKind`."""
 
     RMW_QOS_POLICY_INVALID = 1 << 0

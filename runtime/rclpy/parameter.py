@@ -163,7 +163,7 @@ def parameter_dict_from_yaml_file(
                 )
             keys.append(node)
     else:
-        keys.extend(key for key in content.keys() if key != "/**")  # noqa: SIM118
+        keys.extend(key for key in content.keys() if key != "/**")  # noqa: SIM118 -- as upstream
     if not keys:
         raise RuntimeError("Param file does not contain selected parameters")
     found: dict[str, Any] = {}

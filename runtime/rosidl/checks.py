@@ -60,7 +60,7 @@ def _range(kind: Type, number: str) -> tuple[Callable[[Any], bool], str]:
     if kind.item in BOUNDS:
         bound, text = BOUNDS[kind.item]
         shown = text if number == "{}" else number.format(bound)
-        fits = lambda value: not (value < -bound or value > bound) or math.isinf(value)  # noqa: E731
+        fits = lambda value: not (value < -bound or value > bound) or math.isinf(value)  # noqa: E731 -- beside its text
         return fits, f"a {kind.item} in [-{shown}, {shown}]"
     return (lambda value: True), ""
 

@@ -64,7 +64,7 @@ def _withheld() -> Generator[int]:
     try:
         yield keys.fileno()
     finally:
-        setattr(sys, "__stdin__", before)  # noqa: B010
+        setattr(sys, "__stdin__", before)  # noqa: B010 -- final for type checkers
         os.dup2(keys.fileno(), 0)
         keys.close()
 

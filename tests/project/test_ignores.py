@@ -1,0 +1,62 @@
+"""What tells a checker to look away says why: on its line, or beside it where it is for a whole file."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+WRITERS = {ROOT / "runtime" / "rosidl" / each for each in ("emit.py", "emit_holder.py")}
+"""They have such lines for what they write, which is generated."""
+ON_A_LINE = re.compile(r"#\s*(?:noqa(?::[ A-Z0-9,]+)?|(?:type|pyright):\s*ignore(?:\[[^\]]*\])?)(?![\w:])(.*)")
+FOR_A_FILE = re.compile(
+    r"^#\s*(?:pyright:\s*(?:(?:report\w+=\w+|basic|standard),?\s*)+|ruff:\s*noqa(?::[ A-Z0-9,]+)?)(.*)"
+)
+WORDS = re.compile(r"[^\W\d_]{2,}")
+
+
+def sources() -> Iterator[Path]:
+    for folder in ("tui", "runtime", "nodes", "launch", "tools"):
+        found = set((ROOT / folder).rglob("*.py")) - WRITERS
+        yield from sorted(each for each in found if "generated" not in each.parts)
+
+
+def without_a_reason(text: str) -> Iterator[int]:
+    """The numbers of the lines that give none."""
+    lines = text.splitlines()
+    for number, (above, line, below) in enumerate(zip(["", *lines], lines, [*lines[1:], ""], strict=False), 1):
+        if match := ON_A_LINE.search(line):
+            said = match[1]
+        elif match := FOR_A_FILE.match(line):
+            said = " ".join([match[1], *(each for each in (above, below) if each.startswith("#"))])
+        else:
+            continue
+        if len(WORDS.findall(said)) < 2:
+            yield number
+
+
+def test_each_has_its_reason() -> None:
+    found = [
+        f"{path.relative_to(ROOT)}:{number}"
+        for path in sources()
+        for number in without_a_reason(path.read_text(encoding="utf-8"))
+    ]
+    assert not found, "\n".join(found)
+
+
+@pytest.mark.parametrize(
+    ("text", "lines"),
+    [
+        ("a = b  # type: ignore\n", [1]),
+        ("a = b  # type: ignore[misc] -- upstream's way\n", []),
+        ("a = b  # pyright: ignore[reportPrivateUsage]\nc = d  # noqa: E731\n", [1, 2]),
+        ("def a():  # noqa: N802 -- ROS's name\n", []),
+        ("# pyright: reportPrivateUsage=false\n\nimport a\n", [1]),
+        ("# pyright: reportPrivateUsage=false\n# One library, as upstream.\n", []),
+    ],
+)
+def test_what_counts_as_one(text: str, lines: list[int]) -> None:
+    assert list(without_a_reason(text)) == lines
