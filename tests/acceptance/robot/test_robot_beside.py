@@ -66,6 +66,15 @@ def test_nodes_that_want_a_robot_drive_ours_and_each_run_is_the_same(tmp_path):
     assert (first["digest"], first["duration"]) == (second["digest"], second["duration"])
 
 
+def test_a_node_that_drives_with_a_time_stamp_moves_it(tmp_path):
+    write(tmp_path, "driver")
+    file = tmp_path / "driver.py"
+    text = file.read_text().replace("import Twist\n", "import Twist, TwistStamped\n")
+    text = text.replace("create_publisher(Twist,", "create_publisher(TwistStamped,")
+    file.write_text(text.replace("publish(twist)", "publish(TwistStamped(twist=twist))"))
+    assert headless(tmp_path, "--duration", "8", "--launch", "mine.launch.py")["distance"] > 0.5
+
+
 def test_a_node_that_starts_late_is_seen(tmp_path):
     write(tmp_path, "TimerAction(period=5.0, actions=[Node(executable='driver.py')])")
     report = headless(tmp_path, "--duration", "12", "--launch", "mine.launch.py")

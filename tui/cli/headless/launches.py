@@ -65,9 +65,9 @@ class Launches:
     def _processes(self) -> tuple[int, int]:
         return self._running, sum(map(delayed_starts, self._services))
 
-    def _start_robot(self) -> None:
+    def _start_robot(self, arguments: Mapping[str, str]) -> None:
         self._robot = NodeProcess("launch", self._clock)
-        self._start(self._robot, robot_beside.LAUNCH_FILE, robot_beside.arguments(self._options))
+        self._start(self._robot, robot_beside.LAUNCH_FILE, arguments)
 
     def _start(self, process: NodeProcess, file: str, arguments: Mapping[str, str]) -> None:
         process.start(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,7 +10,7 @@ from bot_console.runtime.process import NodeProcess
 from bot_console.runtime.workspace.own import ROOT
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.console.model import LaunchInfo, ProcessState
-from bot_console.tui.console.robot.robot_wanted import endpoints, robot_wanted, visible_nodes
+from bot_console.tui.console.robot.robot_wanted import drives_stamped, endpoints, robot_wanted, visible_nodes
 
 LAUNCH_FILE = str(ROOT / "launch" / "simulator.launch.py")
 PERIOD = 0.25
@@ -31,8 +31,8 @@ class System:
     """How many run now, and how many starts are put off to later."""
     tell: Callable[[str], None]
     """Put a line into the log."""
-    start: Callable[[], None]
-    """Launch `LAUNCH_FILE`."""
+    start: Callable[[Mapping[str, str]], None]
+    """Launch `LAUNCH_FILE` with arguments."""
 
 
 class RobotBeside:
@@ -42,8 +42,10 @@ class RobotBeside:
     times are of the steady clock, so that a stepped run decides the same each time.
     """
 
-    def __init__(self, system: System) -> None:
+    def __init__(self, system: System, given: Mapping[str, str]) -> None:
+        """`given` are the arguments that the robot is launched with in any case."""
         self._system = system
+        self._given = given
         self._seen: object = None
         self._rested = 0.0
         self._delayed: float | None = None
@@ -83,7 +85,7 @@ class RobotBeside:
         if why and not (delayed and self._waits(why)):
             self.started = True
             self._system.tell(f"the simulated robot runs beside it, since {why}; --no-simulator leaves it out")
-            self._system.start()
+            self._system.start({**self._given, "stamped": "true"} if drives_stamped(node) else self._given)
 
     def _waits(self, why: str) -> bool:
         """Whether what the launch file starts later may still bring the robot; told once."""
@@ -107,10 +109,10 @@ def begin(options: Options, system: System, clock: Any = None) -> NodeProcess | 
         return None
     if options.simulator:
         system.tell("the simulated robot runs beside it, as --simulator asks")
-        system.start()
+        system.start(arguments(options))
         return None
     process = NodeProcess("robot_beside", clock)
-    process.start(RobotBeside(system).watch, argv=["robot_beside"])
+    process.start(RobotBeside(system, arguments(options)).watch, argv=["robot_beside"])
     return process
 
 

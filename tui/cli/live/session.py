@@ -6,7 +6,7 @@ import contextlib
 import signal
 import sys
 import threading
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from types import FrameType
@@ -132,8 +132,8 @@ class Session:
     def _tell(self, text: str) -> None:
         self.console.printed(Severity.INFO, "bot-console", text)
 
-    def _start_robot(self) -> None:
-        self.launcher.launch(robot_beside.LAUNCH_FILE, robot_beside.arguments(self._options))
+    def _start_robot(self, arguments: Mapping[str, str]) -> None:
+        self.launcher.launch(robot_beside.LAUNCH_FILE, arguments)
 
     def _processes(self) -> tuple[int, int]:
         return robot_beside.processes(self.launcher.info())

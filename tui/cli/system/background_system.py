@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from bot_console.runtime.importer import install
@@ -64,8 +64,8 @@ def _run(options: Options, file: Path) -> int:
     def tell(text: str) -> None:
         host.printed(Severity.INFO, "bot-console", text)
 
-    def start_robot() -> None:
-        launcher.launch(robot_beside.LAUNCH_FILE, robot_beside.arguments(options))
+    def start_robot(arguments: Mapping[str, str]) -> None:
+        launcher.launch(robot_beside.LAUNCH_FILE, arguments)
 
     answer = launcher.launch(options.launch or SYSTEM_LAUNCH, arguments).result()
     if not answer.ok:

@@ -7,7 +7,9 @@ from typing import Any
 
 SOURCES = {"/scan": "sensor_msgs/msg/LaserScan", "/odom": "nav_msgs/msg/Odometry"}
 """What a robot publishes, by resolved names; under another name or type our simulator cannot give it."""
-VELOCITY, TWIST = "/cmd_vel", "geometry_msgs/msg/Twist"
+VELOCITY = "/cmd_vel"
+TWIST, STAMPED = KINDS = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
+"""The types of velocities; a robot takes one of them."""
 
 
 def robot_wanted(node: Any) -> str:
@@ -22,10 +24,17 @@ def robot_wanted(node: Any) -> str:
         for topic, kind in SOURCES.items()
         if (wanting := _visible(node.get_subscriptions_info_by_topic(topic), kind))
     ]
-    drivers = _visible(node.get_publishers_info_by_topic(VELOCITY), TWIST)
-    if drivers and not _visible(node.get_subscriptions_info_by_topic(VELOCITY), TWIST):
-        reasons.append(f"nobody obeys {VELOCITY} of {_listed(drivers)}")
+    for kind in KINDS:
+        drivers = _visible(node.get_publishers_info_by_topic(VELOCITY), kind)
+        if drivers and not _visible(node.get_subscriptions_info_by_topic(VELOCITY), kind):
+            reasons.append(f"nobody obeys {VELOCITY} of {_listed(drivers)}")
     return ", ".join(reasons)
+
+
+def drives_stamped(node: Any) -> bool:
+    """Whether those who drive give their velocities with a time stamp, and none without."""
+    found = node.get_publishers_info_by_topic(VELOCITY)
+    return bool(_visible(found, STAMPED)) and not _visible(found, TWIST)
 
 
 def endpoints(node: Any) -> object:

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 import rclpy
-from bot_console.tui.console.robot.robot_wanted import endpoints, robot_wanted, visible_nodes
+from bot_console.tui.console.robot.robot_wanted import drives_stamped, endpoints, robot_wanted, visible_nodes
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from rclpy.context import Context
@@ -51,6 +51,7 @@ def watcher(node: Nodes) -> Any:
 
 
 SCAN, ODOM, CMD = (LaserScan, "scan"), (Odometry, "/odom"), (Twist, "cmd_vel")
+STAMPED = (TwistStamped, "cmd_vel")
 
 
 def test_each_lack_is_told_with_who_has_it(node, watcher):
@@ -79,16 +80,27 @@ def test_a_base_that_obeys_is_a_robot_for_who_only_drives(node, watcher):
     assert robot_wanted(watcher) == ""
 
 
+def test_who_drives_with_a_time_stamp_wants_a_robot_that_takes_it(node, watcher):
+    assert not drives_stamped(watcher)
+    node("driver", gives=[STAMPED])
+    assert robot_wanted(watcher) == "nobody obeys /cmd_vel of /driver"
+    assert drives_stamped(watcher)
+    base = node("base", wants=[STAMPED])
+    assert robot_wanted(watcher) == ""
+    base.destroy_node()
+    node("other", gives=[CMD])
+    assert not drives_stamped(watcher)
+
+
 @pytest.mark.parametrize(
     "wanting",
     [
         {"wants": [(Twist, "scan")]},
         {"wants": [(LaserScan, "laser")]},
         {"wants": [SCAN], "namespace": "/other"},
-        {"gives": [(TwistStamped, "cmd_vel")]},
         {"name": "_tool", "wants": [SCAN], "gives": [CMD]},
     ],
-    ids=["type", "name", "namespace", "stamped", "hidden"],
+    ids=["type", "name", "namespace", "hidden"],
 )
 def test_what_our_robot_cannot_give_is_not_wanted_of_it(wanting, node, watcher):
     node(wanting.pop("name", "node"), **wanting)
