@@ -17,7 +17,8 @@ HEAD = """
 from collections.abc import Callable, Sequence
 from bot_console.runtime.rmw.bus import Bus, PublisherEndpoint, Thing
 from bot_console.runtime.rmw.endpoints import ClientEndpoint, Endpoint, Message, NodeId, Notify, OnEvent
-from bot_console.runtime.rmw.endpoints import ServiceEndpoint, SubscriptionEndpoint
+from bot_console.runtime.rmw.endpoints import GraphChanged, ServiceEndpoint, SubscriptionEndpoint
+from bot_console.runtime.rmw.graph_tables import GraphTables
 from bot_console.runtime.rmw.middleware import choose_middleware
 """
 BODY = (ROOT / "runtime/rmw/bus.py").read_text().partition("class Bus(Protocol):")[2]

@@ -29,6 +29,7 @@ def test_the_package_is_read_like_any_other_of_a_workspace(tmp_path):
     assert package.build_type == "ament_python"
     assert set(package.executables) == {
         *(
+            "autotune_node",
             "controller_node",
             "navigation_node",
             "preset_node",
