@@ -1,4 +1,4 @@
-"""`bot-console bag record|play|info|snapshot`, as `ros2 bag` has them."""
+"""`bot-console bag record|play|info|open|snapshot`, as `ros2 bag` has them."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -66,6 +67,9 @@ def _parser() -> argparse.ArgumentParser:
     info = verbs.add_parser("info", help="what is in a bag")
     info.set_defaults(run=_info)
     info.add_argument("bag", type=Path)
+    opened = verbs.add_parser("open", help="show what is in a bag in the console, and move through its time")
+    opened.set_defaults(run=_open)
+    opened.add_argument("bag", type=Path)
     snapshot = verbs.add_parser("snapshot", help="let a recorder in snapshot mode write what it keeps")
     snapshot.set_defaults(run=_snapshot)
     return parser
@@ -231,6 +235,28 @@ def _info(given: argparse.Namespace) -> int:
     ]
     lines += [f"{'Topic information:' if not at else '':<19}{topic}" for at, topic in enumerate(topics)]
     print("\n".join(harmless(line) for line in lines))
+    return 0
+
+
+def _open(given: argparse.Namespace) -> int:
+    from bot_console.tui.app import BotConsoleApp
+    from bot_console.tui.cli.arguments import parse
+    from bot_console.tui.cli.look import look_of
+    from bot_console.tui.console.bags.contents import Contents
+    from bot_console.tui.console.bags.opened import OpenedBag
+    from bot_console.tui.console.bags.reader import Bag
+
+    bag = Bag(given.bag)
+    _tell_mended(bag)
+    print(f"Reading {bag.metadata.count} messages ...", file=sys.stderr)
+    contents = Contents(bag)
+    console = OpenedBag(contents, given.bag.resolve().name)
+    options = parse([])
+    notes = [f"{each} is not shown: the bag is too large" for each in contents.left_out]
+    try:
+        BotConsoleApp(console, opening=replace(options.opening, notes=tuple(notes)), look=look_of(options)).run()
+    finally:
+        console.close()
     return 0
 
 

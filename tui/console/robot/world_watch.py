@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -31,7 +31,7 @@ SILENT_S = 1.0
 
 SENSOR = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-PREFERRED = {
+PREFERRED: Mapping[str, tuple[str, ...]] = {
     "nav_msgs/msg/OccupancyGrid": ("map",),
     "nav_msgs/msg/Odometry": ("ground_truth", "odom"),
     "sensor_msgs/msg/LaserScan": ("scan",),
@@ -62,7 +62,7 @@ class WorldWatch:
             each.follow()
         for type_name, wanted in PREFERRED.items():
             offered = {each.name for each in self._publishers(graph) if type_name in each.types}
-            self._use(type_name, _best(offered, wanted))
+            self._use(type_name, best(offered, wanted))
         self._turtles.follow(graph)
 
     def _publishers(self, graph: GraphInfo) -> list[Any]:
@@ -85,10 +85,7 @@ class WorldWatch:
             self._subscriptions[type_name] = OfferedSubscription(self._node, kind, topic, callback, qos, eager=False)
 
     def _on_map(self, message: OccupancyGrid) -> None:
-        meta = message.info
-        origin = Pose(meta.origin.position.x, meta.origin.position.y, heading(meta.origin.orientation))
-        cells = np.asarray(message.data, np.int8).tobytes()  # -1, unknown, is the byte 255
-        self._map = GridMap(meta.width, meta.height, meta.resolution, origin, cells)
+        self._map = grid_of(message)
         self._trail.clear()
         self._fresh = True
 
@@ -140,7 +137,15 @@ class WorldWatch:
         )
 
 
-def _best(offered: set[str], wanted: tuple[str, ...]) -> str:
+def grid_of(message: OccupancyGrid) -> GridMap:
+    """A map as the console shows it."""
+    meta = message.info
+    origin = Pose(meta.origin.position.x, meta.origin.position.y, heading(meta.origin.orientation))
+    cells = np.asarray(message.data, np.int8).tobytes()  # -1, unknown, is the byte 255
+    return GridMap(meta.width, meta.height, meta.resolution, origin, cells)
+
+
+def best(offered: set[str], wanted: tuple[str, ...]) -> str:
     """The offered topic whose last token stands first in the wanted list, else the first by name."""
     ranked = sorted(offered, key=lambda name: (_rank(name.rsplit("/", 1)[-1], wanted), len(name), name))
     return ranked[0] if ranked else ""

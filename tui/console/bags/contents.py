@@ -1,0 +1,115 @@
+"""What a bag holds, read once: messages by topic, the log, parameters and their changes, and where the robot was."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from types import MappingProxyType
+from typing import Any
+
+from bot_console.tui.console.bags.reader import Bag
+from bot_console.tui.console.logs.store import LogStore
+from bot_console.tui.console.model import Change, ChangeSource, ParameterInfo, ParameterTree
+from bot_console.tui.console.robot.past_poses import PastPoses, heading
+from bot_console.tui.console.robot.robot_model import Pose, WorldInfo
+from bot_console.tui.console.robot.world_watch import PREFERRED, TRAIL, TRAIL_STEP, best, grid_of
+from bot_console.tui.console.values import info
+from rcl_interfaces.msg import ParameterDescriptor
+from rclpy.serialization import deserialize_message
+from rosidl_runtime_py.utilities import get_message
+
+MOST = 500_000_000
+"""Bytes of messages that are held; of what is beyond, topics of large messages are left out first."""
+LOG, EVENTS = "rcl_interfaces/msg/Log", "rcl_interfaces/msg/ParameterEvent"
+
+
+class Contents:
+    """The messages of a bag in memory. Raises `NoBag` where it cannot be read."""
+
+    def __init__(self, bag: Bag) -> None:
+        self.metadata = bag.metadata
+        self.left_out: list[str] = []
+        """Topics of which nothing is held, since the bag is too large."""
+        self.logs = LogStore()
+        self.changes: list[Change] = []
+        self.trees: dict[str, ParameterTree] = {}
+        self.past = PastPoses()
+        self.world = WorldInfo()
+        self._messages: dict[str, list[tuple[int, bytes]]] = {name: [] for name in bag.metadata.topics}
+        self._read(bag)
+        for name in self.of_type(LOG):
+            self._each(name, self._log)
+        for name in self.of_type(EVENTS):
+            self._each(name, self._parameters)
+        self._find_world()
+
+    def _read(self, bag: Bag) -> None:
+        held: dict[str, int] = {}
+        for stamp, topic, data in bag.messages():
+            if topic in self.left_out:
+                continue
+            self._messages[topic].append((stamp, data))
+            held[topic] = held.get(topic, 0) + len(data)
+            if sum(held.values()) > MOST:
+                largest = max(held, key=lambda name: held[name])
+                self.left_out.append(largest)
+                self._messages[largest] = []
+                del held[largest]
+
+    def of_type(self, type_name: str) -> list[str]:
+        """The topics of a type."""
+        return [name for name, topic in self.metadata.topics.items() if topic.type == type_name]
+
+    def messages(self, topic: str) -> Iterator[tuple[int, Any]]:
+        """The messages of a topic with the times (ns since the epoch) at which they came.
+
+        Raises `ImportError` and the like where there is no such type here.
+        """
+        kind = get_message(self.metadata.topics[topic].type)
+        for stamp, data in self._messages[topic]:
+            yield stamp, deserialize_message(data, kind)
+
+    def _each(self, topic: str, take: Callable[[int, Any], None]) -> None:
+        for stamp, message in self.messages(topic):
+            take(stamp, message)
+
+    def _log(self, stamp: int, message: Any) -> None:
+        level = message.level[0] if isinstance(message.level, bytes) else int(message.level)
+        sent = message.stamp.sec * 1_000_000_000 + message.stamp.nanosec
+        self.logs.add(sent or stamp, level, message.name, message.msg, (message.file, message.function, message.line))
+
+    def _parameters(self, stamp: int, event: Any) -> None:
+        known = {each.name: each for each in self.trees.get(event.node, ParameterTree(event.node)).parameters}
+        for each in (*event.new_parameters, *event.changed_parameters):
+            before: ParameterInfo | None = known.get(each.name)
+            now = info(event.node, each.value, ParameterDescriptor(name=each.name, type=each.value.type), before)
+            known[each.name] = now
+            if each in event.changed_parameters:
+                old = before.value if before else None
+                change = Change(len(self.changes), stamp, event.node, each.name, old, now.value, ChangeSource.OTHER)
+                self.changes.append(change)
+        for each in event.deleted_parameters:
+            known.pop(each.name, None)
+        self.trees[event.node] = ParameterTree(event.node, tuple(known[name] for name in sorted(known)))
+
+    def _find_world(self) -> None:
+        """The map, the trail and where the robot was."""
+        topics = {kind: best({*self.of_type(kind)}, wanted) for kind, wanted in PREFERRED.items()}
+        maps = topics["nav_msgs/msg/OccupancyGrid"]
+        grid = None
+        for _, message in self.messages(maps) if maps else ():
+            grid = grid_of(message)
+        source = topics["nav_msgs/msg/Odometry"]
+        pose, trail = None, list[tuple[float, float]]()
+        for stamp, message in self.messages(source) if source else ():
+            at = message.pose.pose
+            self.past.add(stamp, at)
+            pose = Pose(at.position.x, at.position.y, heading(at.orientation))
+            if not trail or math.dist(trail[-1], (pose.x, pose.y)) >= TRAIL_STEP:
+                trail.append((pose.x, pose.y))
+        self.world = WorldInfo(grid, pose, source if pose else "", tuple(trail[-TRAIL * 10 :]))
+
+    @property
+    def parameters(self) -> MappingProxyType[str, ParameterTree]:
+        """What parameters were at the end, as far as events told."""
+        return MappingProxyType(self.trees)
