@@ -77,12 +77,13 @@ def test_where_nothing_is_better_than_what_is_the_two_are_one(tmp_path: Path) ->
     assert progress.held_out[0] == progress.held_out[1]
 
 
-def test_a_tuning_that_was_cut_goes_on_where_it_was_and_comes_to_the_same(tmp_path: Path) -> None:
+@pytest.mark.parametrize("left", [10, -1], ids=["within a line", "before its end of line"])
+def test_a_tuning_that_was_cut_goes_on_where_it_was_and_comes_to_the_same(tmp_path: Path, left: int) -> None:
     whole = tuned(tmp_path / "whole", Instant())
     tuned(tmp_path, Instant())
     file = next(tmp_path.glob("*.jsonl"))
     lines = file.read_bytes().splitlines(keepends=True)
-    file.write_bytes(b"".join(lines[:5]) + lines[5][:10])
+    file.write_bytes(b"".join(lines[:5]) + lines[5][:left])
     runner = Instant()
     again = tuned(tmp_path, runner, resume=True)
     assert len(runner.begun) == len(lines) - 5
