@@ -12,11 +12,12 @@ from bot_console.tui import keymap
 from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.commanding.desk import Desk
 from bot_console.tui.console.connection.no_console import NoCommandLine
+from bot_console.tui.console.connection.read_only import ReadOnlyConsole
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import CommandLine, Console, Launcher
 from bot_console.tui.faults import Faults
 from bot_console.tui.files.crash import keep, reason
-from bot_console.tui.format import brief, harmless
+from bot_console.tui.format import brief, counted, harmless
 from bot_console.tui.keys.keyboard import Keyboard
 from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.look import Look
@@ -34,6 +35,7 @@ from bot_console.tui.screens.arrange import ArrangeScreen
 from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.screens.tuning_door import TuningDoor
+from bot_console.tui.terminal.leaving import Leaving
 from bot_console.tui.theme import THEMES
 from bot_console.tui.time_cursor import TimeCursor
 from bot_console.tui.widgets.key_bar import KeyBar
@@ -103,6 +105,7 @@ class BotConsoleApp(RecordingApp, TuningDoor):
         self._quitting = Quitting(self, console)
         self._stopping = Stopping(self, console)
         self.desk = Desk(self, self.stage, self._stopping, console, command_line or NoCommandLine(), self.open)
+        self._leaving = Leaving(self, console, self.redraw, holds=not isinstance(console, ReadOnlyConsole))
         self._safety_news = SafetyNews(console)
         self._plugins = plugins
         self.faults = Faults(self, self, self._panes_changed)
@@ -357,6 +360,22 @@ class BotConsoleApp(RecordingApp, TuningDoor):
         details = keep(error)
         text = f"bot-console: ended by a fault of its own, the robot was stopped: {reason(error)}"
         return text + (f"; details in {details}" if details else "")
+
+    def on_pane_edit_wanted(self, event: Pane.EditWanted) -> None:
+        """Open a line of a file in the person's editor."""
+        event.stop()
+        self._leaving.edit(event.file, event.line)
+
+    def action_sleep(self) -> None:
+        """Give the terminal back to the shell; the robot is held meanwhile."""
+        self._leaving.sleep()
+
+    def on_text_selected(self) -> None:
+        """Text was selected with the mouse: it is on the clipboard."""
+        text = self.screen.get_selected_text()
+        if text:
+            self.copy_to_clipboard(text)
+            self.notify(f"Copied: {counted(len(text), 'letter')}.")
 
     def action_end_stream(self) -> None:
         """End the line that goes on below the panes."""

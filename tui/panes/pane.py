@@ -56,6 +56,14 @@ class Pane(Container):
             super().__init__()
             self.line = line
 
+    class EditWanted(Message):
+        """Somebody wants to see a line of a file in an editor."""
+
+        def __init__(self, file: str, line: int) -> None:
+            super().__init__()
+            self.file = file
+            self.line = line
+
     class PaneWanted(Message):
         """Somebody wants to see something in another pane."""
 

@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from importlib.metadata import version
 from typing import Any, cast
 
+from bot_console.tui.terminal.clipboard import osc52, within
 from bot_console.tui.terminal.closing import let_go
 from bot_console.tui.terminal.difference import ShownScreen
 from bot_console.tui.terminal.gate import AnswerGate
@@ -45,6 +46,8 @@ class SparingApp(App[None]):
         self._shown = ShownScreen(self.plain)
         self._writer: object = None
         self._held = False
+        self._copied = ""
+        """What is on its way to the clipboard."""
 
     def get_default_screen(self) -> Screen[Any]:
         """A screen that composes nothing while nothing may be drawn."""
@@ -70,6 +73,26 @@ class SparingApp(App[None]):
         elif isinstance(event, events.Resize):
             self._shown = ShownScreen(self.plain)
         await super().on_event(event)
+
+    def copy_to_clipboard(self, text: str) -> None:
+        """Put a text on the clipboard of the terminal (OSC 52), as soon as what was written before has left."""
+        kept = within(text)
+        self._clipboard = kept
+        waiting, self._copied = self._copied, osc52(kept)
+        if not waiting:
+            self._send_copied()
+        if len(kept) < len(text):
+            self.notify(f"Only the first {len(kept)} letters of {len(text)} were copied.", severity="warning")
+
+    def _send_copied(self) -> None:
+        driver = self._driver_or_none()
+        writer = getattr(driver, "_writer_thread", None)
+        if writer is not None and writer._queue.qsize() > 0:
+            self.set_timer(BUSY, self._send_copied)  # a full queue would block the event loop
+            return
+        text, self._copied = self._copied, ""
+        if driver is not None:
+            driver.write(text)
 
     def redraw(self) -> None:
         """Send every cell again: others have written to the terminal."""

@@ -254,10 +254,8 @@ class LogsPane(ListPane):
         rule, problem = self._filtering.rules.add(words, hide=hide)
         self._filtering.off = False
         self._search()
-        if problem:
-            self.notify(problem, severity="warning")
-        else:
-            self.notify(f"{'Hidden' if hide else f'In {rule.colour}'}: {words}\nF shows the rules, t everything.")
+        did = f"{'Hidden' if hide else f'In {rule.colour}'}: {words}\nF shows the rules, t everything."
+        self.notify(problem or did, severity="warning" if problem else "information")
 
     def action_rules(self) -> None:
         """Show and change what is hidden and what stands out."""
@@ -325,6 +323,14 @@ class LogsPane(ListPane):
             self._following = False
             self.time_cursor.move(record.stamp, self)
             self.post_message(self.PaneWanted("plot", ""))
+
+    def action_edit(self) -> None:
+        """Open the place that logged the line in the person's editor."""
+        record = self._list.record
+        if record is None or not record.file:
+            self.notify("Nothing tells where this was logged: it was printed, or comes from a file.")
+        else:
+            self.post_message(self.EditWanted(record.file, record.line))
 
     def action_before(self) -> None:
         """Show what happened just before the line, to go there."""

@@ -1,0 +1,23 @@
+"""What is sent to the clipboard: nothing in it acts on the terminal, and it is never too long."""
+
+from __future__ import annotations
+
+import base64
+
+from bot_console.tui.terminal.clipboard import LARGEST, osc52, within
+from hypothesis import given
+from hypothesis import strategies as st
+
+
+@given(st.text(max_size=50))
+def test_any_text_comes_whole_and_harmless(text: str) -> None:
+    sequence = osc52(text)
+    inside = sequence.removeprefix("\x1b]52;c;").removesuffix("\x07")
+    assert sequence == f"\x1b]52;c;{inside}\x07" and inside.isascii() and inside.isprintable()
+    assert base64.b64decode(inside) == text.encode("utf-8", "replace")
+
+
+def test_a_long_text_is_cut_between_letters() -> None:
+    kept = within("ä" * LARGEST)
+    assert kept == "ä" * (LARGEST // 2) and within("x" + "ä" * LARGEST) == "x" + "ä" * (LARGEST // 2 - 1)
+    assert len(osc52(kept)) < 74_994

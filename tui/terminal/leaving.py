@@ -1,0 +1,67 @@
+"""The terminal handed to somebody else for a while: to an editor, or to the shell by Ctrl-Z. The robot rests first."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+
+from bot_console.tui.console.protocol import Console
+from bot_console.tui.terminal.editor import editing
+from textual.app import App, SuspendNotSupported
+
+PATIENCE = 1.0
+"""Seconds that the robot's stop has to be acknowledged before the terminal is left anyway."""
+LOOK = 0.05
+ASLEEP = "bot-console was put to sleep (Ctrl-Z)"
+
+
+class Leaving:
+    """Leaves the terminal and comes back to it."""
+
+    def __init__(self, app: App[None], console: Console, redraw: Callable[[], None], *, holds: bool = True) -> None:
+        """`holds` says whether the robot is held while the console sleeps: only who may release it may hold it."""
+        self._app = app
+        self._holds = holds
+        self._console = console
+        self._redraw = redraw
+        self._going = False
+
+    def edit(self, file: str, line: int) -> None:
+        """Open a file at a line in the person's editor. Nothing is steered meanwhile: a command is dead after 0.5 s."""
+        try:
+            command = editing(file, line, os.environ)
+        except ValueError as error:
+            self._app.notify(str(error), severity="error")
+            return
+        self._console.drive(0.0, 0.0)
+        try:
+            with self._app.suspend():
+                # Descriptors 0 to 2 lead to the log while the console runs; these are the terminal.
+                subprocess.run(command, stdin=sys.__stdin__, stdout=sys.__stdout__, stderr=sys.__stderr__, check=False)
+        except SuspendNotSupported:
+            self._app.notify("This terminal cannot be handed to an editor.", severity="error")
+        except OSError as error:
+            self._app.notify(f"{command[0]}: {error.strerror or error}", severity="error")
+        self._redraw()
+
+    def sleep(self) -> None:
+        """Hold the robot, and give the terminal back to the shell; `fg` brings the console back."""
+        if self._going:
+            return
+        self._going = True
+        if self._holds:
+            self._console.all_stop(True, ASLEEP)
+        self._when_held(PATIENCE if self._holds else 0.0)
+
+    def _when_held(self, patience: float) -> None:
+        drive = self._console.snapshot().drive
+        if patience > 0 and drive.lockable and not drive.stop_confirmed:
+            self._app.set_timer(LOOK, lambda: self._when_held(patience - LOOK))
+            return
+        self._app.action_suspend_process()
+        self._going = False
+        if self._holds:
+            self._app.notify("The robot was held meanwhile; ! releases it.")
+        self._redraw()
