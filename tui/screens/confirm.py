@@ -13,7 +13,11 @@ from rich.text import Text
 from textual.app import ComposeResult
 from textual.binding import BindingType
 from textual.containers import VerticalScroll
+from textual.events import Click
 from textual.widgets import Static
+
+YES, NO = range(12, 17), range(4, 9)
+"""Cells from the right end of the lower edge at which the two answers are written."""
 
 
 class ConfirmScreen(QuestionScreen[None], Boxed):  # pyright: ignore[reportIncompatibleMethodOverride] # of Textual
@@ -39,6 +43,18 @@ class ConfirmScreen(QuestionScreen[None], Boxed):  # pyright: ignore[reportIncom
             text = Text("\n".join(harmless(line) for line in reasons.splitlines()))
             text.append(("\n\n" if reasons else "") + harmless(self._confirmation.label), "bold")
             yield Static(text)
+
+    def on_click(self, event: Click) -> None:
+        """A click on one of the two answers gives it, one beside the box gives up."""
+        box = self.query_one(VerticalScroll).region
+        if not box.contains(event.screen_x, event.screen_y):
+            self.give_up()
+        elif event.screen_y == box.bottom - 1:
+            from_right = box.right - event.screen_x
+            if from_right in YES:
+                self.answer(None)
+            elif from_right in NO:
+                self.give_up()
 
     def action_yes(self) -> None:
         """Do it."""

@@ -13,6 +13,7 @@ from rich.text import Text
 from textual.app import ComposeResult
 from textual.binding import BindingType
 from textual.containers import VerticalScroll
+from textual.events import Click
 from textual.screen import ModalScreen
 from textual.widgets import Static
 
@@ -34,6 +35,12 @@ class Overlay(ModalScreen[None], Boxed):  # pyright: ignore[reportIncompatibleMe
     def content(self) -> Iterable[RenderableType]:
         """What stands in the box, from above."""
         raise NotImplementedError
+
+    def on_click(self, event: Click) -> None:
+        """A click beside the box, or on its lower edge, closes it."""
+        box = self.query_one(VerticalScroll).region
+        if not box.contains(event.screen_x, event.screen_y) or event.screen_y == box.bottom - 1:
+            self.dismiss()
 
     def compose(self) -> ComposeResult:
         """The box."""

@@ -7,6 +7,7 @@ from typing import TypeAlias
 
 from bot_console.tui.keymap import TABLE
 from bot_console.tui.keys.key import Key, key_text
+from rich.cells import cell_len
 from rich.style import Style
 from rich.text import Text
 from textual.events import Click
@@ -60,7 +61,7 @@ class KeyBar(Static):
         """Press the key under the mouse."""
         end = 0
         for key in self._keys:
-            begin, end = end, end + _line([key], "").cell_len + len(GAP)
+            begin, end = end, end + cell_len(f"{key[0]} {key[1]}") + len(GAP)
             if begin <= event.x - 1 < end:
                 self.app.simulate_key(key[2])  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic, and its type is not told
 

@@ -141,9 +141,13 @@ class RowList(ScrollView, can_focus=True):
         return place is not None
 
     def on_click(self, event: Click) -> None:
-        """A click moves the cursor."""
+        """A click moves the cursor, a second one at once does what Enter does."""
         y = event.y + self.scroll_offset.y
-        if y < self.row_count():
+        if y >= self.row_count():
+            return
+        if y == self.cursor and event.chain == 2:
+            self.app.simulate_key("enter")  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic, and its type is not told
+        else:
             self.cursor = y
 
     def on_focus(self) -> None:

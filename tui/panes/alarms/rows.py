@@ -82,6 +82,7 @@ class AlarmRows(ItemList[Row]):
 
     def on_click(self, event: Click) -> None:
         """A click chooses the row; a click on the chosen one edits it."""
+        event.prevent_default()  # what any other list does
         index = event.y + self.scroll_offset.y
         if 0 <= index < self.row_count():
             chosen, self.cursor = index == self.cursor, index

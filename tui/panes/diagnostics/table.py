@@ -47,6 +47,7 @@ class StatusRows(ItemList[Row]):
 
     def on_click(self, event: Click) -> None:
         """A click chooses the row; on its fold mark, or on the row that was chosen already, it opens or closes."""
+        event.prevent_default()  # what any other list does
         index = event.y + self.scroll_offset.y
         if not 0 <= index < self.row_count():
             return

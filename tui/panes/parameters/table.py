@@ -138,6 +138,7 @@ class ParameterRows(ItemList[Row]):
 
     def on_click(self, event: Click) -> None:
         """A click chooses the row; on the slider it sets the value, on what is chosen it opens or edits."""
+        event.prevent_default()  # what any other list does
         index = event.y + self.scroll_offset.y
         if not 0 <= index < self.row_count():
             return

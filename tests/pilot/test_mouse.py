@@ -1,0 +1,95 @@
+"""By mouse alone: tabs, rows, the key bar, questions and what lies over the panes; all wheels and no keys."""
+
+from __future__ import annotations
+
+import pytest
+from bot_console.tui.pane_table import PANES
+from bot_console.tui.panes.logs.pane import LogsPane
+from bot_console.tui.panes.topics.table import TopicRows
+from bot_console.tui.screens.confirm import ConfirmScreen
+from bot_console.tui.screens.picker import PickerScreen
+from bot_console.tui.widgets.row_list import RowList
+from piloting import Session, run
+from samples import live
+
+NAVIGATOR = "/robot_navigator"
+
+
+async def click(session: Session, text: str, *, times: int = 1, last: bool = False) -> None:
+    """Click on a text that is on the screen."""
+    lines = session.lines()
+    found = [(line.rindex(text) if last else line.index(text), y) for y, line in enumerate(lines) if text in line]
+    x, y = found[-1 if last else 0]
+    await session.pilot.click(offset=(x, y), times=times)
+    await session.settle()
+
+
+async def go(session: Session, digit: str) -> None:
+    """Click on the tab of a pane."""
+    at = next(at for at, each in enumerate(session.lines()[0].split()) if each.lstrip("[") == digit)
+    await click(session, f"{digit} {session.lines()[0].split()[at + 1].rstrip(']')}")
+
+
+@pytest.mark.parametrize("entry", PANES, ids=[each.id for each in PANES])
+def test_every_pane_is_reached_by_its_tab_and_its_rows_are_chosen(entry) -> None:
+    async def play(session: Session) -> None:
+        await go(session, entry.digit)
+        [pane] = session.app.visible_panes()
+        assert pane.id == entry.id
+        lists = [each for each in pane.query(RowList) if each.display and each.row_count() > 1]
+        for shown in lists[:1]:
+            await session.pilot.click(shown, offset=(12, 1))
+            await session.settle()
+            assert shown.cursor == shown.scroll_offset.y + 1 and shown.has_focus
+
+    run(live(), play, (200, 40))
+
+
+def test_a_double_click_opens_a_row_and_a_click_beside_the_box_closes_it() -> None:
+    async def play(session: Session) -> None:
+        await go(session, "2")
+        await session.pilot.click(session.pane(LogsPane).query(RowList).first(), offset=(40, 1), times=2)
+        await session.settle()
+        assert len(session.app.screen_stack) == 2
+        await session.pilot.click(offset=(1, 1))
+        await session.settle()
+        assert len(session.app.screen_stack) == 1
+        await go(session, "9")
+        await session.pilot.click(TopicRows, offset=(10, 5), times=2)
+        await session.settle()
+        assert session.console.traffic.listening, "the message of the topic is open"
+
+    run(live(), play, (200, 40))
+
+
+@pytest.mark.parametrize(("answer", "set_"), [("y yes", True), ("n no", False)])
+def test_a_question_is_answered_by_mouse(answer: str, set_: bool) -> None:
+    async def play(session: Session) -> None:
+        await go(session, "7")
+        await click(session, "competition")
+        await click(session, "a Apply")
+        assert isinstance(session.app.screen, ConfirmScreen)
+        await click(session, answer, last=True)
+        assert len(session.app.screen_stack) == 1
+        assert any(each[0] == "apply" for each in session.console.asked) is set_
+
+    run(live(), play, (200, 40))
+
+
+def test_a_command_is_chosen_from_the_palette_and_the_robot_is_stopped_from_the_key_bar() -> None:
+    async def play(session: Session) -> None:
+        await click(session, ": Commands", last=True)
+        assert isinstance(session.app.screen, PickerScreen)
+        options = session.app.screen.query_one(RowList)
+        before = options.rows[2].title
+        await session.pilot.click(options, offset=(6, 2))
+        await session.settle()
+        assert options.current.title == before
+        await session.pilot.click(options, offset=(6, 2), times=2)
+        await session.settle()
+        assert not isinstance(session.app.screen, PickerScreen)
+        await session.press("escape")
+        await click(session, "! Stop", last=True)
+        assert ("all_stop", True) in session.console.asked
+
+    run(live(), play, (200, 40))

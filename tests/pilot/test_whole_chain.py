@@ -1,0 +1,96 @@
+"""From finding a parameter among thousands to loading what was saved, by keys alone."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from types import MappingProxyType
+
+from bot_console.tui.console.model import ParameterTree
+from bot_console.tui.panes.parameters.table import ParameterRows
+from bot_console.tui.panes.plot.pane import PlotPane
+from fakes import FakeConsole
+from piloting import Session, run
+from samples import live
+
+NAVIGATOR = "/robot_navigator"
+
+
+def crowd() -> tuple[FakeConsole, object]:
+    """The live system among 200 nodes of 25 parameters each."""
+    console, launcher = live()
+    pattern = console.current.parameters["/simulator"].parameters[0]
+    trees = dict(console.current.parameters)
+    for number in range(200):
+        node = f"/crowd/n{number:03d}"
+        trees[node] = ParameterTree(node, tuple(replace(pattern, node=node, name=f"p{at:02d}") for at in range(25)))
+    console.change(parameters=MappingProxyType(dict(sorted(trees.items()))))
+    return console, launcher
+
+
+def value(session: Session, name: str) -> object:
+    return session.console.current.parameters[NAVIGATOR].get(name).value
+
+
+async def find(session: Session, words: str) -> None:
+    await session.press("1", "slash")
+    await session.pilot.press(*["backspace"] * 12)
+    await session.type(words)
+    await session.press("enter")
+
+
+async def typed(session: Session, text: str) -> None:
+    await session.press("e")
+    await session.type(text)
+    await session.press("enter")
+
+
+def test_find_refuse_set_plot_stage_apply_swap_undo_save_restart_load(tmp_path: Path) -> None:
+    file = tmp_path / "mine.yaml"
+
+    async def tune(session: Session) -> None:
+        await find(session, "max_speed")
+        assert session.pane(ParameterRows).current.parameter.name == "max_speed"
+        await typed(session, "99")
+        assert value(session, "max_speed") == 1.0 and "✗ 99.0" in session.text()
+        await typed(session, "0.8")
+        assert value(session, "max_speed") == 0.8
+        await session.press("p")
+        assert f"{NAVIGATOR}:max_speed" in session.pane(PlotPane).paths
+        await find(session, "turn_rate")
+        await session.press("m")
+        await typed(session, "0.9")
+        await find(session, "safety_distance")
+        await typed(session, "0.9")
+        assert (value(session, "turn_rate"), value(session, "safety_distance")) == (1.0, 0.8), "marked, not sent"
+        await session.press("a")
+        assert (value(session, "turn_rate"), value(session, "safety_distance")) == (0.9, 0.9)
+        await session.press("m")
+        await typed(session, "1.0")
+        await session.press("A")
+        assert value(session, "safety_distance") == 1.0
+        await session.press("A")
+        assert "lowers a safety margin" in session.text(), "the way back is asked about"
+        await session.press("y")
+        assert value(session, "safety_distance") == 0.9
+        await session.press("H")
+        await session.press("slash")
+        await session.type("turn_rate taken 0.9")
+        await session.press("enter", "u", "y")
+        assert value(session, "turn_rate") == 0.9 and value(session, "max_speed") == 0.8
+        await session.press("1", "escape", "s", "enter")
+        await session.pilot.press(*["backspace"] * len("parameters.yaml"))
+        await session.type(str(file))
+        await session.press("enter")
+        assert "max_speed: 0.8" in file.read_text()
+
+    async def load(session: Session) -> None:
+        await session.press("7", "o")
+        await session.pilot.press(*["backspace"] * 40)
+        await session.type(str(file))
+        await session.press("enter")
+        await session.press("a", "y")
+        assert (value(session, "max_speed"), value(session, "turn_rate")) == (0.8, 0.9)
+
+    run(crowd(), tune, (120, 40))
+    run(crowd(), load, (120, 40))
