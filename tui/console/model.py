@@ -12,6 +12,7 @@ from enum import Enum, IntEnum
 from types import MappingProxyType
 from typing import TypeAlias
 
+from bot_console.tui.console.parameters.unit import unit_of
 from bot_console.tui.console.recording import RecordingInfo
 from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
 
@@ -82,10 +83,7 @@ class ParameterInfo:
     @property
     def unit(self) -> str:
         """The unit that ends the description in parentheses, such as `m/s`; else empty."""
-        text = self.description.rstrip()
-        start = text.rfind("(")
-        inside = text[start + 1 : -1].split()[-1:] if text.endswith(")") and start >= 0 else []
-        return inside[0] if inside and any(letter.isalpha() for letter in inside[0]) and len(inside[0]) <= 6 else ""
+        return unit_of(self.description)
 
     @property
     def changed(self) -> bool:

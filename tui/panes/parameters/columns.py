@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
+from bot_console.tui.console.model import Value
+from bot_console.tui.console.parameters.unit import unit_of
 from bot_console.tui.format import harmless, value_text
 from bot_console.tui.panes.parameters.rows import Row
 from rich.cells import cell_len
@@ -46,10 +49,22 @@ def measured(rows: Sequence[Row]) -> Measures:
     for row in rows:
         if row.parameter is None:
             continue
-        name = max(name, len("  " * row.depth) + cell_len(harmless(row.name)))
+        name = max(name, 2 * row.depth + _name_cells(row.name))
         if row.parameter.range is not None:
-            number = max(number, cell_len(shown_value(row)))
+            number = max(number, _number_cells(row.parameter.value, row.parameter.description))
     return Measures(name, -(-number // 2) * 2)
+
+
+@lru_cache(maxsize=20_000)
+def _name_cells(name: str) -> int:
+    return cell_len(harmless(name))
+
+
+@lru_cache(maxsize=20_000, typed=True)
+def _number_cells(value: Value, description: str) -> int:
+    """Cells of a value and its unit; thousands are asked for at each key of a filter, and few are new."""
+    unit = unit_of(description)
+    return cell_len(value_text(value)) + (cell_len(unit) + 1 if unit else 0)
 
 
 def shown_value(row: Row) -> str:
