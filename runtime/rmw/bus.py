@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Protocol
 
 from bot_console.runtime.rmw.endpoints import (
@@ -120,6 +120,10 @@ class Bus(Protocol):
 
     def on_graph_change(self, callback: GraphChanged) -> Callable[[], None]:
         """Call back at each change of the graph; returns what ends that."""
+        ...
+
+    def stopped(self) -> Mapping[int, Sequence[str]]:
+        """The processes that are frozen, by pid, with their nodes; where that is known."""
         ...
 
     def published(self) -> int:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import threading
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar
 
 from bot_console.runtime.process import current
@@ -338,6 +338,10 @@ class LocalBus:
                     self._watchers.remove(callback)
 
         return end
+
+    def stopped(self) -> Mapping[int, Sequence[str]]:
+        """None: who could ask in a frozen process is frozen as well."""
+        return {}
 
     def changed(self, owner: Owner) -> None:
         """Tell those who watch the graph whose place in it has changed."""

@@ -58,6 +58,10 @@ def test_a_service_of_another_process_answers(here):
     assert here.result(client.call_async(Trigger.Request())).success
 
 
+def test_the_frozen_process_is_known_at_once_with_its_nodes(here):
+    assert {pid: list(nodes) for pid, nodes in here.context.bus.stopped().items()} == {here.frozen: ["/other/peer"]}
+
+
 def test_who_joins_later_is_told_which_process_is_frozen_and_sees_the_others(here, monkeypatch):
     monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", here.folder)
     said = []

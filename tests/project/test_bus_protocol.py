@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parents[2]
 pytestmark = pytest.mark.skipif(importlib.util.find_spec("pyright") is None, reason="pyright is not installed")
 
 HEAD = """
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from bot_console.runtime.rmw.bus import Bus, PublisherEndpoint, Thing
 from bot_console.runtime.rmw.endpoints import ClientEndpoint, Endpoint, Message, NodeId, Notify, OnEvent
 from bot_console.runtime.rmw.endpoints import GraphChanged, ServiceEndpoint, SubscriptionEndpoint

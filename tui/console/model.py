@@ -134,13 +134,13 @@ class NodeInfo:
 
 @dataclass(frozen=True, slots=True)
 class GraphInfo:
-    """The ROS graph: nodes sorted by name, topics and services with their types."""
+    """The ROS graph. `unheard`: why messages do not pass, and what to do; `frozen`: stopped nodes, with pids."""
 
     nodes: tuple[NodeInfo, ...] = ()
     topics: tuple[Endpoint, ...] = ()
     services: tuple[Endpoint, ...] = ()
     unheard: tuple[str, ...] = ()
-    """What keeps messages from passing though both ends are there, each with what to do."""
+    frozen: tuple[tuple[str, int], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

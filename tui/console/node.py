@@ -12,7 +12,8 @@ from typing import Any
 
 import rclpy
 from bot_console.tui.console.calls import Calls, NoAnswer
-from bot_console.tui.console.graph.watch import GraphEvents, GraphWatch
+from bot_console.tui.console.graph.findings import mend
+from bot_console.tui.console.graph.watch import FrozenNodes, GraphEvents, GraphWatch
 from bot_console.tui.console.launch.output import Add
 from bot_console.tui.console.logs.levels import LoggerLevels
 from bot_console.tui.console.model import (
@@ -72,6 +73,7 @@ class ConsoleNode:
         history: History | None = None,
         *,
         foreign: bool = False,
+        frozen: FrozenNodes | None = None,
     ) -> None:
         """In a `foreign` system nothing is asked for before it is offered: its nodes would warn of us."""
         self.context = Context()
@@ -86,6 +88,7 @@ class ConsoleNode:
         self.executor = SingleThreadedExecutor(context=self.context)
         self.executor.add_node(self.node)
         self._log = log
+        self._frozen: Sequence[tuple[str, int]] = ()
         self.loggers: set[str] = set()
         """Names of the loggers that `/rosout` has brought lines of."""
         self.journal = Journal(history=history)
@@ -110,7 +113,7 @@ class ConsoleNode:
             eager=not foreign,
             once_weak=True,
         )
-        self.graph = GraphWatch(self.node, self._graph_changed, graph_events)
+        self.graph = GraphWatch(self.node, self._graph_changed, graph_events, frozen)
 
     def spin(self) -> None:
         """Serve until `close`; in the console's own thread."""
@@ -131,12 +134,19 @@ class ConsoleNode:
         self.journal.close()
 
     def _graph_changed(self, graph: GraphInfo) -> None:
+        self._tell_frozen(graph.frozen)
         self._rosout.follow()
         self.parameters.follow(graph)
         self.world.follow(graph)
         self._drive_node.follow(graph)
         self.traffic.follow(graph)
         self.sights.follow(graph)
+
+    def _tell_frozen(self, frozen: Sequence[tuple[str, int]]) -> None:
+        for node, pid in frozen:
+            if (node, pid) not in self._frozen:
+                self._log(time.time_ns(), Severity.WARN, "bot-console", f"{node} is frozen: {mend(pid)}", ("", "", 0))
+        self._frozen = frozen
 
     def _parameter_changed(self, node: str, name: str, old: Value, new: Value) -> ChangeSource:
         self.plots.parameter_is(node, name, new)

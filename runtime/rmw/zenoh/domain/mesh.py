@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Generator, Sequence
+import os
+from collections.abc import Callable, Generator, Mapping, Sequence
 
 from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
 from bot_console.runtime.rmw.zenoh.domain.joining import folder_lock
-from bot_console.runtime.rmw.zenoh.domain.sockets import live_sockets, own_socket
+from bot_console.runtime.rmw.zenoh.domain.sockets import live_sockets, own_socket, sockets
 from bot_console.runtime.rmw.zenoh.session import ATTENDANCE, Session, SessionError
 from bot_console.runtime.rmw.zenoh.settings import Serving, session_settings
 from bot_console.runtime.rmw.zenoh.watch import Watch
@@ -60,6 +61,11 @@ class MeshSession(Session):
                 self._join(folder)
             self._declare_again()
         self.on_rejoin()
+
+    def stopped(self) -> Mapping[str, int]:
+        """The processes of the mesh that are frozen: the first eight digits of their sessions' ids, and their pids."""
+        found = sockets(os.path.dirname(self.socket.path))
+        return {each.zid: each.pid for each in found if each != self.socket and each.is_stopped()}
 
     def close(self) -> None:
         """Leave the mesh; what was declared is gone. A second time does nothing."""

@@ -130,3 +130,21 @@ def test_events_of_the_runtime_lead_to_a_look(context, node):
     watch._tick()
     assert "/late" not in {each.name for each in watch.info.nodes}
     watch.close()
+
+
+def test_nodes_of_a_stopped_process_are_told_at_the_next_tick_until_it_goes_on(context, node):
+    stopped, seen = {}, []
+    watch = GraphWatch(node, seen.append, graph_events, lambda domain: stopped)
+    watch._tick()
+    stopped[42] = ["/b", "/a"]
+    watch._tick()
+    watch._tick()
+    assert [each.frozen for each in seen] == [(), (("/a", 42), ("/b", 42))]
+    other = rclpy.create_node("late", context=context)
+    watch._tick()
+    assert seen[-1].frozen == (("/a", 42), ("/b", 42)) and "/late" in {each.name for each in seen[-1].nodes}
+    stopped.clear()
+    watch._tick()
+    assert seen[-1].frozen == ()
+    other.destroy_node()
+    watch.close()

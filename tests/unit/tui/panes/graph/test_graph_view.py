@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from bot_console.tui.console.graph.findings import findings
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.query import parse
 from bot_console.tui.panes.graph.export import exported
@@ -62,3 +63,11 @@ def test_exports_quote_what_needs_it() -> None:
     assert "#quot;hi#quot;" in exported(odd, drawing, ".mmd")
     assert '"a" -> "b\\\\";' in exported(odd, drawing, ".dot")
     assert exported(odd, drawing, ".txt").count("▶") == 1
+
+
+def test_a_node_of_a_stopped_process_is_marked_in_the_line_below():
+    info = GraphInfo(nodes=(NodeInfo("/a"), NodeInfo("/b")), frozen=(("/b", 42),))
+    assert "frozen: process 42 is stopped" in summary(info, "/b")
+    assert "frozen" not in summary(info, "/a")
+    (text,) = [each.text for each in findings(info) if each.fault]
+    assert text.startswith("/b is frozen") and "kill -CONT 42" in text
