@@ -208,3 +208,11 @@ def test_a_launch_file_does_too_and_asks_once(server: Server) -> None:
     assert file.evaluate(LaunchContext()) == path
     assert len(server.asked) == 1
     assert os.fspath(path).endswith(".yaml")
+
+
+def test_all_nodes_of_a_launch_take_one_answer_and_the_next_launch_asks_again(server: Server) -> None:
+    context = LaunchContext()
+    paths = {ParameterFile(server.address).evaluate(context) for _ in range(3)}
+    assert len(paths) == len(server.asked) == 1
+    ParameterFile(server.address).evaluate(LaunchContext())
+    assert len(server.asked) == 2

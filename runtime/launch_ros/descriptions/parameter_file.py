@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
 
 from bot_console.runtime.process.scratch import scratch_file
 from bot_console.runtime.remote_address import is_remote
@@ -46,7 +47,7 @@ class ParameterFile:
         """
         if self.__evaluated is None:
             place = perform_substitutions(context, self.__param_file)
-            path = _fetched(place) if is_remote(place) else Path(place)
+            path = _fetched(context, place) if is_remote(place) else Path(place)
             self.__allow_substs = perform_typed_substitution(context, self.__allow_substs, data_type=bool)
             self.__evaluated = _substituted(context, path) if self.__allow_substs else path
         return self.__evaluated
@@ -58,10 +59,17 @@ class ParameterFile:
             self.__evaluated = None
 
 
-def _fetched(address: str) -> Path:
+_copies: WeakKeyDictionary[LaunchContext, dict[str, Path]] = WeakKeyDictionary()
+"""What each launch has fetched: all its nodes start with the same text, and a server that is silent is waited for once."""
+
+
+def _fetched(context: LaunchContext, address: str) -> Path:
     from bot_console.runtime.remote_parameters import local_copy
 
-    return local_copy(address)
+    copies = _copies.setdefault(context, {})
+    if address not in copies:
+        copies[address] = local_copy(address)
+    return copies[address]
 
 
 def _substituted(context: LaunchContext, path: Path) -> Path:
