@@ -60,7 +60,7 @@ class ParameterFile:
 
 
 _copies: WeakKeyDictionary[LaunchContext, dict[str, Path]] = WeakKeyDictionary()
-"""What each launch has fetched: all its nodes start with the same text, and a server that is silent is waited for once."""
+"""What each launch has fetched: all its nodes start with the same text, and a silent server is waited for once."""
 
 
 def _fetched(context: LaunchContext, address: str) -> Path:
