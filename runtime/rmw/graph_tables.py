@@ -16,100 +16,93 @@ NamesAndTypes = list[tuple[str, list[str]]]
 T = TypeVar("T", Endpoint, ServiceEndpoint, ClientEndpoint)
 K = TypeVar("K")
 E = TypeVar("E")
-V = TypeVar("V")
 
 
 class Entities(Generic[T]):
     """All publishers, subscriptions, servers or clients; from any thread."""
 
-    def __init__(self, what: str) -> None:
+    def __init__(self, what: str, lock: threading.RLock) -> None:
         """`what` names the field that says of which topic or service one is."""
         self._what = what
-        self._lock = threading.Lock()
+        self._lock = lock
         # Of each name, and of each node, in the order in which they came.
         self._named: dict[str, dict[T, None]] = {}
         self._owned: dict[Owner, dict[T, None]] = {}
-        self._kinds: dict[str, dict[str, int]] = {}
-        """How many of each type a name has."""
+        self._kinds: dict[tuple[str, str], dict[T, None]] = {}
+        """Of each name with each of its types."""
 
     def add(self, entity: T) -> None:
         """One has come; a second time does nothing."""
         name, kind = getattr(entity, self._what), entity.type_name
         with self._lock:
-            row = self._named.setdefault(name, {})
-            if entity in row:
-                return
-            row[entity] = None
-            self._owned.setdefault(entity.node.owner, {})[entity] = None
-            kinds = self._kinds.setdefault(name, {})
-            kinds[kind] = kinds.get(kind, 0) + 1
+            _put(self._named, name, entity)
+            _put(self._owned, entity.node.owner, entity)
+            _put(self._kinds, (name, kind), entity)
 
     def remove(self, entity: T) -> None:
         """One has gone; a second time does nothing."""
         name, kind = getattr(entity, self._what), entity.type_name
         with self._lock:
-            if entity not in self._named.get(name, ()):
-                return
             _drop(self._named, name, entity)
             _drop(self._owned, entity.node.owner, entity)
-            kinds = self._kinds[name]
-            kinds[kind] -= 1
-            if not kinds[kind]:
-                _drop(self._kinds, name, kind)
+            _drop(self._kinds, (name, kind), entity)
 
     def on(self, name: str) -> Sequence[T]:
         """Those of a topic or service."""
         with self._lock:
-            return list(self._named.get(name, ()))
+            return [*self._named.get(name, {}).copy()]
 
     def of(self, owner: Owner) -> Iterable[tuple[str, str]]:
         """Names and types of what a node has."""
         with self._lock:
-            return [(getattr(each, self._what), each.type_name) for each in self._owned.get(owner, ())]
+            owned = self._owned.get(owner, {}).copy()
+        return [(getattr(each, self._what), each.type_name) for each in owned]
 
     def pairs(self) -> Iterable[tuple[str, str]]:
         """All names with each of their types once."""
         with self._lock:
-            return [(name, kind) for name, kinds in self._kinds.items() for kind in kinds]
+            return [*self._kinds.copy()]
 
     def all(self) -> Sequence[T]:
         """All, those of one name together."""
         with self._lock:
-            return [each for row in self._named.values() for each in row]
+            named = self._named.copy()
+        return [each for row in named.values() for each in row.copy()]
 
 
 class GraphTables:
     """What a bus knows of the nodes of one or of all processes."""
 
-    def __init__(self) -> None:
-        self._lock = threading.Lock()
+    def __init__(self, lock: threading.RLock) -> None:
+        """`lock` is the bus's own, and one that its holder may take again.
+
+        The garbage collector ends nodes in the middle of anything, so also while a table is changed or read: with a
+        lock of its own each table would wait for itself, or for who holds the bus and waits for it.
+        """
+        self._lock = lock
         self._nodes: dict[NodeId, None] = {}
-        self._owners: dict[Owner, int] = {}
-        self.publishers: Entities[Endpoint] = Entities("topic")
-        self.subscriptions: Entities[Endpoint] = Entities("topic")
-        self.servers: Entities[ServiceEndpoint] = Entities("name")
-        self.clients: Entities[ClientEndpoint] = Entities("name")
+        self._owners: dict[Owner, dict[NodeId, None]] = {}
+        self.publishers: Entities[Endpoint] = Entities("topic", lock)
+        self.subscriptions: Entities[Endpoint] = Entities("topic", lock)
+        self.servers: Entities[ServiceEndpoint] = Entities("name", lock)
+        self.clients: Entities[ClientEndpoint] = Entities("name", lock)
 
     def add_node(self, node: NodeId) -> None:
         """A node has come."""
         with self._lock:
-            if node not in self._nodes:
-                self._nodes[node] = None
-                self._owners[node.owner] = self._owners.get(node.owner, 0) + 1
+            self._nodes[node] = None
+            _put(self._owners, node.owner, node)
 
     def remove_node(self, node: NodeId) -> None:
         """A node has gone; a second time does nothing."""
         with self._lock:
-            if node in self._nodes:
-                del self._nodes[node]
-                self._owners[node.owner] -= 1
-                if not self._owners[node.owner]:
-                    del self._owners[node.owner]
+            self._nodes.pop(node, None)
+            _drop(self._owners, node.owner, node)
 
     def nodes(self) -> Sequence[NodeId]:
         """All nodes, in the order in which they came."""
         with self._lock:
-            return list(self._nodes)
+            return [*self._nodes.copy()]
 
     def has(self, owner: Owner) -> bool:
         """Whether there is a node of that name."""
@@ -129,9 +122,16 @@ def collect(pairs: Iterable[tuple[str, str]]) -> NamesAndTypes:
     return sorted(found.items())
 
 
-def _drop(table: dict[K, dict[E, V]], key: K, entry: E) -> None:
+def _put(table: dict[K, dict[E, None]], key: K, entry: E) -> None:
+    """Put an entry into its row; whatever is removed meanwhile, by the same thread, the row is in the table then."""
+    row = table.get(key, {})
+    row[entry] = None
+    table[key] = row
+
+
+def _drop(table: dict[K, dict[E, None]], key: K, entry: E) -> None:
     """Take an entry out of its row, and an empty row out of the table."""
-    row = table[key]
-    del row[entry]
+    row = table.get(key, {})
+    row.pop(entry, None)
     if not row:
-        del table[key]
+        table.pop(key, None)

@@ -161,7 +161,7 @@ class LocalBus:
         self._services: dict[str, list[ServiceEndpoint]] = {}
         self._clients: dict[str, list[ClientEndpoint]] = {}
         self._watchers: list[GraphChanged] = []
-        self._tables = GraphTables()
+        self._tables = GraphTables(self._lock)
 
     def published(self) -> int:
         """How many messages the present publishers have published in all."""

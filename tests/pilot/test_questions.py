@@ -161,7 +161,7 @@ def test_letters_typed_after_the_edit_key_are_the_value_and_what_follows_enter_i
 
 def test_letters_typed_after_the_palette_key_belong_to_the_palette() -> None:
     async def play(session: Session) -> None:
-        await at_once(session, ":node graph")
+        await at_once(session, "\x10node graph")
         assert isinstance(session.app.screen, PickerScreen) and "node graph" in session.text()
         await at_once(session, "\r")
         assert [each.id for each in session.app.visible_panes()] == ["graph"]

@@ -23,7 +23,7 @@ class WholeGraph:
 
     def __init__(self, session: Session, changed: GraphChanged) -> None:
         self._changed = changed
-        self.tables = GraphTables()
+        self.tables = GraphTables(threading.RLock())
         self._rows: dict[str, Row] = {}  # by the key of the token; tokens come one after the other
         self._nodes: dict[str, tuple[str, NodeId]] = {}
         self.silent = await_answers(session, session.patience)

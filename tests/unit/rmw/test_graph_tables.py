@@ -1,5 +1,10 @@
 """The tables of the graph say at any moment what a list of all that is there would."""
 
+import gc
+import threading
+from collections.abc import Iterator
+
+import pytest
 from bot_console.runtime.rmw.endpoints import ClientEndpoint, NodeId
 from bot_console.runtime.rmw.graph_tables import GraphTables, collect
 from hypothesis import given
@@ -13,7 +18,7 @@ CLIENTS = [
 
 @given(st.lists(st.tuples(st.booleans(), st.sampled_from(CLIENTS))))
 def test_tables_are_those_of_all_that_is_there(changes):
-    tables, there = GraphTables(), {}
+    tables, there = GraphTables(threading.RLock()), {}
     for comes, each in changes:
         if comes:
             tables.clients.add(each)
@@ -32,7 +37,7 @@ def test_tables_are_those_of_all_that_is_there(changes):
 
 @given(st.lists(st.tuples(st.booleans(), st.sampled_from(NODES))))
 def test_a_name_is_there_while_one_node_has_it(changes):
-    tables, there = GraphTables(), {}
+    tables, there = GraphTables(threading.RLock()), {}
     for comes, each in changes:
         if comes:
             tables.add_node(each)
@@ -42,3 +47,39 @@ def test_a_name_is_there_while_one_node_has_it(changes):
             there.pop(each, None)
     assert list(tables.nodes()) == list(there)
     assert {owner for owner in (each.owner for each in NODES) if tables.has(owner)} == {each.owner for each in there}
+
+
+@pytest.fixture
+def restless() -> Iterator[None]:
+    """The garbage collector comes at every chance it has."""
+    before = gc.get_threshold()
+    gc.set_threshold(1)
+    yield
+    gc.set_threshold(*before)
+
+
+def test_what_the_garbage_collector_ends_in_the_middle_of_a_change_waits_for_nothing(restless):
+    tables = GraphTables(threading.RLock())
+    old = [ClientEndpoint(NODES[0], "/s", f"K{number}", lambda: None) for number in range(200)]
+    new = [ClientEndpoint(NODES[0], "/s", f"L{number}", lambda: None) for number in range(200)]
+    for each in old:
+        tables.clients.add(each)
+    left = list(old)
+
+    def end_one(phase, info):
+        if phase == "stop" and left:
+            tables.clients.remove(left.pop())
+
+    gc.callbacks.append(end_one)
+    try:
+        for each in new:
+            tables.clients.add(each)
+            tables.clients.on("/s")
+            tables.clients.pairs()
+    finally:
+        gc.callbacks.remove(end_one)
+    assert len(left) < 200, "the collector has never come"
+    for each in left:
+        tables.clients.remove(each)
+    assert list(tables.clients.on("/s")) == new
+    assert {kind for _, kind in tables.clients.pairs()} == {each.type_name for each in new}

@@ -11,9 +11,15 @@ import threading
 from collections.abc import Sequence
 from concurrent.futures import Future
 
+from bot_console.tui.console.connection.no_console import done
 from bot_console.tui.console.lines import RunningLine, goes_on
+from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Stream
 
+COMMANDS = (
+    *("action", "bag", "component", "control", "daemon", "doctor", "interface", "launch", "lifecycle", "multicast"),
+    *("node", "param", "pkg", "run", "security", "service", "topic", "wtf", "colcon"),
+)
 LINE_LIMIT = 15.0
 """Seconds after which a line that does not end by itself is interrupted, as by Ctrl-C."""
 GRACE = 3.0
@@ -52,6 +58,21 @@ class _Streamed:
 
 class MachineCommandLine:
     """Runs each line as a process; `tui.console.protocol.CommandLine`."""
+
+    def commands(self) -> Sequence[str]:
+        """The commands that a `ros2` of any release may have."""
+        return COMMANDS
+
+    def complete(self, words: Sequence[str], snapshot: ConsoleSnapshot) -> Future[Sequence[str]]:
+        """What the last word may become of what runs; the rest only the machine's own shell knows."""
+        if len(words) < 2:
+            found: Sequence[str] = COMMANDS
+        elif words[0] in ("node", "param", "lifecycle"):
+            found = [each.name for each in snapshot.graph.nodes]
+        else:
+            ends = snapshot.graph.services if words[0] == "service" else snapshot.graph.topics
+            found = [each.name for each in ends]
+        return done(sorted(each for each in found if each.startswith(words[-1])) if words else ())
 
     def stream(self, line: str) -> Stream | None:
         """Begin a line that goes on by itself; None for any other, and where there is no such command."""
