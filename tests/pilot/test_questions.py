@@ -33,7 +33,7 @@ def prompt(session: Session) -> Prompt:
 async def at_once(session: Session, text: str) -> None:
     """Type without waiting for anything in between, as a fast hand or a busy machine does."""
     for letter in text:
-        special = {"\r": "enter", "\x1b": "escape"}.get(letter)
+        special = {"\r": "enter", "\x1b": "escape", "\x10": "ctrl+p"}.get(letter)
         key = special or NAMES.get(letter) or _character_to_key(letter)
         session.app.post_message(events.Key(key, None if special else letter))
     for _ in range(3):
