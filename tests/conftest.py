@@ -75,9 +75,14 @@ def pytest_xdist_auto_num_workers() -> int:
     return (os.cpu_count() or 1) + 1
 
 
-OVER_PROCESSES = (
+BESIDE_OTHERS = (
     "tests/acceptance/",
     "tests/contract/",
+    "tests/course/",
+    "tests/pilot/",
+    "tests/snapshot/",
+    "tests/unit/launch/",
+    "tests/unit/ros2cli/",
     "tests/unit/rmw/zenoh/",
     "tests/unit/process/",
     "tests/unit/tui/cli/",
@@ -85,10 +90,10 @@ OVER_PROCESSES = (
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Tests over real processes and terminals are tried twice: beside others one of the programs may come too late.
+    """Tests over processes, terminals and screens are tried twice: beside others one of the parts may come too late.
 
     The summary counts what needed its second try (`rerun`); a fault fails both.
     """
     for item in items:
-        if item.nodeid.startswith(OVER_PROCESSES):
+        if item.nodeid.startswith(BESIDE_OTHERS):
             item.add_marker(pytest.mark.flaky(reruns=1))
