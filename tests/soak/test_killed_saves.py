@@ -40,7 +40,7 @@ def write(folder: Path, number: int) -> None:
     values = (ParameterInfo("/n", name, Kind.INTEGER, number) for name in ("a", "b", "c"))
     save(folder / "parameters.yaml", {"/n": ParameterTree("/n", tuple(values))})
     curve = Curve("/speed", times=np.arange(200.0), values=np.full(200, float(number)))
-    samples(folder / "plot.csv", [curve])
+    samples(folder / "plot.csv", [curve], Axes(0.0, 200.0), float)
     picture(folder / "plot.txt", [curve], Axes(0.0, 200.0))
     changes = [Change(seq, 0, "/n", "p", number, number, ChangeSource.EDIT) for seq in range(50)]
     export(folder / "history.csv", changes)

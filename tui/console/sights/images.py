@@ -17,7 +17,7 @@ from rclpy.qos import QoSProfile
 
 LARGEST = 50_000_000
 """Bytes of a compressed image, and pixels that it may have; what is larger is not unpacked."""
-NO_PIL = "compressed images need Pillow: pip install pillow"
+NO_PIL = "compressed images need Pillow: pip install 'bot-console[images]'"
 
 
 class ImageWatch:

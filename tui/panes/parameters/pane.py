@@ -119,9 +119,9 @@ class ParametersPane(EditPane):
 
     def tick(self) -> None:
         """Let values that have changed stop flashing."""
-        if not self.is_mounted:
+        shown = next(iter(self.query(ParameterRows)), None)
+        if shown is None:  # at the end, when the screen is taken apart
             return
-        shown = self._list
         over = {key for key, until in shown.flashing.items() if self.clock() >= until}
         for key in over:
             del shown.flashing[key]
