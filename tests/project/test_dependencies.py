@@ -14,7 +14,13 @@ else:
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = ("tui", "runtime", "nodes", "launch")
-IMPORT_NAMES = {"opencv-python-headless": "cv2", "pyyaml": "yaml", "eclipse-zenoh": "zenoh", "google-re2": "re2", "pillow": "PIL"}
+IMPORT_NAMES = {
+    "opencv-python-headless": "cv2",
+    "pyyaml": "yaml",
+    "eclipse-zenoh": "zenoh",
+    "google-re2": "re2",
+    "pillow": "PIL",
+}
 BUILD_ONLY = {"rosbags"}
 """Imported by what runs at build time alone (`runtime/rosidl/standard.py`)."""
 

@@ -41,7 +41,7 @@ def write(folder: Path, number: int) -> None:
     save(folder / "parameters.yaml", {"/n": ParameterTree("/n", tuple(values))})
     curve = Curve("/speed", times=np.arange(200.0), values=np.full(200, float(number)))
     samples(folder / "plot.csv", [curve], Axes(0.0, 200.0), float)
-    picture(folder / "plot.txt", [curve], Axes(0.0, 200.0))
+    picture(folder / "plot.txt", [curve], [], Axes(0.0, 200.0), float)
     changes = [Change(seq, 0, "/n", "p", number, number, ChangeSource.EDIT) for seq in range(50)]
     export(folder / "history.csv", changes)
     FileLayouts(PANES).save("mine", beside(PANES[number % 2], "plot"))
