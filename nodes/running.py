@@ -24,6 +24,11 @@ def run(make_node: Callable[[], Node], args: list[str] | None) -> None:
     A start value that is refused, or `CannotStart`, becomes one fatal log line and exit code 1.
     """
     _interrupt_once()
+    with contextlib.suppress(KeyboardInterrupt):  # also where it comes while an error is looked at
+        _spin(make_node, args)
+
+
+def _spin(make_node: Callable[[], Node], args: list[str] | None) -> None:
     node: Node | None = None
     try:
         rclpy.init(args=args)

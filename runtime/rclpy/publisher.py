@@ -8,6 +8,7 @@ from __future__ import annotations
 import sys
 from typing import Any
 
+from bot_console.runtime.process import current
 from bot_console.runtime.rmw.bus import PublisherEndpoint
 from bot_console.runtime.rosidl.conversion import FieldTypeError
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
@@ -94,6 +95,8 @@ class Publisher:
 
     def _refuse(self) -> None:
         self._use()
+        # An interrupt shuts the context down on its way: the interrupt is what the caller is to see, not this refusal.
+        current().deliver_signals()
         raise RCLError("Failed to publish: publisher's context is invalid")
 
     def _explain(self, error: FieldTypeError) -> None:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import pytest
 import rclpy
 from bot_console_robot.running import CannotStart, run
+from rclpy._rclpy_pybind11 import RCLError
 from rclpy.node import Node
 
 
@@ -51,6 +52,22 @@ def test_an_interrupt_while_the_node_is_made_is_a_clean_end() -> None:
         raise AssertionError
 
     run(make, [])
+    assert not rclpy.ok()
+
+
+def test_an_interrupt_that_comes_while_an_error_is_looked_at_is_a_clean_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = rclpy.ok
+
+    def ok() -> bool:
+        signal.raise_signal(signal.SIGINT)
+        return asked()
+
+    def make() -> Node:
+        monkeypatch.setattr(rclpy, "ok", ok)
+        raise RCLError("the context is gone")
+
+    run(make, [])
+    monkeypatch.undo()
     assert not rclpy.ok()
 
 

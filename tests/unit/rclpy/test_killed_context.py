@@ -61,3 +61,17 @@ def test_a_context_that_begins_after_the_end(process, domain):
     context = Context()
     context.init([], domain_id=domain)
     assert not context.ok()
+
+
+def test_an_interrupt_on_its_way_comes_before_the_refusal_it_causes(process, domain, monkeypatch):
+    def deliver():
+        raise KeyboardInterrupt
+
+    context = Context()
+    context.init([], domain_id=domain)
+    publisher = Node("n", context=context).create_publisher(String, "t", 10)
+    context.shut_down_by_signal()
+    monkeypatch.setattr(process, "deliver_signals", deliver)
+    for message in (String(), b""):
+        with pytest.raises(KeyboardInterrupt):
+            publisher.publish(message)
