@@ -34,7 +34,7 @@ from bot_console.tui.safety.stopping import Stopping
 from bot_console.tui.screens.arrange import ArrangeScreen
 from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.screens.question import QuestionScreen
-from bot_console.tui.screens.tuning_door import TuningDoor
+from bot_console.tui.screens.tuning.door import TuningDoor
 from bot_console.tui.terminal.leaving import Leaving
 from bot_console.tui.theme import THEMES
 from bot_console.tui.time_cursor import TimeCursor

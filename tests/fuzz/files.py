@@ -37,7 +37,7 @@ def profile(text: str) -> None:
 
 
 def save(text: str) -> None:
-    from bot_console.tui.console.parameters.file import save
+    from bot_console.tui.console.parameters.file.saving import save
 
     save(file(text, "saved.yaml"), trees())
 

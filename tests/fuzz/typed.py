@@ -113,7 +113,7 @@ def plot(text: str) -> None:
 
 def expression(text: str) -> None:
     import numpy as np
-    from bot_console.tui.panes.plot.formula import Held, read, split
+    from bot_console.tui.panes.plot.formulas.formula import Held, read, split
     from bot_console.tui.text.expression.numbers import evaluate
 
     with contextlib.suppress(ValueError):

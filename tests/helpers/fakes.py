@@ -26,7 +26,7 @@ from bot_console.tui.console.model import (
     Severity,
     Value,
 )
-from bot_console.tui.console.parameters.file import save
+from bot_console.tui.console.parameters.file.saving import save
 from bot_console.tui.console.parameters.journal import Journal, Move, Step
 from bot_console.tui.console.parameters.origin import origin_text
 from bot_console.tui.console.parameters.profiles import differences

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from bot_console.tui.console.model import Change, ChangeSource, Kind, ParameterInfo, ParameterTree
-from bot_console.tui.console.parameters.file import save
+from bot_console.tui.console.parameters.file.saving import save
 from bot_console.tui.files.save_file import save_file
 from bot_console.tui.layout.tree import beside
 from bot_console.tui.panes.history.export import export

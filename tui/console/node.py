@@ -27,7 +27,7 @@ from bot_console.tui.console.model import (
     Value,
 )
 from bot_console.tui.console.offered import OfferedSubscription
-from bot_console.tui.console.parameters.file import save
+from bot_console.tui.console.parameters.file.saving import save
 from bot_console.tui.console.parameters.history import History
 from bot_console.tui.console.parameters.journal import Journal
 from bot_console.tui.console.parameters.mirror import ParameterMirror

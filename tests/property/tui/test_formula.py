@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from bot_console.tui.panes.plot.formula import Held, read
+from bot_console.tui.panes.plot.formulas.formula import Held, read
 from hypothesis import given
 from hypothesis import strategies as st
 

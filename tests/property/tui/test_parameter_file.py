@@ -9,8 +9,8 @@ import yaml
 from bot_console.runtime.rmw.parameter_precedence import ParameterTable
 from bot_console.runtime.rmw.parameter_scalars import scalar_value
 from bot_console.tui.console.model import Value
-from bot_console.tui.console.parameters.patch import new_text, patched, same
-from bot_console.tui.console.parameters.text import plain_value, sections, value_at
+from bot_console.tui.console.parameters.file.patch import new_text, patched, same
+from bot_console.tui.console.parameters.file.text import plain_value, sections, value_at
 from hypothesis import example, given
 from hypothesis import strategies as st
 

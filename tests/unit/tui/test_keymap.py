@@ -22,7 +22,7 @@ from bot_console.tui.screens.launch_arguments import ArgumentsScreen
 from bot_console.tui.screens.overlay import Overlay
 from bot_console.tui.screens.picker import PickerScreen
 from bot_console.tui.screens.question import QuestionScreen
-from bot_console.tui.screens.tuning import TuningScreen
+from bot_console.tui.screens.tuning.progress import TuningScreen
 from bot_console.tui.widgets.command_line import CommandField
 from bot_console.tui.widgets.diagram_view import DiagramView
 from bot_console.tui.widgets.prompt.filtered import Findable, Narrowed

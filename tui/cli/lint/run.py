@@ -93,8 +93,8 @@ def lint_files(files: Iterable[Path]) -> list[Finding]:
 
 def _of_parameter_file(path: Path, declared: Declared) -> Iterable[Finding]:
     """Keys that mean no node, and parameters that nobody declares."""
-    from bot_console.tui.console.parameters.node_keys import is_wildcard
-    from bot_console.tui.console.parameters.text import KEYWORD, sections
+    from bot_console.tui.console.parameters.file.node_keys import is_wildcard
+    from bot_console.tui.console.parameters.file.text import KEYWORD, sections
 
     try:
         text = path.read_text(encoding="utf-8-sig")

@@ -13,7 +13,7 @@ from queue import SimpleQueue
 from typing import Any
 
 from bot_console.runtime.process.fork_server import ForkServer, Job, Report
-from bot_console.tui.console.parameters.patch import patched
+from bot_console.tui.console.parameters.file.patch import patched
 from bot_console.tui.tuning.question import Question, Trial
 
 CAN_FORK = hasattr(os, "fork")

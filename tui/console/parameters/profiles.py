@@ -9,10 +9,10 @@ from typing import Any, cast
 
 import yaml
 from bot_console.tui.console.model import ParameterTree, Profile, ProfileDifference, Value
-from bot_console.tui.console.parameters.node_keys import is_wildcard, means
-from bot_console.tui.console.parameters.patch import same
+from bot_console.tui.console.parameters.file.node_keys import is_wildcard, means
+from bot_console.tui.console.parameters.file.patch import same
+from bot_console.tui.console.parameters.file.text import KEYWORD, NOTHING, sections, value_at
 from bot_console.tui.console.parameters.safety import takes_safety
-from bot_console.tui.console.parameters.text import KEYWORD, NOTHING, sections, value_at
 from bot_console.tui.console.values import refusal
 
 AT_RESET = "at reset"

@@ -308,7 +308,7 @@ class PlotPane(PlotQuestions):
 
 def _worked_out(wanted: str, known: Sequence[str]) -> list[str]:
     """An expression, as soon as all that it needs is there."""
-    from bot_console.tui.panes.plot.formula import Formula, read
+    from bot_console.tui.panes.plot.formulas.formula import Formula, read
 
     try:
         formula = read(wanted)

@@ -13,7 +13,7 @@ from bot_console.tui.panes.plot.thresholds import first_crossed
 
 if TYPE_CHECKING:
     from bot_console.tui.panes.plot.curves import Curve
-    from bot_console.tui.panes.plot.formula import Formula
+    from bot_console.tui.panes.plot.formulas.formula import Formula
     from bot_console.tui.panes.plot.view import Axes, Mark
 
 WINDOWS = (1.0, 2.0, 5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0)
@@ -54,8 +54,8 @@ class Timeline:
 
     def add(self, text: str) -> Answer:
         """One more curve, of a path or an expression, in the first free colour; says why not."""
-        from bot_console.tui.panes.plot.computed import Computed
-        from bot_console.tui.panes.plot.formula import read
+        from bot_console.tui.panes.plot.formulas.computed import Computed
+        from bot_console.tui.panes.plot.formulas.formula import read
 
         found: Formula | str = text
         if text not in self._console.plottable():

@@ -42,7 +42,7 @@ class PlotQuestions(Pane):
 
     def action_add(self) -> None:
         """Ask for curves."""
-        from bot_console.tui.panes.plot.suggestions import suggested
+        from bot_console.tui.panes.plot.formulas.suggestions import suggested
 
         known = [each for each in self.console.plottable() if each.isprintable()]
         self.ask(
@@ -56,7 +56,7 @@ class PlotQuestions(Pane):
         )
 
     def _add_all(self, paths: str) -> None:
-        from bot_console.tui.panes.plot.formula import split
+        from bot_console.tui.panes.plot.formulas.formula import split
 
         for path in split(paths):
             self.add(path)

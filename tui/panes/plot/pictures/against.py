@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from bot_console.tui.panes.plot.curves import Array, Curve, stepped
-from bot_console.tui.panes.plot.formula import Held, held
+from bot_console.tui.panes.plot.formulas.formula import Held, held
 from bot_console.tui.panes.plot.view import LABEL, Axes, labels_of, limits_of_values, short_number, style_of, tick_step
 from bot_console.tui.widgets.braille import BrailleCanvas, layered
 from bot_console.tui.widgets.picture import Line

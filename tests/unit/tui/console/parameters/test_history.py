@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 from bot_console.tui.console.model import Change, ChangeSource, Value
+from bot_console.tui.console.parameters.file.patch import same
 from bot_console.tui.console.parameters.history import TRIMMED_EVERY, History
 from bot_console.tui.console.parameters.journal import Journal
-from bot_console.tui.console.parameters.patch import same
 
 SECOND = 10**9
 

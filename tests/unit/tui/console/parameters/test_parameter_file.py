@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 import yaml
 from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree, Value
-from bot_console.tui.console.parameters.file import Saved, save
-from bot_console.tui.console.parameters.patch import new_text, patched, same
+from bot_console.tui.console.parameters.file.patch import new_text, patched, same
+from bot_console.tui.console.parameters.file.saving import Saved, save
 from bot_console.tui.files.save_file import NotSaved
 
 FILE = """\

@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 from bot_console.runtime.rmw.parameter_precedence import ParameterTable
 from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree, Range, Value
-from bot_console.tui.console.parameters.file import save
-from bot_console.tui.console.parameters.patch import new_text, same
+from bot_console.tui.console.parameters.file.patch import new_text, same
+from bot_console.tui.console.parameters.file.saving import save
+from bot_console.tui.console.parameters.file.text import sections, value_at
 from bot_console.tui.console.parameters.profiles import differences, find, load, unmatched
 from bot_console.tui.console.parameters.shelf import Shelf
-from bot_console.tui.console.parameters.text import sections, value_at
 
 PUBLIC = sorted((Path(__file__).parent / "public").glob("*.yaml"))
 KINDS = {bool: Kind.BOOL, int: Kind.INTEGER, float: Kind.DOUBLE, str: Kind.STRING}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from bot_console.tui.panes.plot.formula import Formula, Held, read, split
+from bot_console.tui.panes.plot.formulas.formula import Formula, Held, read, split
 from bot_console.tui.panes.plot.parts import Timeline
 from fakes import FakeConsole
 

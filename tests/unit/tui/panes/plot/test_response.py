@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 from bot_console.tui.console.model import Change, ChangeSource
-from bot_console.tui.panes.plot.response import figures, figures_text, moments, response, score
+from bot_console.tui.panes.plot.step_response import figures, figures_text, moments, response, score
 
 TIMES = np.linspace(-1.0, 20.0, 21_001)
 

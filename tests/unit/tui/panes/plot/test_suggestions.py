@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.panes.plot.suggestions import suggested
+from bot_console.tui.panes.plot.formulas.suggestions import suggested
 
 KNOWN = (
     "/n:max_speed",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bot_console.tui.panes.pane import Pane
-from bot_console.tui.screens.tuning import TuningScreen
+from bot_console.tui.screens.tuning.progress import TuningScreen
 from bot_console.tui.tuning.tuner import Tuner
 from textual.app import App
 

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias, cast
 
 from bot_console.tui.console.model import Value
-from bot_console.tui.console.parameters import yaml_tree
-from bot_console.tui.console.parameters.node_keys import means
-from bot_console.tui.console.parameters.text import KEYWORD, Section, block_text, inline_text, sections, value_at
-from bot_console.tui.console.parameters.yaml_tree import Scalar, Sequence, YamlTree, read_tree
+from bot_console.tui.console.parameters.file import yaml_tree
+from bot_console.tui.console.parameters.file.node_keys import means
+from bot_console.tui.console.parameters.file.text import KEYWORD, Section, block_text, inline_text, sections, value_at
+from bot_console.tui.console.parameters.file.yaml_tree import Scalar, Sequence, YamlTree, read_tree
 
 Values: TypeAlias = Mapping[str, Mapping[str, Value]]
 """Values by node (fully qualified name) and parameter."""

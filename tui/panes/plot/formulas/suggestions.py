@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from bot_console.tui.panes.plot.formula import Formula, read
+from bot_console.tui.panes.plot.formulas.formula import Formula, read
 from bot_console.tui.widgets.prompt.question import Option
 from textual.fuzzy import Matcher
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from bot_console.tui.panes.plot.functions import OPERATORS, OVER_TIME, PLAIN, derivative
+from bot_console.tui.panes.plot.formulas.functions import OPERATORS, OVER_TIME, PLAIN, derivative
 from bot_console.tui.text.expression.numbers import CONSTANTS
 from bot_console.tui.text.expression.parse import parse
 from bot_console.tui.text.expression.tree import (

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.panes.plot.curves import Array, Curve, stepped
-from bot_console.tui.panes.plot.formula import Formula, Held
+from bot_console.tui.panes.plot.formulas.formula import Formula, Held
 
 
 class Computed(Curve):

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree, Value
-from bot_console.tui.console.parameters.patch import Values, compare, patched
-from bot_console.tui.console.parameters.text import SMALLEST, sections
+from bot_console.tui.console.parameters.file.patch import Values, compare, patched
+from bot_console.tui.console.parameters.file.text import SMALLEST, sections
 from bot_console.tui.files.save_file import NotSaved, save_file
 
 BUILT_IN = ("use_sim_time", "start_type_description_service")

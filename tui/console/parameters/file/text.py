@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 
 import yaml
 from bot_console.tui.console.model import Value
-from bot_console.tui.console.parameters.yaml_tree import Mapping, Scalar, Sequence, YamlTree, read_tree
+from bot_console.tui.console.parameters.file.yaml_tree import Mapping, Scalar, Sequence, YamlTree, read_tree
 from bot_console.tui.text.yaml_flow import is_plain
 
 KEYWORD = "ros__parameters"

@@ -1,0 +1,1 @@
+"""A tuning under way: its screen, and the door to it."""
