@@ -77,9 +77,11 @@ def console(tmp_path):
     (tmp_path / "program.py").write_text(CRASH.format(folder=tmp_path))
     terminal = Terminal(["program.py", "--launch", "one.launch.py"], tmp_path)
     received = tmp_path / "received"
-    terminal.read_until(lambda: received.exists() and received.read_text().count("1.0") >= 3, "the driving robot")
-    yield terminal
-    terminal.close()
+    try:
+        terminal.read_until(lambda: received.exists() and received.read_text().count("1.0") >= 3, "the driving robot")
+        yield terminal
+    finally:
+        terminal.close()
 
 
 ENDS = {
