@@ -9,6 +9,7 @@ from bot_console.runtime.rmw.endpoints import (
     ClientEndpoint,
     Endpoint,
     GraphChanged,
+    Hear,
     Message,
     NodeId,
     Notify,
@@ -124,6 +125,13 @@ class Bus(Protocol):
 
     def stopped(self) -> Mapping[int, Sequence[str]]:
         """The processes that are frozen, by pid, with their nodes; where that is known."""
+        ...
+
+    def overhear(self, hear: Hear | None) -> None:
+        """Hand over each message that this process publishes or receives; None ends that.
+
+        Who overhears is no subscription: publishers and the graph do not know, and nothing is sent for it.
+        """
         ...
 
     def published(self) -> int:

@@ -30,6 +30,21 @@ OnEvent = Callable[[Event, Any], None]
 Message = Any
 """A message, request or response. The generated classes have no base class; `_copy_()` copies and checks one."""
 
+Hear = Callable[["Endpoint", bytes, int, int, Message], None]
+"""Called, in the thread that publishes or receives, with each message that a process carries: an endpoint that tells
+topic, class and QoS, the publisher's gid, the message's number there, when it was sent (ns), and the message, or its
+bytes where it was serialized. It must not be changed; what another process sent comes once for each subscription."""
+
+
+class Tap:
+    """Where the endpoints of a bus find who overhears them."""
+
+    __slots__ = ("hear",)
+
+    def __init__(self) -> None:
+        self.hear: Hear | None = None
+        """None while nobody listens."""
+
 
 class Held:
     """A message in a queue that is not its taker's own yet."""

@@ -14,6 +14,7 @@ from bot_console.runtime.rmw.endpoints import (
     ClientEndpoint,
     Endpoint,
     GraphChanged,
+    Hear,
     Message,
     NodeId,
     Notify,
@@ -22,6 +23,7 @@ from bot_console.runtime.rmw.endpoints import (
     ServiceEndpoint,
     Shared,
     SubscriptionEndpoint,
+    Tap,
     depth,
 )
 from bot_console.runtime.rmw.graph_tables import GraphTables
@@ -34,12 +36,13 @@ class LocalPublisher:
     """A publisher; `targets` are the subscriptions that receive, renewed when the graph changes."""
 
     __slots__ = (
-        *("_lifespan", "_lock", "_now", "_number", "_outlet", "elsewhere", "endpoint", "history", "lease"),
+        *("_lifespan", "_lock", "_now", "_number", "_outlet", "_tap", "elsewhere", "endpoint", "history", "lease"),
         *("on_event", "on_publish", "open", "targets"),
     )
 
-    def __init__(self, endpoint: Endpoint, on_event: OnEvent, lock: threading.RLock) -> None:
+    def __init__(self, endpoint: Endpoint, on_event: OnEvent, lock: threading.RLock, tap: Tap) -> None:
         self.endpoint = endpoint
+        self._tap = tap
         self._lock = lock
         self.on_event = on_event
         self.on_publish: Notify | None = None
@@ -78,21 +81,28 @@ class LocalPublisher:
         """Put a message of the middleware's own into the queue of each matched subscription."""
         if self.lease is not None or self.on_publish is not None:
             self.assert_liveliness()
-        targets, history = self.targets, self.history
+        targets, history, hear = self.targets, self.history, self._tap.hear
         self._number = number = self._number + 1
-        if not targets and history is None:
+        if not targets and history is None and hear is None:
             return
         stamp = self._now()
         takers = len(targets)
         if history is not None:
             history.append((message, stamp, number))
             takers += 1  # what is kept is never taken
+        if hear is not None:
+            takers += 1
         expires = stamp + self._lifespan if self._lifespan else None
         # The last who takes it gets the message itself, the others a copy when they take it, if they ever do.
         given = Shared(message, takers) if takers > 1 else message
+        data: bytes | None = None
         for target in targets:
-            target.queue.append((_serialize(message) if target.raw else given, stamp, number, expires))
+            if target.raw and data is None:
+                data = _serialize(message)
+            target.queue.append((data if target.raw else given, stamp, number, expires))
             target.notify()
+        if hear is not None:
+            hear(self.endpoint, self.endpoint.gid, number, stamp, message if data is None else data)
 
     def publish_raw(self, data: bytes) -> None:
         """Give serialized data as it is, or as a message to subscriptions that want one."""
@@ -161,12 +171,18 @@ class LocalBus:
         self._services: dict[str, list[ServiceEndpoint]] = {}
         self._clients: dict[str, list[ClientEndpoint]] = {}
         self._watchers: list[GraphChanged] = []
+        self.tap = Tap()
+        """For those who receive for this process on other ways, too."""
         self._tables = GraphTables(self._lock)
 
     def published(self) -> int:
         """How many messages the present publishers have published in all."""
         with self._lock:
             return sum(each.published for publishers in self._publishers.values() for each in publishers)
+
+    def overhear(self, hear: Hear | None) -> None:
+        """Hand over each message that is published, without being a subscription."""
+        self.tap.hear = hear
 
     def add_node(self, name: str, namespace: str, enclave: str) -> NodeId:
         """Let a node appear in the graph."""
@@ -188,7 +204,7 @@ class LocalBus:
 
     def create_publisher(self, endpoint: Endpoint, on_event: OnEvent) -> LocalPublisher:
         """Make a publisher and match it."""
-        publisher = LocalPublisher(endpoint, on_event, self._lock)
+        publisher = LocalPublisher(endpoint, on_event, self._lock, self.tap)
         with self._lock:
             if not self._own(endpoint.node, publisher):
                 return publisher

@@ -16,6 +16,7 @@ from bot_console.tui.cli.system.domain import domain, is_in_range, robot_there, 
 from bot_console.tui.cli.system.workspaces import choose
 from bot_console.tui.console.model import Severity
 from bot_console.tui.files.folders import state_folder
+from bot_console.tui.settings.settings import read_settings
 
 ATTACHED = "Attached to ROS domain {}: q ends the console alone, and what was started from it."
 HOST_LOG = "launch-host.log"
@@ -51,13 +52,18 @@ def run(options: Options) -> int:
 
 def _show(options: Options, alone: str, own: Host | None, start: Callable[[], Host]) -> int:
     from bot_console.tui.cli.live.launchers import attached, embedded, hosted
+    from bot_console.tui.cli.live.past import HostsPast, overhear
     from bot_console.tui.cli.live.session import Session
 
     said = [(Severity.WARN, f"No second terminal reaches this system: {alone}")] if alone else []
     if options.attach:
         said.append((Severity.INFO, ATTACHED.format(domain())))
         return Session(options, said, attached(start)).run()
-    return Session(options, said, embedded if own is None else hosted(own)).run()
+    size = read_settings().kept
+    if own is None:
+        return Session(options, said, embedded, overhear(size) if size else None).run()
+    past = HostsPast(size.seconds) if size else None
+    return Session(options, said, hosted(own, past), past).run()
 
 
 def _refusal(options: Options) -> str:
@@ -77,6 +83,8 @@ def _host(options: Options) -> Host:
     except OSError:  # a home that cannot be written is no reason to have no robot
         log = Path(os.devnull)
     words = [word for each in options.workspace for word in ("--workspace", str(each))]
+    if size := read_settings().kept:
+        words += ["--keep-seconds", str(size.seconds), "--keep-bytes", str(size.bytes)]
     return start_host(words, log=log)
 
 

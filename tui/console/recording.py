@@ -22,10 +22,21 @@ class RecordingInfo:
 
 @dataclass(frozen=True, slots=True)
 class RingSize:
-    """How much of all topics is kept in memory at most: seconds, and bytes."""
+    """How much of what a system carries is kept in memory at most: seconds, and bytes."""
 
     seconds: float
     bytes: int
+
+
+class Keeper(Protocol):
+    """Keeps the last minutes of a system, wherever that is done."""
+
+    kept_s: float
+    """How many seconds."""
+
+    def keep(self, folder: str) -> Future[Answer]:
+        """Save them as a new bag, and go on keeping."""
+        ...
 
 
 class Recording(Protocol):

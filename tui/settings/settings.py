@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, cast
 
 import yaml
+from bot_console.tui.console.recording import RingSize
 from bot_console.tui.files.folders import config_folder
 from bot_console.tui.keys.remapping import wrong_keys
 from bot_console.tui.settings.names import GLYPHS, THEME_NAMES
@@ -32,8 +33,8 @@ glyphs: auto
 # What the first screen shows: last (as it was left), or the name of a layout.
 layout: last
 
-# Recording: all topics of a system that this console has started are kept in memory for so many minutes, in at most so
-# many megabytes, so that Z can save what was; 0 keeps nothing.
+# Recording: what the nodes of a system that this console has started say and hear is kept in memory for so many
+# minutes, in at most so many megabytes, so that Z can save what was; 0 keeps nothing.
 keep_minutes: {KEEP_MINUTES:g}
 keep_megabytes: {KEEP_MEGABYTES:g}
 
@@ -55,6 +56,12 @@ class Settings:
     problems: tuple[str, ...] = ()
     keep_minutes: float = KEEP_MINUTES
     keep_megabytes: float = KEEP_MEGABYTES
+
+    @property
+    def kept(self) -> RingSize | None:
+        """How much of the last minutes is kept in memory; None: nothing."""
+        size = RingSize(self.keep_minutes * 60, int(self.keep_megabytes * 1_000_000))
+        return size if size.seconds and size.bytes else None
 
 
 def settings_file() -> Path:

@@ -13,6 +13,7 @@ from bot_console.runtime.rmw.endpoints import (
     ClientEndpoint,
     Endpoint,
     GraphChanged,
+    Hear,
     Message,
     NodeId,
     OnEvent,
@@ -120,7 +121,7 @@ class ZenohBus:
         key, shown = self._names(endpoint.node, "MS", endpoint)
         self._local.create_subscription(subscription)
         if shown:
-            inlet = Inlet(self._session, subscription, key, self._own)
+            inlet = Inlet(self._session, subscription, key, self._own, self._local.tap)
             watched: tuple[Kind, str, Listener] = ("MP", endpoint.topic, self._telling(inlet.saw))
             self._watches.listen(*watched)  # who publishes is known before the first message comes
             inlet.open()
@@ -252,6 +253,10 @@ class ZenohBus:
     def on_graph_change(self, callback: GraphChanged) -> Callable[[], None]:
         """Call back at each change of the graph that this process looks at; returns what ends that."""
         return self._local.on_graph_change(callback)
+
+    def overhear(self, hear: Hear | None) -> None:
+        """Hand over what this process publishes, and what others send to its subscriptions."""
+        self._local.overhear(hear)
 
     def published(self) -> int:
         """How many messages the present publishers of this process have published in all."""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
-from bot_console.runtime.rmw.endpoints import Held, Message, SubscriptionEndpoint, depth
+from bot_console.runtime.rmw.endpoints import Held, Message, SubscriptionEndpoint, Tap, depth
 from bot_console.runtime.rmw.qos_matching import INFINITE, incompatible_policy
 from bot_console.runtime.rmw.zenoh.outlet import PATIENT_TOPICS, mismatch
 from bot_console.runtime.rmw.zenoh.session import Declared, Session
@@ -56,9 +56,12 @@ class Arrived(Held):
 class Inlet:
     """Receives for one subscription what others publish."""
 
-    def __init__(self, session: Session, subscription: SubscriptionEndpoint, key: str, own: Container[bytes]) -> None:
+    def __init__(
+        self, session: Session, subscription: SubscriptionEndpoint, key: str, own: Container[bytes], tap: Tap
+    ) -> None:
         """`own` has the ids of this process's publishers, whose messages come from object to object."""
         self._subscription = subscription
+        self._tap = tap
         self._own = own
         self.message_class = subscription.endpoint.message_class
         self._key = key
@@ -103,6 +106,9 @@ class Inlet:
             self._overrun()
         subscription.queue.append((message, stamp, number, expires))
         subscription.notify()
+        hear = self._tap.hear
+        if hear is not None:
+            hear(subscription.endpoint, gid, number, stamp, payload)
 
     def dropped(self, error: Exception) -> None:
         """Tell that a message cannot be read."""

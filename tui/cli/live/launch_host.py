@@ -71,10 +71,12 @@ def main(words: Sequence[str] | None = None) -> int:
     given = _parser().parse_args(words)
     install()
     from bot_console.tui.cli.live.launchers import launcher_here
+    from bot_console.tui.cli.live.past import overhear
     from bot_console.tui.cli.system.domain import take_part
     from bot_console.tui.cli.system.own_processes import isolate
     from bot_console.tui.cli.system.workspaces import choose
     from bot_console.tui.console.launch_host.host import LaunchHost
+    from bot_console.tui.console.recording import RingSize
 
     choose([Path(each) for each in given.workspace])
     problem = take_part()
@@ -82,7 +84,8 @@ def main(words: Sequence[str] | None = None) -> int:
         print(problem, file=sys.stderr)
         return 1
     isolate()
-    host = LaunchHost(launcher_here)
+    past = overhear(RingSize(given.keep_seconds, given.keep_bytes)) if given.keep_bytes else None
+    host = LaunchHost(launcher_here, past=past)
     host.connect(socket.socket(fileno=given.owner), owner=True)
     serve(host)
     return 0
@@ -123,6 +126,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser("launch_host")
     add = parser.add_argument
     add("--owner", type=int, required=True, metavar="DESCRIPTOR", help="the socket of the console that owns it")
+    add("--keep-seconds", type=float, default=0.0, help="how much of what is carried is kept in memory")
+    add("--keep-bytes", type=int, default=0)
     add("--workspace", action="append", default=[], metavar="DIR", help="where packages are")
     return parser
 

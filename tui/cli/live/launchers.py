@@ -21,6 +21,7 @@ from bot_console.tui.console.protocol import Launcher
 
 if TYPE_CHECKING:
     from bot_console.tui.cli.live.launch_host import Host
+    from bot_console.tui.cli.live.past import HostsPast
     from bot_console.tui.console.connection.ros_console import RosConsole
 
 PATIENCE = 20.0
@@ -59,9 +60,16 @@ def embedded(console: RosConsole) -> RosLauncher:
     return launcher_here(console.record, console.printed, console.heard)
 
 
-def hosted(host: Host) -> Callable[[RosConsole], HostedLauncher]:
-    """Over a launch host that this process owns."""
-    return lambda console: HostedLauncher(host.connection, console.record, console.printed, learn=console.learn)
+def hosted(host: Host, past: HostsPast | None) -> Callable[[RosConsole], HostedLauncher]:
+    """Over a launch host that this process owns, and that keeps the last minutes."""
+
+    def make(console: RosConsole) -> HostedLauncher:
+        launcher = HostedLauncher(host.connection, console.record, console.printed, learn=console.learn)
+        if past is not None:
+            past.host = launcher
+        return launcher
+
+    return make
 
 
 def attached(start_own: Callable[[], Host]) -> Callable[[RosConsole], SeveralLaunchers]:

@@ -27,9 +27,8 @@ from bot_console.tui.cli.system.workspaces import SYSTEM_LAUNCH, config_folders
 from bot_console.tui.cli.tune.tuner import LocalTuner
 from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import LaunchInfo, Severity
-from bot_console.tui.console.recording import RingSize
+from bot_console.tui.console.recording import Keeper
 from bot_console.tui.files.folders import config_folder, state_folder
-from bot_console.tui.settings.settings import read_settings
 
 ROOT = Path(__file__).resolve().parents[3]
 SWITCH_INTERVAL = 0.0005
@@ -51,10 +50,11 @@ class Session:
         options: Options,
         said: Sequence[tuple[Severity, str]] = (),
         system: Callable[[RosConsole], ConsoleLauncher] = embedded,
+        past: Keeper | None = None,
     ) -> None:
         """`said` are lines for the log that were known before there was one; `system` makes the launcher.
 
-        In this process unless it says otherwise.
+        In this process unless it says otherwise. `past` keeps the last minutes.
         """
         self._has_begun: Callable[[], None] = lambda: None
         self._options = options
@@ -72,7 +72,7 @@ class Session:
             own_profiles=config_folder() / "profiles",
             workspace_profiles=config_folders,
             fetch=_fetched,
-            ring=None if options.attach else _ring(),
+            past=past,
         )
         self.launcher = system(self.console)
         self._tuner = LocalTuner()
@@ -203,10 +203,3 @@ def _eager_switching() -> Generator[None]:
         yield
     finally:
         sys.setswitchinterval(before)
-
-
-def _ring() -> RingSize | None:
-    """What is kept in memory of all topics, by the settings; None: nothing."""
-    settings = read_settings()
-    size = RingSize(settings.keep_minutes * 60, int(settings.keep_megabytes * 1_000_000))
-    return size if size.seconds and size.bytes else None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import deque
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any, Protocol
 
 from bot_console.tui.console.bags.qos import noted
@@ -18,6 +18,8 @@ LOOK = 0.5
 """Seconds between two looks for new topics."""
 ONE_CLOCK = 1_000_000_000
 """Nanoseconds by which a message's time of sending may lie back and still be believed."""
+CLOCK = "/clock"
+"""Left out by a console, a third of all messages: a bag has times of its own, which `bag play --clock` tells."""
 OVERHEAD = 200
 """Bytes that a kept message takes beside its own."""
 BEST = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -74,12 +76,9 @@ class Recorder:
     def _take(self) -> None:
         now = time.time_ns()
         found = [(sent, name, data) for name, each in self.subscribed.items() for data, sent in each.drain()]
-        # All of a turn are taken at once, so the time of sending tells better when one came, unless clocks differ.
-        stamped = [(sent if 0 <= now - sent < ONE_CLOCK else now, name, data, sent) for sent, name, data in found]
-        stamped.sort(key=_received)
-        for received, name, data, sent in stamped:
-            self._last = max(self._last, received)
-            self._sink.write(name, data, self._last, sent)
+        for received, name, data, sent in in_order(found, now, self._last):
+            self._last = received
+            self._sink.write(name, data, received, sent)
 
     def _look(self) -> None:
         """Subscribe what has come, follow what is offered now, and flush."""
@@ -105,6 +104,18 @@ class Recorder:
         self.subscribed[name] = OfferedSubscription(
             self._node, kind, name, _nobody, BEST, eager=False, once_weak=True, raw=True
         )
+
+
+def in_order(found: Iterable[tuple[int, str, bytes]], now: int, last: int) -> Iterator[tuple[int, str, bytes, int]]:
+    """What was taken at once, each (sent, topic, data), as it came: (received, topic, data, sent), none before `last`.
+
+    The time of sending tells better than that of taking when one came, unless clocks differ.
+    """
+    stamped = [(sent if 0 <= now - sent < ONE_CLOCK else now, name, data, sent) for sent, name, data in found]
+    stamped.sort(key=_received)
+    for received, name, data, sent in stamped:
+        last = max(last, received)
+        yield last, name, data, sent
 
 
 def _received(entry: tuple[int, str, bytes, int]) -> int:

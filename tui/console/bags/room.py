@@ -11,18 +11,17 @@ from typing import Any
 
 import rclpy
 from bot_console.tui.console.bags.needed import Missing
-from bot_console.tui.console.bags.recorder import PACE, Recorder, Ring
+from bot_console.tui.console.bags.recorder import CLOCK, PACE, Recorder
 from bot_console.tui.console.bags.tape import Tape
 from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.console.connection.no_console import done
 from bot_console.tui.console.protocol import Answer
-from bot_console.tui.console.recording import RecordingInfo, RingSize
+from bot_console.tui.console.recording import Keeper, RecordingInfo
 from bot_console.tui.files.save_file import NotSaved, typed_path
 from rclpy.context import Context
 from rosidl_runtime_py.utilities import get_message
 
 NAME = "_bot_console_recorder"
-CLOCK = "/clock"
 CLOSING = 3.0
 """Seconds that a bag has to be finished when the console ends."""
 
@@ -30,16 +29,15 @@ CLOSING = 3.0
 class Recordings:
     """Records all topics; its methods may be called from any thread."""
 
-    def __init__(self, ring: RingSize | None = None) -> None:
-        """Where nothing is kept in memory there is neither node nor thread before something is recorded."""
-        self._tape = Tape(Ring(ring.seconds, ring.bytes) if ring else None)
-        self._info = RecordingInfo(kept_s=ring.seconds if ring else 0.0)
+    def __init__(self, past: Keeper | None = None) -> None:
+        """`past` keeps the last minutes; None: nobody does. Before something is recorded there is no node."""
+        self._past = past
+        self._tape = Tape(None)
+        self._info = RecordingInfo(kept_s=past.kept_s if past else 0.0)
         self._orders: queue.SimpleQueue[tuple[Callable[[], Answer], Future[Answer]]] = queue.SimpleQueue()
         self._closing = threading.Event()
         self._thread: threading.Thread | None = None
         self._lock = threading.Lock()
-        if ring:
-            self._run()
 
     @property
     def info(self) -> RecordingInfo:
@@ -83,20 +81,9 @@ class Recordings:
 
     def keep(self, folder: str) -> Future[Answer]:
         """Save what is kept in memory."""
-        ring = self._tape.ring
-        if ring is None:
-            return done(Answer(False, "nothing is kept in memory (setting keep_minutes)"))
-
-        def pour() -> Answer:
-            try:
-                writer = BagWriter(typed_path(folder))
-                count = self._tape.pour(writer)
-                writer.close()
-            except (Missing, NotSaved, OSError) as error:
-                return Answer(False, f"not saved: {error}")
-            return Answer(True, f"the last {ring.span:.0f} s, {count} messages, in {folder}")
-
-        return self._order(pour)
+        if self._past is None:
+            return done(Answer(False, "nothing is kept in memory here (setting keep_minutes)"))
+        return self._past.keep(str(typed_path(folder).absolute()))
 
     def close(self) -> None:
         """Finish what is being recorded, and leave the graph."""
@@ -129,12 +116,12 @@ class Recordings:
         recorder: Recorder | None = None
         try:
             while not self._closing.wait(PACE):
-                wanted = self._tape.ring is not None or self._tape.writer is not None
+                wanted = self._tape.writer is not None
                 if recorder is not None:
                     recorder.turn() if wanted else recorder.close()
                     recorder = recorder if wanted else None
                 elif wanted:
-                    recorder = Recorder(node, self._tape, _recorded, get_message)
+                    recorder = Recorder(node, self._tape, CLOCK.__ne__, get_message)
                 self._obey()  # after the turn: a bag that is ended has all that came before
             if recorder is not None:
                 recorder.close()
@@ -155,8 +142,3 @@ class Recordings:
                 future.set_result(Answer(False, "the console has closed") if self._closing.is_set() else work())
             except Exception as error:  # the border of the thread: whoever asked is told
                 future.set_result(Answer(False, f"{type(error).__name__}: {error}"))
-
-
-def _recorded(topic: str) -> bool:
-    """All but the clock, a third of all messages: a bag has times of its own, which `bag play --clock` tells."""
-    return topic != CLOCK

@@ -28,7 +28,7 @@ from bot_console.tui.console.model import (
 from bot_console.tui.console.node import ConsoleNode
 from bot_console.tui.console.parameters.shelf import Shelf
 from bot_console.tui.console.protocol import Answer, LoggerLevel, LogSource, LogView, Samples
-from bot_console.tui.console.recording import Recording, RingSize
+from bot_console.tui.console.recording import Keeper, Recording
 from bot_console.tui.console.robot.robot_model import Pose
 from bot_console.tui.console.sights.model import Sights
 from bot_console.tui.console.traffic import Traffic
@@ -47,14 +47,14 @@ class LinkedConsole:
         views: LogViews,
         shelf: Shelf,
         capabilities: Capabilities,
-        ring: RingSize | None = None,
+        past: Keeper | None = None,
     ) -> None:
         self._node = node
         self._logs = logs
         self._views = views
         self._shelf = shelf
         self._capabilities = capabilities
-        self._recordings = Recordings(ring)
+        self._recordings = Recordings(past)
 
     @property
     def recording(self) -> Recording:

@@ -33,7 +33,7 @@ from bot_console.tui.console.model import (
 )
 from bot_console.tui.console.parameters.provenance import Learn, Provenance
 from bot_console.tui.console.protocol import Answer, Console, LoggerLevel, LogSource, LogView, Samples
-from bot_console.tui.console.recording import Recording, RingSize
+from bot_console.tui.console.recording import Keeper, Recording
 from bot_console.tui.console.robot.robot_model import Pose
 from bot_console.tui.console.sights.model import Sights
 from bot_console.tui.console.traffic import Traffic
@@ -67,7 +67,7 @@ class RosConsole:
         link: Callable[[], LinkInfo] = lambda: NO_LINK,
         foreign: bool = False,
         fetch: Callable[[str], Path] | None = None,
-        ring: RingSize | None = None,
+        past: Keeper | None = None,
         frozen: FrozenNodes | None = None,
     ) -> None:
         """`own_profiles` is where profiles are saved, `workspace_profiles` finds more folders that may hold some.
@@ -76,8 +76,8 @@ class RosConsole:
 
         `fetch` gives the copy of a parameter file on a server, or raises `OSError`; in any thread.
 
-        `link` tells how a network is; `foreign` that the system is not ours, see `ConsoleNode`; `ring` what is kept of
-        all topics in memory, None: nothing; `frozen` which nodes' processes are stopped.
+        `link` tells how a network is; `foreign` that the system is not ours, see `ConsoleNode`; `past` keeps the
+        last minutes, None: nobody does; `frozen` which nodes' processes are stopped.
         """
         self._own_profiles = own_profiles
         self._workspace_profiles = workspace_profiles
@@ -91,7 +91,7 @@ class RosConsole:
         self._link = link
         self._fetch = fetch
         self._foreign = foreign
-        self._ring = ring
+        self._past = past
         self._zeroed = False
         self._problem = ""
         self._ready = threading.Event()
@@ -134,7 +134,7 @@ class RosConsole:
             self._learn = node.learn
             node.setter.profile = self._active_profile
             self._heard = node.loggers
-            linked = LinkedConsole(node, logs, self._views, shelf, self._capabilities, self._ring)
+            linked = LinkedConsole(node, logs, self._views, shelf, self._capabilities, self._past)
             self._connected = True
             if self._closed:
                 self._now = NoConsole(CLOSED, linked)

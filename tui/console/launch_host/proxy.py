@@ -86,6 +86,10 @@ class HostedLauncher:
         """Stop, then start; the answer comes when it runs again."""
         return self._want("restart", key)
 
+    def keep(self, folder: str) -> Future[Answer]:
+        """Save the last minutes, which the host keeps, as a bag."""
+        return self._want("keep", folder)
+
     def arguments(self, path: str) -> Sequence[LaunchArgument]:
         """The arguments a launch file declares; raises `ValueError` when it cannot be read."""
         try:

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 from bot_console.runtime.process import on_notice
-from bot_console.runtime.rmw.endpoints import Endpoint, NodeId, SubscriptionEndpoint, own, queue_for
+from bot_console.runtime.rmw.endpoints import Endpoint, NodeId, SubscriptionEndpoint, Tap, own, queue_for
 from bot_console.runtime.rmw.zenoh.inlet import Inlet
 from bot_console.runtime.rmw.zenoh.wire.attachment import pack
 from rclpy.qos import QoSProfile
@@ -35,7 +35,7 @@ def received(topic):
     subscription = SubscriptionEndpoint(
         endpoint, False, queue_for(QOS), lambda: None, lambda kind, what: events.append((kind, what))
     )
-    return Inlet(SimpleNamespace(lost=0), subscription, "key", set()), subscription.queue, events
+    return Inlet(SimpleNamespace(lost=0), subscription, "key", set(), Tap()), subscription.queue, events
 
 
 def give(inlet, number):

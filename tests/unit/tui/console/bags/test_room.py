@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from concurrent.futures import Future
 from pathlib import Path
 
@@ -14,7 +14,6 @@ from bot_console.tui.console.bags.room import Recordings
 from bot_console.tui.console.bags.tape import Tape
 from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.console.protocol import Answer
-from bot_console.tui.console.recording import RingSize
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.serialization import deserialize_message, serialize_message
 from rosgraph_msgs.msg import Clock
@@ -41,28 +40,19 @@ def node() -> Iterator[rclpy.node.Node]:
 
 
 @pytest.fixture
-def recordings() -> Iterator[Callable[[RingSize | None], Recordings]]:
-    made: list[Recordings] = []
-
-    def make(ring: RingSize | None) -> Recordings:
-        made.append(Recordings(ring))
-        return made[-1]
-
-    yield make
-    for each in made:
-        each.close()
+def room() -> Iterator[Recordings]:
+    made = Recordings()
+    yield made
+    made.close()
 
 
-def test_a_bag_is_recorded_from_begin_to_end(
-    tmp_path: Path, node: rclpy.node.Node, recordings: Callable[[RingSize | None], Recordings]
-) -> None:
+def test_a_bag_is_recorded_from_begin_to_end(tmp_path: Path, node: rclpy.node.Node, room: Recordings) -> None:
     latched = node.create_publisher(
         String, "/map_name", QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
     )
     latched.publish(String(data="office"))
     publisher = node.create_publisher(String, "/words", 10)
     node.create_publisher(Clock, "/clock", 10)
-    room = recordings(None)
     assert not told(room.stop()).ok and not told(room.keep("x")).ok and room.info.folder == ""
     assert told(room.start(str(tmp_path / "bag"))).ok
     assert room.info.folder == str(tmp_path / "bag") and room.info is room.info

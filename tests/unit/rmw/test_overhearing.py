@@ -1,0 +1,66 @@
+"""Who overhears a bus gets what it carries, and nobody can tell."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+import rclpy
+from bot_console.runtime.rmw.middleware import bus_of
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.serialization import deserialize_message
+from std_msgs.msg import String
+
+
+@pytest.fixture
+def node() -> Iterator[Any]:
+    rclpy.init()
+    made = rclpy.create_node("talker")
+    yield made
+    made.destroy_node()
+    rclpy.try_shutdown()
+
+
+@pytest.fixture
+def heard() -> Iterator[list[Any]]:
+    """What is carried on `/words`."""
+    found: list[Any] = []
+
+    def hear(by: Any, source: bytes, number: int, sent: int, message: Any) -> None:
+        if by.topic == "/words":
+            found.append((number, message))
+
+    bus_of(0).overhear(hear)
+    yield found
+    bus_of(0).overhear(None)
+
+
+def test_it_hears_what_nobody_subscribes_and_is_not_counted(node: Any, heard: list[Any]) -> None:
+    publisher = node.create_publisher(String, "/words", 10)
+    publisher.publish(String(data="to nobody"))
+    assert [(number, each.data) for number, each in heard] == [(1, "to nobody")]
+    assert publisher.get_subscription_count() == node.count_subscribers("/words") == 0
+    bus_of(0).overhear(None)
+    publisher.publish(String(data="again"))
+    assert len(heard) == 1
+
+
+def test_what_is_overheard_is_not_what_a_subscription_changes(node: Any, heard: list[Any]) -> None:
+    def spoil(message: Any) -> None:
+        message.data = "spoilt"
+
+    node.create_subscription(String, "/words", spoil, 10)
+    node.create_publisher(String, "/words", 10).publish(String(data="as it was"))
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    executor.spin_once(timeout_sec=1.0)
+    executor.remove_node(node)
+    assert [each.data for _, each in heard] == ["as it was"]
+
+
+def test_what_was_serialized_is_not_serialized_again(node: Any, heard: list[Any]) -> None:
+    node.create_subscription(String, "/words", lambda data: None, 10, raw=True)
+    node.create_publisher(String, "/words", 10).publish(String(data="bytes"))
+    ((_, data),) = heard
+    assert deserialize_message(data, String).data == "bytes"

@@ -1,0 +1,36 @@
+"""The last minutes of a system, kept by the process that runs its nodes."""
+
+from __future__ import annotations
+
+from concurrent.futures import Future
+
+from bot_console.runtime.rmw.middleware import bus_of
+from bot_console.runtime.rosidl import type_hash
+from bot_console.runtime.rosidl.cdr import serialize_copied
+from bot_console.tui.cli.system.domain import domain
+from bot_console.tui.console.bags.past import Past
+from bot_console.tui.console.connection.no_console import done
+from bot_console.tui.console.launch_host.proxy import HostedLauncher
+from bot_console.tui.console.protocol import Answer
+from bot_console.tui.console.recording import RingSize
+
+
+def overhear(size: RingSize) -> Past:
+    """Keep what the nodes of this process publish, and what others send to them."""
+    past = Past(size, serialize_copied, type_hash.text)
+    bus_of(domain()).overhear(past.hear)
+    return past
+
+
+class HostsPast:
+    """What the launch host of a console keeps."""
+
+    def __init__(self, kept_s: float) -> None:
+        self.kept_s = kept_s
+        self.host: HostedLauncher | None = None
+
+    def keep(self, folder: str) -> Future[Answer]:
+        """Save it as a new bag."""
+        if self.host is not None:
+            return self.host.keep(folder)
+        return done(Answer(False, "nothing has been started yet"))

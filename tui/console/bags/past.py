@@ -1,0 +1,103 @@
+"""The last minutes of what a process carries: kept while nobody asks, so that what has just happened can be saved."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections import deque
+from collections.abc import Callable
+from concurrent.futures import Future
+from typing import Any, Protocol
+
+from bot_console.tui.console.bags.needed import Missing
+from bot_console.tui.console.bags.qos import noted
+from bot_console.tui.console.bags.recorder import CLOCK, Ring, in_order
+from bot_console.tui.console.bags.tape import Tape
+from bot_console.tui.console.bags.writer import BagWriter
+from bot_console.tui.console.protocol import Answer
+from bot_console.tui.console.recording import RingSize
+from bot_console.tui.files.save_file import NotSaved, typed_path
+
+PACE = 0.25
+"""Seconds between two turns."""
+WAITING = 50_000
+"""Messages that may come between two turns; of more the oldest go."""
+
+
+class Carried(Protocol):
+    """The endpoint that a message came by."""
+
+    topic: str
+    message_class: Any
+    qos: Any
+
+
+class Past:
+    """Keeps what it is told of; its methods may be called from any thread.
+
+    It is fed by a middleware that hands over what it carries anyway, so it is no subscription: `topic info` does not
+    count it, and who publishes only while somebody listens does not begin to.
+    """
+
+    def __init__(self, size: RingSize, serialize: Callable[[Any], bytes], hash_of: Callable[[Any], str]) -> None:
+        """`serialize` gives a message's CDR, `hash_of` the RIHS01 text of a class."""
+        self.kept_s = size.seconds
+        self._serialize = serialize
+        self._hash_of = hash_of
+        self._ring = Ring(size.seconds, size.bytes)
+        self._tape = Tape(self._ring)
+        self._waiting: deque[tuple[Carried, bytes, int, int, Any]] = deque(maxlen=WAITING)
+        self._numbers: dict[bytes, int] = {}
+        self._known: set[str] = set()
+        self._last = 0
+        self._lock = threading.Lock()
+        self._closing = threading.Event()
+        threading.Thread(target=self._serve, name="past", daemon=True).start()
+
+    def hear(self, by: Carried, source: bytes, number: int, sent: int, message: Any) -> None:
+        """A message is carried: by which endpoint, whose (gid) how manieth, when it was sent (ns), it or its bytes."""
+        if by.topic != CLOCK:
+            self._waiting.append((by, source, number, sent, message))
+
+    def keep(self, folder: str) -> Future[Answer]:
+        """Save what is kept as a new bag, and go on keeping."""
+        outcome: Future[Answer] = Future()
+        threading.Thread(target=lambda: outcome.set_result(self._pour(folder)), daemon=True).start()
+        return outcome
+
+    def close(self) -> None:
+        """Keep no more."""
+        self._closing.set()
+
+    def _pour(self, folder: str) -> Answer:
+        try:
+            with self._lock:
+                self._turn()
+                writer = BagWriter(typed_path(folder))
+                count = self._tape.pour(writer)
+                span = self._ring.span
+            writer.close()
+        except (Missing, NotSaved, OSError) as error:
+            return Answer(False, f"not saved: {error}")
+        return Answer(True, f"the last {span:.0f} s, {count} messages, in {folder}")
+
+    def _serve(self) -> None:
+        while not self._closing.wait(PACE):
+            with self._lock:
+                self._turn()
+
+    def _turn(self) -> None:
+        """Take what has come: objects become bytes, which are smaller and which the garbage collector passes by."""
+        found: list[tuple[int, str, bytes]] = []
+        for _ in range(len(self._waiting)):
+            by, source, number, sent, message = self._waiting.popleft()
+            if number <= self._numbers.get(source, 0):  # it has come to another subscription here, too
+                continue
+            self._numbers[source] = number
+            if by.topic not in self._known:
+                self._known.add(by.topic)
+                self._tape.topic(by.topic, by.message_class, noted([by.qos]), self._hash_of(by.message_class))
+            found.append((sent, by.topic, message if isinstance(message, bytes) else self._serialize(message)))
+        for received, topic, data, sent in in_order(found, time.time_ns(), self._last):
+            self._last = received
+            self._tape.write(topic, data, received, sent)
