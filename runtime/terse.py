@@ -6,6 +6,7 @@ import errno
 import os
 import sys
 from collections.abc import Callable
+from typing import Any
 
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG)
 
@@ -29,11 +30,27 @@ def _has_folder() -> bool:
     return True
 
 
+def help_tells_faults() -> None:
+    """Let the help of every parser fail where it cannot be written: argparse would drop the fault, and end with 0."""
+    import argparse
+
+    def write(self: argparse.ArgumentParser, message: str, file: Any = None) -> None:
+        if message:
+            (file or sys.stderr).write(message)
+
+    argparse.ArgumentParser._print_message = write  # pyright: ignore[reportPrivateUsage]  # where all help passes
+
+
 def told(run: Callable[[], int]) -> int:
     """Run a command and flush what it has printed; a fault of its place is told on one line, with exit code 1."""
     code = 0
     try:
-        code = run()
+        try:
+            code = run()
+        except SystemExit as end:  # as a parser ends after its help
+            code = end.code if isinstance(end.code, int) else 1 if end.code else 0
+            if isinstance(end.code, str):
+                print(end.code, file=sys.stderr)
         sys.stdout.flush()
         return code
     except BrokenPipeError:  # as of `head`, which has read enough

@@ -31,7 +31,7 @@ def command(words: list[str], folder: Path, **options: object) -> subprocess.Com
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="a system without /dev/full")
 @pytest.mark.parametrize(
     "words",
-    [["--version"], ["setup", "bash"], ["ros2", "pkg", "list"], ["ros2", "interface", "show", "std_msgs/msg/String"]],
+    [["--help"], ["setup", "bash"], ["ros2", "pkg", "list"], ["ros2", "interface", "show", "std_msgs/msg/String"]],
     ids=" ".join,
 )
 def test_a_full_disk_is_told_once(words: list[str], tmp_path: Path) -> None:

@@ -20,8 +20,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     if words == ["--version"]:
         print(f"bot-console {__version__}")
         return 0
+    from bot_console.runtime.terse import help_tells_faults
     from bot_console.tui.opening import is_rqt
 
+    help_tells_faults()
     if is_rqt(words):
         if others_take_part():
             return _attach(words)

@@ -150,7 +150,13 @@ class LineRunner:
 
     def _show_output(self, line: str, done: Future[str]) -> None:
         error = done.exception()
-        self._host.push_screen(OutputScreen(line, str(error) if error else done.result()))
+        printed = str(error) if error else done.result()
+        words = line.split()
+        starts = words[words[:1] == ["ros2"] :][:1] in (["run"], ["launch"])
+        if starts and len(printed.strip().splitlines()) == 1:  # what was started is seen elsewhere: no key closes this
+            self._host.notify(harmless(printed.strip()), severity="error" if error else "information")
+        else:
+            self._host.push_screen(OutputScreen(line, printed))
 
     def _help(self, words: Sequence[str]) -> None:
         known = {name: VERBS[name] for name in (words or sorted(VERBS))}

@@ -34,7 +34,7 @@ def tell_declared(
 
 
 def _plain(value: Any) -> Any:
-    """A default as JSON has it: a scalar, or a list of scalars."""
+    """A default as JSON has it: a scalar, or a list of scalars; bytes, which it has not, as `{"byte": 0 .. 255}`."""
     if isinstance(value, (bool, int, float, str)) or value is None:
         return value
     if isinstance(value, Parameter.Type):
@@ -44,4 +44,5 @@ def _plain(value: Any) -> Any:
         items = plain() if plain is not None else list(value)
     except TypeError:
         return None
-    return items if all(isinstance(each, (bool, int, float, str)) for each in items) else None
+    items = [{"byte": each[0]} if isinstance(each, bytes) and each else each for each in items]
+    return items if all(isinstance(each, (bool, int, float, str, dict)) for each in items) else None

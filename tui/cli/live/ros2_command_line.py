@@ -35,7 +35,7 @@ class Ros2CommandLine:
         """What verbs have printed of what does not change while the console runs: packages, types."""
 
     def run(self, line: str) -> Future[str]:
-        """Run a line beside the caller; what it printed, or the `ValueError` of a quotation mark without its twin."""
+        """Run a line beside the caller; what it printed, or the `ValueError` of what cannot be run or started."""
         return _beside(lambda: self._done(line))
 
     def stream(self, line: str) -> Stream | None:
@@ -65,9 +65,11 @@ class Ros2CommandLine:
         if wanted is None or self._launcher is None:
             return _printed_by(words)
         if wanted.problem:
-            return wanted.problem
+            raise ValueError(wanted.problem)
         answer = self._launcher.launch(wanted.file, wanted.arguments).result(STARTING)
-        return f"{wanted.name} runs: it stands in the Launch pane, which ends it" if answer.ok else answer.text
+        if not answer.ok:
+            raise ValueError(answer.text)
+        return f"{wanted.name} runs: it stands in the Launch pane, which ends it"
 
 
 class _Names:

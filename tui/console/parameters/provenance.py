@@ -90,4 +90,9 @@ class Provenance:
 
 
 def _value(told: Any) -> Value:
-    return tuple(cast("list[Any]", told)) if isinstance(told, list) else told
+    if not isinstance(told, list):
+        return told
+    return tuple(
+        bytes([cast("dict[str, int]", each)["byte"]]) if isinstance(each, dict) else each
+        for each in cast("list[Any]", told)
+    )

@@ -16,7 +16,7 @@ from bot_console.tui.format import counted, value_text
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.pane import answer_of
 from bot_console.tui.panes.profiles.replacement import Replacement
-from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, entries
+from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, entries, outcome_text
 from bot_console.tui.widgets.prompt.common import wrong_path
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Confirmation, Line
@@ -202,8 +202,7 @@ class ProfilesPane(ListPane):
         else:
             outcomes = done.result()
             self._outcomes = {(each.node, each.name): each for each in outcomes}
-            refused = sum(1 for each in outcomes if not each.accepted)
-            self._told = f"{name}: {len(outcomes) - refused} taken" + (f", {refused} refused" if refused else "")
+            self._told = outcome_text(name, outcomes, sum(each.unknown for each in self._differences))
             self._told += "; the simulator was reset" if reset_world else ""
         self._compare()
 

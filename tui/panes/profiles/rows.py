@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from bot_console.tui.console.model import Profile, ProfileDifference, SetOutcome, Value
-from bot_console.tui.format import cut, harmless, value_text
+from bot_console.tui.format import counted, cut, harmless, value_text
 from bot_console.tui.widgets.item_list import ItemList
 from rich.cells import cell_len
 from rich.segment import Segment
@@ -121,6 +121,17 @@ def _note(entry: Entry, change: ProfileDifference) -> tuple[str, str]:
     if change.unsafe:
         return f"⚠ {change.unsafe}", "warn"
     return ("needs a world reset", "dim") if change.needs_reset else ("", "dim")
+
+
+def outcome_text(name: str, outcomes: Sequence[SetOutcome], unknown: int) -> str:
+    """What became of a profile that was applied; `unknown` counts the values that were left out."""
+    taken = sum(each.accepted for each in outcomes)
+    if not outcomes:
+        return f"{name}: nothing to set" + (f", its {counted(unknown, 'value')} are unknown here" if unknown else "")
+    parts = [f"{taken} taken"]
+    parts += [f"{len(outcomes) - taken} refused"] if taken < len(outcomes) else []
+    parts += [f"{unknown} unknown here, left out"] if unknown else []
+    return f"{name}: {', '.join(parts)}"
 
 
 def entries(

@@ -68,7 +68,8 @@ def test_what_is_run_or_launched_goes_to_the_launcher(folder: Path) -> None:
         (str(PROGRAM_LAUNCH), {"program": str(folder / "node.py"), "words": "--ros-args -p 'a:=b c'"}),
         (str(folder / "x.launch.py"), {"a": "1"}),
     ]
-    assert Ros2CommandLine(Launches(Answer(False, "why"))).run("run node.py").result(PATIENCE) == "why"
+    with pytest.raises(ValueError, match="why"):
+        Ros2CommandLine(Launches(Answer(False, "why"))).run("run node.py").result(PATIENCE)
 
 
 @pytest.mark.parametrize(
@@ -84,7 +85,8 @@ def test_what_is_run_or_launched_goes_to_the_launcher(folder: Path) -> None:
 )
 def test_what_cannot_be_started_is_told(folder: Path, line: str, problem: str) -> None:
     launches = Launches(Answer(True, ""))
-    assert problem in Ros2CommandLine(launches).run(line).result(PATIENCE)
+    with pytest.raises(ValueError, match=problem):
+        Ros2CommandLine(launches).run(line).result(PATIENCE)
     assert launches.launched == []
 
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from concurrent.futures import Future
 from typing import Any
 
 import pytest
 from bot_console.tui.commanding.runner import LineRunner
+from bot_console.tui.console.connection.no_console import done
 from fakes import FakeCommandLine
 from samples import live
 
@@ -20,11 +22,20 @@ class Screen:
     def notify(self, message: str, **_: Any) -> None:
         self.told.append(message)
 
+    def push_screen(self, screen: Any) -> None:
+        self.told.append(type(screen).__name__)
+
     def call_later(self, callback: Any, *args: Any) -> None:
         callback(*args)
 
     def layouts(self) -> Sequence[str]:
         return ("overview", "tuning")
+
+
+def failed(why: str) -> Future[str]:
+    future: Future[str] = Future()
+    future.set_exception(ValueError(why))
+    return future
 
 
 def runner() -> tuple[LineRunner, Any, FakeCommandLine]:
@@ -75,3 +86,20 @@ def test_a_recording_is_begun_once_and_ended() -> None:
     assert screen.told[0] == "Nothing is recorded; record begins it."
     assert "bags/mine is being recorded; record stop ends it." in screen.told
     assert lines.wrong("record a b") == "write it as: record [FOLDER] | record stop"
+
+
+@pytest.mark.parametrize(
+    ("line", "printed", "told"),
+    [
+        ("ros2 run node.py", done("node.py runs: see Launch\n"), "node.py runs: see Launch"),
+        ("launch none x.launch.py", failed("there is no package none"), "there is no package none"),
+        ("launch x.launch.py --show-args", done("Arguments:\n  a\n"), "OutputScreen"),
+        ("param get /a b", done("Integer value is: 1\n"), "OutputScreen"),
+    ],
+)
+def test_what_is_started_is_told_in_a_corner_and_takes_no_keys(line: str, printed: Future[str], told: str) -> None:
+    run, screen, lines = runner()
+    lines.commands = lambda: ("run", "launch", "param")
+    lines.run = lambda _: printed
+    run.run(line)
+    assert screen.told == [told]

@@ -71,3 +71,10 @@ def test_a_declared_list_is_a_tuple_and_a_type_is_no_default() -> None:
     assert provenance.applied(first_sight()).default == 2.0
     array = ParameterInfo("/n", "list", Kind.INTEGER_ARRAY, (1, 2), default=(1, 2), origin=START)
     assert provenance.applied(array).origin == "declared value"
+
+
+def test_declared_bytes_are_bytes() -> None:
+    provenance = Provenance()
+    provenance.learn("declared", {"node": "/n", "parameters": [["raw", [{"byte": 1}, {"byte": 255}], "/n.py:1", ""]]})
+    raw = ParameterInfo("/n", "raw", Kind.BYTE_ARRAY, (b"\x01", b"\xff"), default=(b"\x01", b"\xff"), origin=START)
+    assert provenance.applied(raw).origin == "declared value"

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from bot_console.tui.console.model import Profile, ProfileDifference
-from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, entries
+from bot_console.tui.console.model import Profile, ProfileDifference, SetOutcome
+from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, entries, outcome_text
 from rich.cells import cell_len
 from rich.style import Style
 from textual.widget import Widget
@@ -54,3 +54,17 @@ def test_wide_letters_take_two_cells() -> None:
     rows.rows = [Profile("世界" * 4, "/p", title="T"), Profile("indoor", "/p", title="T")]
     places = [cell_len(text(rows, index, 100).split("T")[0]) for index in (0, 1)]
     assert places[0] == places[1]
+
+
+@pytest.mark.parametrize(
+    ("verdicts", "unknown", "text"),
+    [
+        ([True, True], 0, "a: 2 taken"),
+        ([True, False], 3, "a: 1 taken, 1 refused, 3 unknown here, left out"),
+        ([], 399, "a: nothing to set, its 399 values are unknown here"),
+        ([], 0, "a: nothing to set"),
+    ],
+)
+def test_what_became_of_a_profile_counts_what_was_left_out(verdicts: list[bool], unknown: int, text: str) -> None:
+    outcomes = [SetOutcome("/n", f"p{index}", 1, accepted) for index, accepted in enumerate(verdicts)]
+    assert outcome_text("a", outcomes, unknown) == text
