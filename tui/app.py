@@ -168,8 +168,9 @@ class BotConsoleApp(RecordingApp, TuningDoor):
         with self.batch_update():
             for pane in self.visible_panes():
                 pane.show(snapshot)
-            for bar in self.screen_stack[0].query(StatusBar):  # none while the screen is made or taken away
-                bar.show(snapshot, self.gate.held_back)
+            for bar in self.screen_stack[0].children:  # none while the screen is made or taken away
+                if isinstance(bar, StatusBar):
+                    bar.show(snapshot, self.gate.held_back)
         for asker in self._askers():
             asker.look()
         for text in self._safety_news.since(snapshot):
@@ -177,7 +178,7 @@ class BotConsoleApp(RecordingApp, TuningDoor):
 
     def _askers(self) -> Iterable[Asker[Any]]:
         """Whatever has a question open."""
-        yield from (each for each in self.screen_stack[0].query(Prompt) if each.is_open)
+        yield from (each for each in self.screen_stack[0].walk_children(Prompt) if each.is_open)
         if isinstance(self.screen, QuestionScreen):
             yield self.screen
 

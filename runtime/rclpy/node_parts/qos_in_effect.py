@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TypeVar
 
 from bot_console.runtime.rmw.qos import Period, Policy, Profile
@@ -14,7 +15,19 @@ _UNDECIDED = ("SYSTEM_DEFAULT", "BEST_AVAILABLE", "UNKNOWN")
 
 
 def in_effect(asked: Profile) -> QoSProfile:
-    """The profile with the middleware's choice where the program left it open, and unlimited durations as infinite."""
+    """The profile with the middleware's choice where the program left it open, and unlimited durations as infinite.
+
+    One of its own for each caller, who may change it. Of a profile that came over the wire it is worked out once.
+    """
+    return copied(_of_wire(asked)) if isinstance(asked, tuple) else _in_effect(asked)
+
+
+@lru_cache(256)  # a graph of thousands of endpoints has a few profiles
+def _of_wire(asked: Profile) -> QoSProfile:
+    return _in_effect(asked)
+
+
+def _in_effect(asked: Profile) -> QoSProfile:
     return QoSProfile(
         history=HistoryPolicy[asked.history.name],
         depth=asked.depth,
@@ -26,6 +39,14 @@ def in_effect(asked: Profile) -> QoSProfile:
         liveliness_lease_duration=_limited(asked.liveliness_lease_duration),
         avoid_ros_namespace_conventions=isinstance(asked, QoSProfile) and asked.avoid_ros_namespace_conventions,
     )
+
+
+def copied(profile: QoSProfile) -> QoSProfile:
+    """The same policies in another object; durations never change."""
+    copy = QoSProfile.__new__(QoSProfile)
+    for slot in QoSProfile.__slots__:
+        setattr(copy, slot, getattr(profile, slot))
+    return copy
 
 
 def _decided(policy: Policy, default: _P) -> _P:

@@ -17,12 +17,13 @@ Listener = Callable[[Token, bool], None]
 class SeenTokens:
     """The tokens of other sessions under one key; a listener hears of those that are there and of every change."""
 
-    def __init__(self, session: Session, key: str) -> None:
+    def __init__(self, session: Session, key: str, *, apart: bool = False) -> None:
+        """`apart`: as in `Session.watch_tokens`."""
         self._own = session.zid
         self._lock = threading.RLock()
         self._tokens: dict[str, Token] = {}
         self._listeners: list[Listener] = []
-        self._declared: Declared = session.watch_tokens(key, self.saw)
+        self._declared: Declared = session.watch_tokens(key, self.saw, apart=apart)
 
     def saw(self, key: str, came: bool) -> None:
         """A token came or went; one that is no token of the format is ignored, as are those of this session."""

@@ -16,6 +16,7 @@ import time
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any, cast
 
+from bot_console.runtime.rmw.zenoh.apart import WAITING, take_apart
 from bot_console.runtime.rmw.zenoh.domain.sockets import Socket
 
 if TYPE_CHECKING:
@@ -276,21 +277,27 @@ class Session:
         """Show something in the graph for as long as this process lives."""
         return self._declare(Declared(self, lambda session: session.liveliness().declare_token(key)))
 
-    def watch_tokens(self, key: str, seen: TokenSeen) -> Declared:
-        """Call back for each token that is there, comes or goes; `key` may have wildcards."""
+    def watch_tokens(self, key: str, seen: TokenSeen, *, apart: bool = False) -> Declared:
+        """Call back for each token that is there, comes or goes; `key` may have wildcards.
+
+        With `apart` that is done by a thread of its own, a few tokens at a time: thousands of them would keep Zenoh's
+        threads, and with them whatever comes over the links, waiting for the interpreter.
+        """
         import zenoh
 
         def take(sample: zenoh.Sample) -> None:
             seen(str(sample.key_expr), sample.kind == zenoh.SampleKind.PUT)
 
-        return self._declare(
-            Declared(
-                self,
-                lambda session: session.liveliness().declare_subscriber(
-                    key, zenoh.handlers.Callback(take, indirect=False), history=True
-                ),
-            )
-        )
+        def declare(session: zenoh.Session) -> Any:
+            tokens = session.liveliness()
+            if not apart:
+                callback = zenoh.handlers.Callback(take, indirect=False)
+                return tokens.declare_subscriber(key, callback, history=True)
+            shown = tokens.declare_subscriber(key, zenoh.handlers.FifoChannel(WAITING), history=True)
+            take_apart(shown.handler, take, zenoh.ZError)
+            return shown
+
+        return self._declare(Declared(self, declare))
 
     def ask_tokens(self, key: str, seen: Callable[[str], None], done: Callable[[], None], timeout: float) -> None:
         """Call back once for each token that is there now, then `done`, after at most `timeout` (s)."""

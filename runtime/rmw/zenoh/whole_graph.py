@@ -32,7 +32,7 @@ class WholeGraph:
             if each.is_stopped():
                 notify(current(), f"process {each.pid} is stopped, so its nodes are not seen: `kill -CONT {each.pid}`")
         key, answered = all_tokens(session.domain), threading.Event()
-        self._seen = SeenTokens(session, key)
+        self._seen = SeenTokens(session, key, apart=True)
         self._seen.listen(self._saw)
         # Watching brings what is there some time; only a question says when all of it has come.
         session.ask_tokens(key, lambda found: self._seen.saw(found, True), answered.set, session.patience)

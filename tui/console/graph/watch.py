@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from time import monotonic, thread_time
 from typing import Any
 
 from bot_console.tui.console.graph.pairs import UnheardPairs
@@ -14,6 +15,9 @@ from rclpy.node import Node
 ACTION_SERVER_TOPIC = "/_action/status"
 PERIOD = 0.5
 """Seconds between two looks, where something may have changed."""
+LONG, SHARE = 0.1, 0.2
+"""A look that took longer (s of processor time) is followed by a rest, so that looks take no more than this share:
+while hundreds of nodes come, keys and stops need the interpreter too."""
 
 Owner = tuple[str, str]
 """Name and namespace of a node."""
@@ -57,14 +61,19 @@ class GraphWatch:
         self._services: Pairs = []
         self._news: deque[Owner] = deque()
         self._looked = False
+        self._rests_until = 0.0
         self._told = events is not None
         self._unheard = UnheardPairs(node)
         self._end = events(node.context.get_domain_id(), self._news.append) if events else _nothing
         node.create_timer(PERIOD, self._tick)
 
     def _tick(self) -> None:
-        if self._news or not (self._told and self._looked):
+        if (self._news or not (self._told and self._looked)) and monotonic() >= self._rests_until:
+            began = thread_time()
             self.look()
+            took = thread_time() - began
+            if took > LONG:
+                self._rests_until = monotonic() + took * (1 / SHARE - 1)
         self._look_for_frozen()
 
     def _look_for_frozen(self) -> None:

@@ -65,6 +65,23 @@ def test_without_events_it_looks_at_every_tick(node):
     assert len(looks) == 3
 
 
+def test_after_a_long_look_it_rests(node, monkeypatch):
+    now, spent, looks = [0.0], [0.0], []
+    monkeypatch.setattr("bot_console.tui.console.graph.watch.monotonic", lambda: now[0])
+    monkeypatch.setattr("bot_console.tui.console.graph.watch.thread_time", lambda: spent[0])
+    watch = GraphWatch(node, lambda graph: None)
+
+    def look():
+        looks.append(now[0])
+        spent[0] += 0.3
+
+    watch.look = look
+    for tick in range(10):
+        now[0] = tick * 0.5
+        watch._tick()
+    assert looks == [0.0, 1.5, 3.0, 4.5], "a fifth of the time at most"
+
+
 def test_only_what_changed_is_described_again(context, node):
     others = [rclpy.create_node(f"n{number}", context=context) for number in range(3)]
     seen = []
