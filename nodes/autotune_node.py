@@ -11,9 +11,9 @@ import math
 from typing import Any
 
 from bot_console_robot.climbing import Climber
-from bot_console_robot.parameters import fixed, number, plain
-from bot_console_robot.running import CannotStart, run
-from bot_console_robot.scans import nearest_return
+from bot_console_robot.common.parameters import fixed, number, plain
+from bot_console_robot.common.running import CannotStart, run
+from bot_console_robot.common.scans import nearest_return
 from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
 from rcl_interfaces.msg import ParameterType

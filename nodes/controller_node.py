@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import math
 
+from bot_console_robot.common.parameters import number, plain
+from bot_console_robot.common.running import run
 from bot_console_robot.motion import Gains, VelocityController, WaypointFollower
-from bot_console_robot.parameters import number, plain
-from bot_console_robot.running import run
 from geometry_msgs.msg import PoseStamped, Quaternion, Twist
 from nav_msgs.msg import Odometry, Path
 from rclpy.clock import Clock, ClockType

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from bot_console_robot.scans import Floats
+from bot_console_robot.common.scans import Floats
 
 SAME_THING = 0.35
 """Neighbouring returns nearer to each other than this (m) belong to one thing."""

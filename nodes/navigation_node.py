@@ -14,14 +14,14 @@ from typing import Any
 
 import nav2_msgs.action  # pyright: ignore[reportMissingImports] -- made when it is imported
 import nav2_msgs.msg  # pyright: ignore[reportMissingImports] -- made when it is imported
+from bot_console_robot.common.parameters import fixed, number
+from bot_console_robot.common.running import run
 from bot_console_robot.navigation.driving import Point
 from bot_console_robot.navigation.goals import Goal, run_goal
 from bot_console_robot.navigation.knowledge import Knowledge
 from bot_console_robot.navigation.planner import NoWay
 from bot_console_robot.navigation.tasks import Spin, Straight, Task, Wait, Way
-from bot_console_robot.parameters import fixed, number
-from bot_console_robot.running import run
-from bot_console_robot.simulator_messages import heading_of, quaternion
+from bot_console_robot.simulator.messages import heading_of, quaternion
 from geometry_msgs.msg import Pose, PoseStamped, Twist, TwistStamped
 from lifecycle_msgs.msg import State
 from lifecycle_msgs.srv import GetState

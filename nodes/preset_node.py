@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import Any
 
 from bot_console_robot import preset_files
-from bot_console_robot.parameters import plain
+from bot_console_robot.common.parameters import plain
+from bot_console_robot.common.running import run
 from bot_console_robot.preset_files import PresetError
-from bot_console_robot.running import run
 from diagnostic_msgs.srv import AddDiagnostics
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.callback_groups import ReentrantCallbackGroup

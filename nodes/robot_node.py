@@ -7,9 +7,9 @@ from collections.abc import Callable
 from typing import Any
 
 from bot_console_robot.avoidance import Avoidance, Rules
-from bot_console_robot.parameters import accepted, number, plain, refused, whole
-from bot_console_robot.running import run
-from bot_console_robot.scans import intensities_of, ranges_of
+from bot_console_robot.common.parameters import accepted, number, plain, refused, whole
+from bot_console_robot.common.running import run
+from bot_console_robot.common.scans import intensities_of, ranges_of
 from geometry_msgs.msg import Twist
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node

@@ -6,14 +6,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from bot_console_robot.arbitration import Arbiter, Command, Verdict, limit
-from bot_console_robot.diagnostics import ERROR, OK, WARN, status
-from bot_console_robot.emergency_stop import ARBITER, BASE, EmergencyStop
-from bot_console_robot.latch import NODE, Lock, Stop
-from bot_console_robot.parameters import accepted, number, plain, proposed, refused
-from bot_console_robot.robot_time import RobotTime
-from bot_console_robot.running import CannotStart, run
-from bot_console_robot.scan_watch import ScanWatch
+from bot_console_robot.common.diagnostics import ERROR, OK, WARN, status
+from bot_console_robot.common.parameters import accepted, number, plain, proposed, refused
+from bot_console_robot.common.robot_time import RobotTime
+from bot_console_robot.common.running import CannotStart, run
+from bot_console_robot.safety.arbitration import Arbiter, Command, Verdict, limit
+from bot_console_robot.safety.emergency_stop import ARBITER, BASE, EmergencyStop
+from bot_console_robot.safety.latch import NODE, Lock, Stop
+from bot_console_robot.safety.scan_watch import ScanWatch
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist
 from rcl_interfaces.msg import SetParametersResult

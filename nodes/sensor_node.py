@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
+from bot_console_robot.common.diagnostics import ERROR, OK
+from bot_console_robot.common.health import Health, HealthReport
+from bot_console_robot.common.parameters import number, plain, whole
+from bot_console_robot.common.running import run
+from bot_console_robot.common.scans import intensities_of, packed, ranges_of
 from bot_console_robot.detection import Detection, find, median_of_three, strong
-from bot_console_robot.diagnostics import ERROR, OK
-from bot_console_robot.health import Health, HealthReport
-from bot_console_robot.parameters import number, plain, whole
-from bot_console_robot.running import run
-from bot_console_robot.scans import intensities_of, packed, ranges_of
 from geometry_msgs.msg import Pose, PoseArray
 from rclpy.node import Node
 from rclpy.parameter import Parameter

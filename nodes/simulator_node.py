@@ -5,21 +5,21 @@ from __future__ import annotations
 
 import json
 
-from bot_console_robot import simulator_messages as messages
-from bot_console_robot.diagnostics import OK, WARN
-from bot_console_robot.emergency_stop import ARBITER, BASE, EmergencyStop
-from bot_console_robot.health import Health, HealthReport
-from bot_console_robot.models import MODELS
-from bot_console_robot.parameters import accepted, refused
-from bot_console_robot.running import CannotStart, run
+from bot_console_robot.common.diagnostics import OK, WARN
+from bot_console_robot.common.health import Health, HealthReport
+from bot_console_robot.common.parameters import accepted, refused
+from bot_console_robot.common.running import CannotStart, run
+from bot_console_robot.safety.emergency_stop import ARBITER, BASE, EmergencyStop
 from bot_console_robot.simulation.arrays import table
 from bot_console_robot.simulation.frames import Frames
 from bot_console_robot.simulation.geometry import Pose
 from bot_console_robot.simulation.simulation import STEP, STEP_NS, Simulation
 from bot_console_robot.simulation.world import WorldError
-from bot_console_robot.simulator_parameters import declare, problem, settings
-from bot_console_robot.simulator_signals import Signals
-from bot_console_robot.worlds import find_world
+from bot_console_robot.simulator import messages as messages
+from bot_console_robot.simulator.models import MODELS
+from bot_console_robot.simulator.parameters import declare, problem, settings
+from bot_console_robot.simulator.signals import Signals
+from bot_console_robot.simulator.worlds import find_world
 from geometry_msgs.msg import PoseWithCovarianceStamped, Twist, TwistStamped
 from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from rcl_interfaces.msg import SetParametersResult

@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
-from bot_console_robot.diagnostics import OK, WARN, status
-from bot_console_robot.parameters import number, plain
-from bot_console_robot.running import run
-from bot_console_robot.scans import nearest_return
+from bot_console_robot.common.diagnostics import OK, WARN, status
+from bot_console_robot.common.parameters import number, plain
+from bot_console_robot.common.running import run
+from bot_console_robot.common.scans import nearest_return
 from bot_console_robot.trip import Trip
 from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from bot_console_robot.common.scans import ranges_of
 from bot_console_robot.navigation.driving import Limits, Point, Pose
 from bot_console_robot.navigation.planner import Grid, NoWay, Planner
 from bot_console_robot.navigation.tasks import Seen
-from bot_console_robot.scans import ranges_of
-from bot_console_robot.simulator_messages import heading_of
+from bot_console_robot.simulator.messages import heading_of
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import OccupancyGrid, Odometry
 from rclpy.node import Node

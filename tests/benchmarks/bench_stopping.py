@@ -28,8 +28,8 @@ from typing import Any
 TESTS = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(TESTS / "helpers"), str(TESTS / "acceptance" / "console"), str(TESTS / "soak")]
 from headless_under_load import busy_processes
-from live_robot import LiveRobot, live_robot
-from losses import CONSOLE, _environment
+from processes.live_robot import LiveRobot, live_robot
+from processes.losses import CONSOLE, _environment
 from terminal import Terminal
 
 HEARD = """

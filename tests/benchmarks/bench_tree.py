@@ -27,8 +27,8 @@ from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree, Ra
 from bot_console.tui.opening import Opening
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
-from fake_launcher import FakeLauncher
-from fakes import FakeConsole
+from fakes.console import FakeConsole
+from fakes.launcher import FakeLauncher
 
 NODES, EACH = 200, 25
 WORDS = "n1 speed"

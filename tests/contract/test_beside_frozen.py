@@ -8,7 +8,7 @@ import pytest
 from bot_console.runtime.process import on_notice
 from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
 from bot_console.runtime.rmw.zenoh.whole_graph import WholeGraph
-from helpers.two_processes import DOMAIN, two_processes
+from helpers.processes.two_processes import DOMAIN, two_processes
 from rclpy.node import Node
 from rclpy.qos import HistoryPolicy, QoSProfile
 from sensor_msgs.msg import LaserScan

@@ -13,8 +13,8 @@ from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.launch_host.several import SeveralLaunchers
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo, ProcessInfo, ProcessState
 from bot_console.tui.console.protocol import Answer, Launcher
-from fake_launcher import FakeLauncher
-from fakes import FakeConsole
+from fakes.console import FakeConsole
+from fakes.launcher import FakeLauncher
 from launcher_bench import PATIENCE, WAITS, Bench
 
 DECLARED = (

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 from example_interfaces.srv import AddTwoInts
-from helpers.two_processes import DOMAIN, two_processes
+from helpers.processes.two_processes import DOMAIN, two_processes
 from std_msgs.msg import String
 
 pytest.importorskip("zenoh_ros2_sdk", reason="zenoh-ros2-sdk is not installed")
-PEER = Path(__file__).resolve().parents[1] / "helpers" / "sdk_peer.py"
+PEER = Path(__file__).resolve().parents[1] / "helpers" / "processes" / "sdk_peer.py"
 
 
 def beside(socket: Path) -> dict[str, str]:

@@ -2,7 +2,7 @@
 
 import pytest
 from example_interfaces.action import Fibonacci
-from helpers.two_processes import two_processes
+from helpers.processes.two_processes import two_processes
 from rcl_interfaces.msg import Log, ParameterEvent
 from rclpy.action import ActionClient
 from rclpy.event_handler import SubscriptionEventCallbacks

@@ -86,8 +86,8 @@ def pane_text(text: str) -> None:
 
 def stop(text: str) -> None:
     from bot_console.tui.console.robot.stop_link import _stops
-    from bot_console_robot.latch import Latch
-    from bot_console_robot.stop_messages import lock_of, request_of, state_message
+    from bot_console_robot.safety.latch import Latch
+    from bot_console_robot.safety.stop_messages import lock_of, request_of, state_message
     from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
     keys = ("request", "of", "stops", "turn", "locked", "holder")

@@ -17,7 +17,7 @@ from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.look import Look
 from bot_console.tui.pane_table import PaneEntry
 from course.page import make_workspace
-from fake_launcher import FakeLauncher
+from fakes.launcher import FakeLauncher
 from piloting import Session
 from systems import Program, System
 from textual.events import Paste

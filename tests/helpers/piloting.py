@@ -12,8 +12,8 @@ from bot_console.tui.panes.alarms.pane import AlarmsPane
 from bot_console.tui.panes.diagnostics.pane import DiagnosticsPane
 from bot_console.tui.panes.images.pane import ImagesPane
 from bot_console.tui.panes.steering.pane import SteeringPane
-from fake_launcher import FakeLauncher
-from fakes import FakeCommandLine, FakeConsole
+from fakes.console import FakeCommandLine, FakeConsole
+from fakes.launcher import FakeLauncher
 from textual.pilot import Pilot
 from textual.widget import Widget
 

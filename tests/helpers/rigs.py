@@ -42,10 +42,10 @@ from bot_console.tui.console.model import (
     Value,
 )
 from bot_console.tui.console.protocol import Console
-from certificates import make_certificates
-from fakes import FakeConsole
+from fakes.console import FakeConsole
 from geometry_msgs.msg import Twist
-from ports import free_port
+from processes.certificates import make_certificates
+from processes.ports import free_port
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor

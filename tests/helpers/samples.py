@@ -33,9 +33,9 @@ from bot_console.tui.console.model import (
 from bot_console.tui.console.robot.robot_model import DriveInfo, GridMap, Pose, WorldInfo
 from bot_console.tui.console.sights.model import IMAGE, Diagnostics, Level, Picture
 from bot_console.tui.console.traffic import Measure
-from fake_launcher import FakeLauncher
-from fake_sights import status
-from fakes import START, FakeConsole
+from fakes.console import START, FakeConsole
+from fakes.launcher import FakeLauncher
+from fakes.sights import status
 
 ODOM_TOPIC = "/odom"
 SPEED, LIMIT, NEAREST = "/odom/twist.twist.linear.x", "/robot_navigator:max_speed", "/telemetry/nearest_obstacle/data"

@@ -7,7 +7,7 @@ from dataclasses import replace
 from bot_console.tui.console.sights.model import Diagnostics, Level
 from bot_console.tui.panes.diagnostics.pane import DiagnosticsPane
 from bot_console.tui.panes.diagnostics.table import StatusRows
-from fake_sights import status
+from fakes.sights import status
 from piloting import Session, run
 from samples import empty, live
 

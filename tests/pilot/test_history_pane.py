@@ -8,7 +8,7 @@ from bot_console.tui.console.model import ChangeSource, Severity
 from bot_console.tui.panes.history.rows import ChangeRows
 from bot_console.tui.panes.logs.pane import LogsPane
 from bot_console.tui.panes.plot.pane import PlotPane
-from fakes import START
+from fakes.console import START
 from piloting import Session, run
 from samples import empty, live
 

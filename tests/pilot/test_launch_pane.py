@@ -10,7 +10,7 @@ from bot_console.tui.panes.launch.rows import ProcessRows
 from bot_console.tui.screens.confirm import ConfirmScreen
 from bot_console.tui.screens.launch_arguments import ArgumentsScreen
 from bot_console.tui.screens.picker import PickerScreen
-from fakes import START
+from fakes.console import START
 from piloting import Session, run
 from samples import arguments, empty, faulty, launched, live
 from textual.widgets import Input

@@ -12,8 +12,8 @@ from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.screens.picker import PickerScreen
 from bot_console.tui.widgets.row_list import RowList
-from fake_launcher import FakeLauncher
-from fakes import FakeConsole
+from fakes.console import FakeConsole
+from fakes.launcher import FakeLauncher
 from piloting import Session, run
 from samples import live, with_array
 

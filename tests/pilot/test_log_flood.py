@@ -11,7 +11,7 @@ from bot_console.tui.console.logs.view import LogViews
 from bot_console.tui.console.model import LogFilter, Severity
 from bot_console.tui.panes.logs.pane import LogsPane
 from bot_console.tui.panes.logs.rows import LogRows
-from fakes import START, FakeConsole
+from fakes.console import START, FakeConsole
 from piloting import Session, run
 from samples import live
 

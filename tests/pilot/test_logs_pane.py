@@ -11,7 +11,7 @@ from bot_console.tui.panes.logs.pane import LogsPane
 from bot_console.tui.panes.logs.rows import LogRows
 from bot_console.tui.panes.logs.rules import RuleBook
 from bot_console.tui.panes.plot.pane import PlotPane
-from fakes import START
+from fakes.console import START
 from piloting import Session, run
 from samples import empty, live
 

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 
 import pytest
 from bot_console.tui.panes.plot.pane import PlotPane
-from fakes import START
+from fakes.console import START
 from piloting import Session, run
 from samples import LIMIT, NEAREST, SPEED, empty, faulty, live
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 from bot_console.tui.console.model import ChangeSource
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
-from fakes import START
+from fakes.console import START
 from piloting import Clock, Session, run
 from samples import SPEED, live
 

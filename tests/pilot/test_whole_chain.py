@@ -9,7 +9,7 @@ from types import MappingProxyType
 from bot_console.tui.console.model import ParameterTree
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.panes.plot.pane import PlotPane
-from fakes import FakeConsole
+from fakes.console import FakeConsole
 from piloting import Session, run
 from samples import live
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from bot_console.tui.console.robot.robot_model import Pose, Turtle, TurtleField, WorldInfo
-from fakes import START
+from fakes.console import START
 from piloting import Session, run
 from samples import empty, faulty, live, world
 

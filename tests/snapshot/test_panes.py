@@ -10,8 +10,8 @@ from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.opening import Opening
 from bot_console.tui.pane_table import PANES
 from bot_console.tui.panes.steering.pane import SteeringPane
-from fake_launcher import FakeLauncher
-from fakes import FakeConsole
+from fakes.console import FakeConsole
+from fakes.launcher import FakeLauncher
 from piloting import Clock
 from samples import empty, faulty, live, with_camera
 

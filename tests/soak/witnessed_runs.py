@@ -22,8 +22,8 @@ from typing import Any
 sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 sys.path.insert(0, str(Path(__file__).parent))
 from headless_under_load import busy_processes
-from live_robot import LiveRobot, live_robot
-from losses import GROUPS
+from processes.live_robot import LiveRobot, live_robot
+from processes.losses import GROUPS
 
 
 def witnessed(group: str, runs: int, robot: LiveRobot) -> dict[str, Any]:

@@ -59,7 +59,10 @@ def test_the_names_are_those_of_the_package():
 
 
 def test_our_two_names_are_the_same_modules(workspace):
-    same = "import {0}.worlds as a, {1}.worlds as b; from {0}.simulation import world; assert a.World is world.World"
+    same = (
+        "import {0}.simulator.worlds as a, {1}.simulator.worlds as b; "
+        "from {0}.simulation import world; assert a.World is world.World"
+    )
     assert run(workspace / "one.py", f"{same.format(*OWN_PACKAGES)}; assert a is b") == 0
     assert run(workspace / "other.py", f"{same.format(*reversed(OWN_PACKAGES))}; assert a is b") == 0
     assert importlib.import_module(f"{PAGE_NAME}.detection") is importlib.import_module(f"{OWN_PACKAGE}.detection")
@@ -83,7 +86,7 @@ def test_in_a_launch_of_our_own_our_name_means_ours(workspace, monkeypatch):
     make(workspace, OWN_PACKAGE)
     make(workspace, PAGE_NAME)
     monkeypatch.setenv(FIRST_VARIABLE, "1")
-    assert run(workspace / "node.py", f"import {OWN_PACKAGE}.worlds, {PAGE_NAME}; assert {PAGE_NAME}.theirs") == 0
+    assert run(workspace / "node.py", f"import {OWN_PACKAGE}.trip, {PAGE_NAME}; assert {PAGE_NAME}.theirs") == 0
 
 
 def test_embedded_packages_are_shared_whatever_lies_in_the_folder(tmp_path):

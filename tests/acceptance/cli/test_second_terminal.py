@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 from helpers.cli_records import COURSE, Row, filled, normal, rows, usage_of_other_interpreter
-from helpers.mesh import eventually
+from helpers.processes.mesh import eventually
 
 PROGRAM = "from bot_console.tui.cli import program; program()"
 ENDLESS = 30.0

@@ -10,8 +10,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from certificates import make_certificates
-from ports import free_port
+from processes.certificates import make_certificates
+from processes.ports import free_port
 
 if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)

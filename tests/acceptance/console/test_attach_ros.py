@@ -1,4 +1,4 @@
-"""The console on a ROS 2 that is not ours, by its public interfaces alone: see `helpers/standin_ros.py`."""
+"""The console on a ROS 2 that is not ours, by its public interfaces alone: see `helpers/fakes/standin_ros.py`."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 from emulator import Emulator
-from standin_ros import make_standin
+from fakes.standin_ros import make_standin
 
 sys.path.insert(0, str(Path(__file__).parent))
 from terminal import PATIENCE, Terminal

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from standin_ros import make_standin
+from fakes.standin_ros import make_standin
 
 if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)

@@ -13,8 +13,8 @@ import pytest
 if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
 
-from live_robot import LiveRobot, live_robot
-from losses import PERSONS, STOPS
+from processes.live_robot import LiveRobot, live_robot
+from processes.losses import PERSONS, STOPS
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from bad_link import BadLink
 from bot_console.runtime.rmw.local import LocalBus, local_bus
 from bot_console.runtime.rmw.middleware import choose_middleware
 from bot_console.runtime.rmw.zenoh.bus import ZenohBus
@@ -18,7 +17,8 @@ from bot_console.runtime.rmw.zenoh.network.router import Router
 from bot_console.runtime.rmw.zenoh.settings import Serving
 from bot_console.tui.cli.attach.network import LinkWords
 from bot_console.tui.console.model import Severity
-from ports import free_port
+from processes.bad_link import BadLink
+from processes.ports import free_port
 from rigs import ROBOT, RosRig, until
 
 PERIOD = 0.1

@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from bot_console_robot.arbitration import Arbiter, Command, limit, nearest_ahead
+from bot_console_robot.safety.arbitration import Arbiter, Command, limit, nearest_ahead
 
 FIRST, STEP = -math.pi / 2, math.pi / 359
 

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import pytest
 import rclpy
 from bot_console.runtime.process import stepped
-from bot_console_robot.diagnostics import OK, status
-from bot_console_robot.parameters import number
-from bot_console_robot.running import CannotStart
+from bot_console_robot.common.diagnostics import OK, status
+from bot_console_robot.common.parameters import number
+from bot_console_robot.common.running import CannotStart
 from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
 from rclpy.clock import Clock, ClockType

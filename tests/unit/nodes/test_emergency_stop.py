@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import pytest
 from bot_console.runtime.rmw.local import LocalBus
-from bot_console_robot.emergency_stop import ARBITER, BASE, GONE, EmergencyStop
+from bot_console_robot.safety.emergency_stop import ARBITER, BASE, GONE, EmergencyStop
 from rclpy.clock import Clock, ClockType
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor

@@ -5,8 +5,8 @@ from __future__ import annotations
 from types import SimpleNamespace
 from typing import Any
 
-from bot_console_robot.diagnostics import ERROR, OK
-from bot_console_robot.health import PERIOD, HealthReport
+from bot_console_robot.common.diagnostics import ERROR, OK
+from bot_console_robot.common.health import PERIOD, HealthReport
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticArray
 

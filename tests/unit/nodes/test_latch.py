@@ -5,8 +5,20 @@ from __future__ import annotations
 import itertools
 
 import pytest
-from bot_console_robot.latch import CROWD, HAND_BACK, MOST, RELEASE, SILENCE_NS, STEER, STOP, Latch, Lock, Request, Stop
-from bot_console_robot.stop_messages import lock_of, request_message, request_of, state_message
+from bot_console_robot.safety.latch import (
+    CROWD,
+    HAND_BACK,
+    MOST,
+    RELEASE,
+    SILENCE_NS,
+    STEER,
+    STOP,
+    Latch,
+    Lock,
+    Request,
+    Stop,
+)
+from bot_console_robot.safety.stop_messages import lock_of, request_message, request_of, state_message
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
 ANNA = Request(STOP, "anna", "the arm swings", "a")

@@ -7,8 +7,8 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from bot_console_robot.robot_time import FAR_NS, RobotTime
-from bot_console_robot.scan_watch import ScanWatch
+from bot_console_robot.common.robot_time import FAR_NS, RobotTime
+from bot_console_robot.safety.scan_watch import ScanWatch
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import LaserScan
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import pytest
 import rclpy
-from bot_console_robot.running import CannotStart, run
+from bot_console_robot.common.running import CannotStart, run
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.node import Node
 

@@ -8,7 +8,7 @@ import signal
 import time
 
 import pytest
-from helpers.mesh import Member, eventually, members
+from helpers.processes.mesh import Member, eventually, members
 
 
 def all_linked(present: list[Member]) -> bool:

@@ -13,8 +13,8 @@ from bot_console.runtime.rmw.zenoh.network.reach import Tls, place_of
 from bot_console.runtime.rmw.zenoh.network.router import Router
 from bot_console.runtime.rmw.zenoh.session import SessionError
 from bot_console.runtime.rmw.zenoh.settings import Serving
-from certificates import make_certificates
-from ports import free_port
+from processes.certificates import make_certificates
+from processes.ports import free_port
 
 PATIENCE = 20.0
 

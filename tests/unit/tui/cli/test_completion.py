@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from two_processes import two_processes
+from processes.two_processes import two_processes
 
 if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)

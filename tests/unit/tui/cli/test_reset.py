@@ -10,7 +10,7 @@ from bot_console.tui.cli.verbs import reset
 from bot_console.tui.console.model import Endpoint
 from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.console.robot.stop_link import StopInfo
-from fakes import FakeConsole
+from fakes.console import FakeConsole
 from samples import live
 
 NAVIGATOR, SIMULATOR = "/robot_navigator", "/simulator"

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from concurrent.futures import Future
 
 from bot_console.tui.commanding.completing import Completion, extended, fitting, live_names, split
-from fakes import FakeConsole
+from fakes.console import FakeConsole
 from samples import live
 
 

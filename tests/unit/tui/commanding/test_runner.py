@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from bot_console.tui.commanding.runner import LineRunner
 from bot_console.tui.console.connection.no_console import done
-from fakes import FakeCommandLine
+from fakes.console import FakeCommandLine
 from samples import live
 
 

@@ -10,7 +10,7 @@ import pytest
 from bot_console.tui.console.connection import linked_console
 from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.graph.watch import GraphWatch
-from bot_console_robot.emergency_stop import ARBITER, BASE, EmergencyStop
+from bot_console_robot.safety.emergency_stop import ARBITER, BASE, EmergencyStop
 from rclpy.clock import Clock, ClockType
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor

@@ -9,7 +9,7 @@ from bot_console.tui.console.connection.no_console import NoCommandLine
 from bot_console.tui.console.connection.read_only import WHY, ReadOnlyCommandLine, ReadOnlyConsole, ReadOnlyLauncher
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Launcher
-from fakes import FakeConsole
+from fakes.console import FakeConsole
 from samples import navigator
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import pytest
 from bot_console.tui.console.robot.stop_link import FOLDER, LATCHED, STATUS, StopLink
-from bot_console_robot.emergency_stop import ARBITER, BASE, EmergencyStop
+from bot_console_robot.safety.emergency_stop import ARBITER, BASE, EmergencyStop
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from rclpy.clock import Clock, ClockType
 from rclpy.context import Context

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from bot_console.tui.terminal.editor import editing
 from bot_console.tui.terminal.leaving import ASLEEP, LOOK, PATIENCE, Leaving
-from fakes import FakeConsole
+from fakes.console import FakeConsole
 from samples import live
 
 

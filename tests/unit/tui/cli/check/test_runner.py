@@ -6,7 +6,7 @@ import pytest
 from bot_console.tui.cli.check.run import line_of, report, summary
 from bot_console.tui.cli.check.runner import Runner
 from bot_console.tui.cli.check.script import read
-from fakes import FakeConsole
+from fakes.console import FakeConsole
 from piloting import Clock
 from samples import SPEED, live
 

@@ -12,7 +12,7 @@ from bot_console.runtime.rmw.zenoh.wire.keys import data_key
 from bot_console.runtime.rmw.zenoh.wire.tokens import TokenNode, entity_token, node_token, parse_token
 from bot_console.tui.cli.doctor.finding import Level
 from bot_console.tui.cli.doctor.wire import captured, watch_wire, wire_findings
-from ports import free_port
+from processes.ports import free_port
 
 STRING, HASH = "std_msgs/msg/String", "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
 OLD = b"\x0fsequence_number" + bytes(40)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bot_console.tui.panes.alarms.alarm import Alarm, AlarmText, texts_of
-from fakes import FakeConsole
+from fakes.console import FakeConsole
 
 A, B = "/a/x", "/b/x"
 

@@ -6,7 +6,7 @@ from bot_console.tui.console.query import parse
 from bot_console.tui.console.sights.frame_model import Frame, Frames
 from bot_console.tui.panes.graph.frame_tree import facts, rows
 from bot_console.tui.panes.graph.frames import FramesView
-from fake_sights import FakeSights
+from fakes.sights import FakeSights
 
 TREE = Frames(
     (

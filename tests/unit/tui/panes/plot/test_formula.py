@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from bot_console.tui.panes.plot.formulas.formula import Formula, Held, read, split
 from bot_console.tui.panes.plot.parts import Timeline
-from fakes import FakeConsole
+from fakes.console import FakeConsole
 
 A, B = "/a/x", "/b/pose.position.y[0]"
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from bot_console_robot.latch import RELEASE, STOP, Latch, Lock, Request
-from bot_console_robot.stop_messages import lock_of, request_message, request_of, state_message
+from bot_console_robot.safety.latch import RELEASE, STOP, Latch, Lock, Request
+from bot_console_robot.safety.stop_messages import lock_of, request_message, request_of, state_message
 from diagnostic_msgs.msg import DiagnosticStatus
 from rclpy.clock import Clock
 from rclpy.event_handler import QoSSubscriptionMatchedInfo, SubscriptionEventCallbacks

@@ -8,7 +8,8 @@ from typing import Any
 from bot_console.tui.console.model import Value
 from bot_console.tui.console.protocol import Answer, Samples
 from bot_console.tui.console.robot.robot_model import Pose
-from fake_profiles import CLOSED
+
+from fakes.profiles import CLOSED
 
 START = 1_700_000_000_000_000_000
 

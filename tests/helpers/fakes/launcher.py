@@ -11,7 +11,8 @@ from typing import Any
 from bot_console.tui.console.launch.process import LaunchedProcess, Order
 from bot_console.tui.console.model import LaunchArgument
 from bot_console.tui.console.protocol import Answer
-from fakes import CLOSED, FakeConsole, done
+
+from fakes.console import CLOSED, FakeConsole, done
 
 
 class FakeLauncher:

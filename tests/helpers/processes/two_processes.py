@@ -14,7 +14,7 @@ import pytest
 from bot_console.runtime.rmw.local import local_bus
 from bot_console.runtime.rmw.middleware import choose_middleware
 from bot_console.runtime.rmw.zenoh.domain.domain_bus import close_shared_buses, shared_bus
-from helpers.mesh import eventually
+from helpers.processes.mesh import eventually
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node

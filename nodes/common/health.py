@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from bot_console_robot.diagnostics import status
+from bot_console_robot.common.diagnostics import status
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.node import Node
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any, cast
 
-from bot_console_robot.latch import CROWD, MOST, RELEASE, Lock, Request, Stop
+from bot_console_robot.safety.latch import CROWD, MOST, RELEASE, Lock, Request, Stop
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
 RELEASED = "released"

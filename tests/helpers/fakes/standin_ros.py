@@ -22,7 +22,7 @@ from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
 
 share_domains()
 let_children_meet(True)
-from public_ros import PublicOnly
+from fakes.public_ros import PublicOnly
 
 sys.meta_path.insert(0, PublicOnly())
 """
@@ -36,7 +36,7 @@ def make_standin(folder: Path) -> dict[str, str]:
     for each in Path(GENERATED).iterdir():
         if each.is_dir() and (each / "__init__.py").is_file():
             shutil.copytree(each, place / each.name, ignore=shutil.ignore_patterns("__pycache__"))
-    (place / "sitecustomize.py").write_text(HOOK.format(helpers=str(Path(__file__).parent)))
+    (place / "sitecustomize.py").write_text(HOOK.format(helpers=str(Path(__file__).parents[1])))
     before = os.environ.get("PYTHONPATH", "")
     path = os.pathsep.join(filter(None, (str(place), before)))
     return {**os.environ, "PYTHONPATH": path, "ROS_DISTRO": "standin", "RMW_IMPLEMENTATION": "rmw_standin"}

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from bot_console_robot.arbitration import nearest_ahead
-from bot_console_robot.scans import ranges_of
+from bot_console_robot.common.scans import ranges_of
+from bot_console_robot.safety.arbitration import nearest_ahead
 from sensor_msgs.msg import LaserScan
 
 

@@ -14,9 +14,9 @@ import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from live_robot import BLIND, DRIVER, MOVING, PATIENCE, LiveRobot
+from processes.live_robot import BLIND, DRIVER, MOVING, PATIENCE, LiveRobot
 
-sys.path.insert(0, str(Path(__file__).parents[1] / "acceptance" / "console"))
+sys.path.insert(0, str(Path(__file__).parents[2] / "acceptance" / "console"))
 from terminal import Terminal
 
 SILENCE = 1.0

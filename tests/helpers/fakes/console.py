@@ -33,11 +33,12 @@ from bot_console.tui.console.parameters.profiles import differences
 from bot_console.tui.console.protocol import Answer, LoggerLevel, LogSource, LogView, Stream
 from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.console.values import refusal
-from fake_profiles import CLOSED, FakeProfiles
-from fake_recording import FakeRecording
-from fake_series import START, FakeSeries
-from fake_sights import FakeSights
-from fake_traffic import FakeTraffic
+
+from fakes.profiles import CLOSED, FakeProfiles
+from fakes.recording import FakeRecording
+from fakes.series import START, FakeSeries
+from fakes.sights import FakeSights
+from fakes.traffic import FakeTraffic
 
 
 def done(value: Any) -> Future[Any]:

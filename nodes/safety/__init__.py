@@ -1,0 +1,1 @@
+"""What the safety monitor decides: who may drive, how near things are, and the emergency stop."""

@@ -1,0 +1,1 @@
+"""Processes beside the test: members of a mesh, peers over Zenoh, a live robot, and the links between them."""
