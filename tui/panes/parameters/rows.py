@@ -49,6 +49,7 @@ class TreeRows:
     def __init__(self) -> None:
         self._view: View | None = None
         self._made: dict[str, tuple[ParameterTree, int, list[Row]]] = {}
+        self._below: dict[str, tuple[list[ParameterInfo], int, Collection[str], list[Row]]] = {}
         self._sorted: dict[str, _Sorted] = {}
 
     def rows(self, trees: Mapping[str, ParameterTree], view: View) -> list[Row]:
@@ -93,9 +94,18 @@ class TreeRows:
         title = name.removeprefix(f"{space}/") if space else ""
         made = [Row(name, "", depth, None, tree.problem, len(parameters), folded, name, title)]
         if not folded:
-            made += _below(name, parameters, 0, depth + 1, view.folded)
+            made += self._rows_below(name, parameters, depth + 1, view.folded)
         self._made[name] = (tree, depth, made)
         return made
+
+    def _rows_below(self, name: str, parameters: list[ParameterInfo], depth: int, folded: Collection[str]) -> list[Row]:
+        """The rows of these parameters; those of before where a key of the filter lets the same ones pass."""
+        known = self._below.get(name)
+        if known and known[0] == parameters and known[1] == depth and known[2] == folded:
+            return known[3]
+        found = list(_below(name, parameters, 0, depth, folded))
+        self._below[name] = (parameters, depth, folded, found)
+        return found
 
 
 def rows(trees: Mapping[str, ParameterTree], view: View) -> list[Row]:
@@ -138,14 +148,15 @@ class _Sorted:
         self._parameters = sorted(tree.parameters, key=lambda each: _order(each.name))
         self._texts = [_text(each) for each in self._parameters]
         self._lower = [each.lower() for each in self._texts]
+        self._own = [at for at, each in enumerate(self._parameters) if not _is_built_in(each.name)]
 
     def passing(self, view: View) -> list[ParameterInfo]:
         """Those that a view shows."""
-        found: Iterable[int] = range(len(self._parameters))
+        found: Iterable[int] = range(len(self._parameters)) if view.built_in else self._own
         if view.query.terms:
             found = self._matching(view.query, found)
-        parameters = (self._parameters[at] for at in found)
-        return [each for each in parameters if _kept(each, view)]
+        parameters = [self._parameters[at] for at in found]
+        return [each for each in parameters if each.changed] if view.only_changed else parameters
 
     def _matching(self, query: Query, found: Iterable[int]) -> Iterable[int]:
         """What passes each word, as `Query.matches` has it, but the node's name is looked at once."""
@@ -165,11 +176,8 @@ class _Sorted:
         return found
 
 
-def _kept(parameter: ParameterInfo, view: View) -> bool:
-    """Whether a parameter is shown, whatever the filter."""
-    if view.only_changed and not parameter.changed:
-        return False
-    return view.built_in or not (parameter.name in BUILT_IN or parameter.name.startswith(BUILT_IN_PREFIX))
+def _is_built_in(name: str) -> bool:
+    return name in BUILT_IN or name.startswith(BUILT_IN_PREFIX)
 
 
 def matches(parameter: ParameterInfo, query: Query) -> bool:
@@ -233,6 +241,7 @@ def _shares(parameter: ParameterInfo, parts: tuple[str, ...], level: int) -> boo
     return len(other) > level + 1 and other[level] == parts[level]
 
 
+@lru_cache(maxsize=20_000)
 def _start(name: str, level: int) -> int:
     """Where a level of a name begins."""
     return sum(len(each) + 1 for each in _parts(name)[:level])

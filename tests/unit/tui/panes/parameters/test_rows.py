@@ -106,3 +106,12 @@ def test_five_thousand_parameters_cost_a_bounded_time_and_one_change_only_its_no
         keystrokes.append(time.process_time() - begin)
     assert [each.name for each in shown if each.parameter] == ["max_speed"]
     assert sorted(keystrokes)[1] < 0.030, "the machine may interrupt one of them"
+
+
+def test_a_key_that_lets_the_same_parameters_pass_takes_the_rows_of_before() -> None:
+    made = TreeRows()
+    first = made.rows(GROUPED, View(query=parse("pid")))
+    again = made.rows(GROUPED, View(query=parse("pid.")))
+    assert [a is b for a, b in zip(first[1:], again[1:], strict=True)] == [True] * (len(first) - 1)
+    for view in (View(query=parse("pid.x")), View(query=parse("pid.x"), folded=frozenset({"/n:pid.x."})), View()):
+        assert made.rows(GROUPED, view) == rows(GROUPED, view), "others pass, or stand folded: made anew"
