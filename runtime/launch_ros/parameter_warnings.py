@@ -38,7 +38,7 @@ def _keys_of(path: str, _changed: float) -> tuple[tuple[str, int], ...]:
     try:
         with open(path, encoding="utf-8") as file:
             untyped: Any = yaml  # the stubs say nothing of what `compose` gives
-            root = untyped.compose(file, yaml.SafeLoader)
+            root = untyped.compose(file, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
     except (OSError, UnicodeDecodeError, yaml.YAMLError):
         return ()
     return tuple(_node_keys(root, ""))

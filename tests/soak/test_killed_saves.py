@@ -78,11 +78,11 @@ def kill_writers(folder: Path, times: int) -> None:
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="forks")
-@pytest.mark.parametrize("times", [10, pytest.param(1000, marks=pytest.mark.soak)])
+@pytest.mark.parametrize("times", [10, pytest.param(1000, marks=[pytest.mark.soak, pytest.mark.timeout(1000)])])
 def test_killed_at_random_moments(times: int, tmp_path: Path) -> None:
     # In an interpreter of its own: a fork is safe only where no thread runs.
     done = subprocess.run(
-        [sys.executable, __file__, str(tmp_path), str(times)], check=False, timeout=600, capture_output=True, text=True,
+        [sys.executable, __file__, str(tmp_path), str(times)], check=False, timeout=900, capture_output=True, text=True,
         env={**os.environ, "XDG_CONFIG_HOME": str(tmp_path / "config"), "XDG_STATE_HOME": str(tmp_path / "state")},
     )  # fmt: skip
     assert done.returncode == 0, done.stderr

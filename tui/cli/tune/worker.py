@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import importlib
 import json
 import os
@@ -28,6 +29,8 @@ def warm_up() -> None:
     for name in MODULES:
         with contextlib.suppress(ImportError):  # missing where a workspace has a package of that name
             importlib.import_module(name)
+    gc.collect()
+    gc.freeze()  # the runs would look through all of it again and again, and copy the pages that it lies in
 
 
 def job(

@@ -1,0 +1,40 @@
+"""What is nearest to the robot, which is looked for in a short reach first."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from bot_console_robot.simulation.geometry import Pose
+from bot_console_robot.simulation.space import Space
+from bot_console_robot.simulation.world_file import parse_world
+
+RADIUS = 0.2
+PILLAR = {"center": [9.0, 9.0], "radius": 0.1}
+
+
+@pytest.fixture
+def space() -> Space:
+    data = {"size": [20, 20], "start": [10, 10, 0.0], "circles": [PILLAR]}
+    return Space(parse_world("hall", data), [], Pose(10.0, 10.0, 0.0), RADIUS)
+
+
+def test_it_is_found_wherever_the_robot_was_looked_for_before(space: Space) -> None:
+    beside, far_off = math.sqrt(2.0) - 0.1 - RADIUS, 4.0 - RADIUS
+    for x, y, gap, what in [
+        (10.0, 10.0, beside, "an obstacle"),
+        (16.0, 10.0, far_off, "the boundary"),
+        (10.0, 10.0, beside, "an obstacle"),
+        (19.7, 10.0, 0.1, "the boundary"),
+        (10.0, 10.0, beside, "an obstacle"),
+    ]:
+        found = space.nearest(x, y)
+        assert (found[0], found[1]) == (pytest.approx(gap, abs=1e-6), what)
+
+
+def test_where_nothing_is_near_there_is_nothing() -> None:
+    world = parse_world("field", {"size": [40, 40], "start": [20, 20, 0.0]})
+    space = Space(world, [], Pose(20.0, 20.0, 0.0), RADIUS)
+    assert space.nearest(20.0, 20.0) == (math.inf, "")
+    assert space.nearest(38.0, 20.0)[1] == "the boundary"
+    assert space.nearest(20.0, 20.0) == (math.inf, "")
