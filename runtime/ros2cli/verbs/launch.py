@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 import argparse
+import atexit
 import os
+import signal
 import sys
+import threading
+from types import FrameType
 
 from ament_index_python.packages import PackageNotFoundError
 from ros2cli.command import Command, Result
@@ -155,7 +159,17 @@ def launch(
 
         allow_missing(service)
     service.include_launch_description(LaunchDescription([include, WarnOfUndeclaredArguments(arguments)]))
+    if threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGINT, _late)  # the run has a handler of its own, and puts this one back at its end
+        atexit.register(
+            signal.signal, signal.SIGINT, signal.SIG_IGN
+        )  # Python takes its own handlers apart before it ends
     return service.run()
+
+
+def _late(number: int, frame: FrameType | None) -> None:
+    """An interrupt of a launch that is over changes nothing; a second one ends a program that does not end."""
+    signal.signal(number, signal.default_int_handler)
 
 
 def _no_package_name(name: str, error: ValueError) -> str:

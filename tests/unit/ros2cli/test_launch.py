@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import signal
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -82,6 +84,14 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     launch.logging.reset()
     return tmp_path
+
+
+@pytest.fixture(autouse=True)
+def interrupts() -> Iterator[None]:
+    """What a launch does about them ends with the test."""
+    before = signal.getsignal(signal.SIGINT)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 def launched(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]:
@@ -311,3 +321,12 @@ def test_print_resolved(capsys: pytest.CaptureFixture[str], folder: Path) -> Non
 
 def test_resolved_goes_with_print(capsys: pytest.CaptureFixture[str]) -> None:
     assert launched(capsys, "--resolved", "says.launch.py") == (1, "", "--resolved goes with --print\n")
+
+
+def test_an_interrupt_of_a_launch_that_is_over_changes_nothing_but_a_second_one_ends_the_program(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert launched(capsys, "empty.launch.py")[0] == 0
+    signal.raise_signal(signal.SIGINT)
+    with pytest.raises(KeyboardInterrupt):
+        signal.raise_signal(signal.SIGINT)
