@@ -75,7 +75,8 @@ class OfferedSubscription:
         """
         if self._subscription is None:
             return
-        with self._subscription.handle as handle:
+        handle = self._subscription.handle
+        with handle:
             while (taken := handle.take_message(self._kind, True)) is not None:
                 yield bytes(taken[0]), taken[1]["source_timestamp"] or 0
 

@@ -1,4 +1,7 @@
-"""What upstream's entities wrap, as far as programs handle it: `with subscription.handle:` and its address."""
+"""What upstream's entities wrap, as far as programs handle it: `with subscription.handle:` and its address.
+
+As upstream, the `with` gives nothing: `with entity.handle as handle` leaves None in `handle`.
+"""
 
 from __future__ import annotations
 
@@ -19,9 +22,8 @@ class Destroyable:
         """A number that no other entity has."""
         return id(self._owner)
 
-    def __enter__(self) -> Destroyable:
+    def __enter__(self) -> None:
         self._use()
-        return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None

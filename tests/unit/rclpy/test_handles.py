@@ -24,9 +24,10 @@ MAKERS = {
 def test_an_entity_outlives_a_with_block(ros: Any, kind: str) -> None:
     node = ros.node()
     entity, other = MAKERS[kind](node), MAKERS[kind](node)
-    with entity.handle as handle:
-        assert handle == entity.handle != other.handle
-        assert handle.pointer == entity.handle.pointer != other.handle.pointer
+    with entity.handle as nothing:
+        assert nothing is None
+        assert entity.handle == entity.handle != other.handle
+        assert entity.handle.pointer != other.handle.pointer
     with entity.handle:
         pass
     assert getattr(node, f"destroy_{kind}")(entity)

@@ -12,6 +12,8 @@ from typing import Any
 
 from bot_console.tui.console.model import GraphInfo, NodeInfo
 from bot_console.tui.console.robot.robot_model import Drawing, Pose, Turtle, TurtleField
+from bot_console.tui.console.topics.interfaces import interface
+from bot_console.tui.console.traffic import Payload
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
@@ -56,12 +58,12 @@ class TurtleWatch:
             self._subscribe_canvas(topic)
 
     def _subscribe_pose(self, topic: str) -> None:
-        from turtlesim.msg import Pose as TurtlePose  # only where there are turtles
-
+        try:
+            kind = interface(Payload.MESSAGE, POSE)
+        except ValueError:  # the turtles are another machine's; ours has no turtlesim
+            return
         self._trails[topic] = deque(maxlen=TRAIL)
-        self._subscriptions[topic] = self._node.create_subscription(
-            TurtlePose, topic, partial(self._on_pose, topic), NEWEST
-        )
+        self._subscriptions[topic] = self._node.create_subscription(kind, topic, partial(self._on_pose, topic), NEWEST)
 
     def _subscribe_canvas(self, topic: str) -> None:
         from sensor_msgs.msg import Image

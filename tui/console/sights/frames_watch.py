@@ -6,17 +6,22 @@ import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.sights.frame_model import Frame, Frames
+from bot_console.tui.console.topics.interfaces import interface
 from bot_console.tui.console.topics.offers import offered_qos
-from geometry_msgs.msg import TransformStamped
+from bot_console.tui.console.traffic import Payload
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
-from tf2_msgs.msg import TFMessage
+
+if TYPE_CHECKING:  # a small ROS 2 has no tf2_msgs
+    from geometry_msgs.msg import TransformStamped
+    from tf2_msgs.msg import TFMessage
 
 MOVING, FIXED = "/tf", "/tf_static"
+TYPE = "tf2_msgs/msg/TFMessage"
 DEPTH = {MOVING: 100, FIXED: 1000}
 """Static transforms come at once, and each only once."""
 MOST = 2000
@@ -54,6 +59,7 @@ class FramesWatch:
         self._seen: dict[str, _Seen] = {}
         self._tellers: dict[str, tuple[str, ...]] = {MOVING: (), FIXED: ()}
         self._dropped = 0
+        self._problem = ""
 
     def look(self, on: bool, graph: GraphInfo) -> None:
         """Somebody looks, or nobody any more; called by the executor."""
@@ -73,15 +79,19 @@ class FramesWatch:
                 self._node.destroy_subscription(before[1])
                 del self._subscriptions[topic]
             if offer is not None and topic not in self._subscriptions:
-                self._subscriptions[topic] = offer.key, self._subscribe(topic, offer.profile())
+                self._subscribe(topic, offer.key, offer.profile())
 
-    def _subscribe(self, topic: str, profile: QoSProfile) -> Any:
+    def _subscribe(self, topic: str, offer: object, profile: QoSProfile) -> None:
+        try:
+            kind = interface(Payload.MESSAGE, TYPE)
+        except ValueError as error:
+            self._problem = str(error)
+            return
         profile.depth = DEPTH[topic]
         if topic == MOVING:
             profile.reliability = ReliabilityPolicy.BEST_EFFORT  # a console must not hold a robot up
-        return self._node.create_subscription(
-            TFMessage, topic, self.take_fixed if topic == FIXED else self.take_moving, profile
-        )
+        take = self.take_fixed if topic == FIXED else self.take_moving
+        self._subscriptions[topic] = offer, self._node.create_subscription(kind, topic, take, profile)
 
     def take_moving(self, message: TFMessage) -> None:
         """Take in what was told on `/tf`."""
@@ -111,7 +121,7 @@ class FramesWatch:
         """What was told last; from any thread."""
         now = self._clock()
         frames = tuple(_frame(name, each, now) for name, each in sorted(tuple(self._seen.items())))
-        return Frames(frames, self._tellers[MOVING], self._tellers[FIXED], self._dropped)
+        return Frames(frames, self._tellers[MOVING], self._tellers[FIXED], self._dropped, self._problem)
 
 
 def _frame(name: str, seen: _Seen, now: float) -> Frame:

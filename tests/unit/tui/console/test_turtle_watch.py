@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 
 import pytest
 import rclpy
 from bot_console.tui.console.graph.watch import GraphWatch
+from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.robot.world_watch import WorldWatch
 from bot_console_demos.turtlesim.turtlesim_node import TurtleSim
 from geometry_msgs.msg import Twist
@@ -73,3 +75,13 @@ def test_a_turtlesim_that_tells_only_poses(watched: Watched) -> None:
     poses.publish(Pose(x=2.0, y=3.0, theta=0.5, linear_velocity=1.0))
     watched.executor.spin_once(timeout_sec=1.0)
     assert watched.world.info is same
+
+
+def test_turtles_of_another_machine_whose_messages_are_not_here_are_left_out(
+    watched: Watched, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "turtlesim.msg", None)
+    pose = Endpoint("/turtle1/pose", ("turtlesim/msg/Pose",))
+    watched.world.follow(GraphInfo((NodeInfo("/turtlesim", publishers=(pose,)),)))
+    (field,) = watched.world.info.fields
+    assert field.turtles == ()

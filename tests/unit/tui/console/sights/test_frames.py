@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from types import SimpleNamespace
 from typing import Any
 
@@ -44,6 +45,14 @@ class Bench:
 
     def frame(self, name: str) -> Frame:
         return next(each for each in self.watch.frames().frames if each.name == name)
+
+
+def test_a_ros_without_the_messages_of_tf2_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "tf2_msgs.msg", None)
+    bench = Bench()
+    bench.watch.look(True, GRAPH)
+    assert bench.topics == []
+    assert bench.watch.frames().problem.startswith("the type tf2_msgs/msg/TFMessage is not known here")
 
 
 def test_nothing_is_subscribed_while_nobody_looks() -> None:
