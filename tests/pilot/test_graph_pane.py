@@ -21,6 +21,12 @@ def items(session: Session) -> set[str]:
     return set(picture(session).places)
 
 
+def colours(view: DiagramView, item: str) -> set[object]:
+    """The colours in the line on which an item stands."""
+    line = view.render_line(view.places[item].y + 1 - view.scroll_offset.y)
+    return {each.style.color for each in line if each.style and item.rpartition("/")[2] in each.text}
+
+
 def test_arrow_keys_follow_the_arrows_and_enter_tells_all() -> None:
     async def play(session: Session) -> None:
         await session.press("3", "o")
@@ -100,6 +106,17 @@ def test_a_new_node_appears_and_the_selection_stays() -> None:
         session.console.change(graph=replace(graph(), nodes=(*graph().nodes, late)))
         await session.settle()
         assert "/late" in items(session) and picture(session).selected == before
+        view = picture(session)
+        place, alive = view.places["/late"], colours(view, "/late")
+        session.console.change(graph=replace(graph(), nodes=(*graph().nodes, late), silent=("/late",)))
+        await session.settle()
+        assert view.places["/late"] == place and colours(view, "/late") != alive, "a silent node is grey"
+        session.pane(GraphPane).tick()
+        assert session.console.sights.nodes_looked_at
+        await session.press("1")
+        session.pane(GraphPane).tick()
+        assert not session.console.sights.nodes_looked_at, "nobody is asked for a pane that nobody sees"
+        await session.press("3")
         session.console.change(graph=GraphInfo())
         await session.settle()
         assert "No nodes yet" in session.text()

@@ -134,13 +134,14 @@ class NodeInfo:
 
 @dataclass(frozen=True, slots=True)
 class GraphInfo:
-    """The ROS graph. `unheard`: why messages do not pass, and what to do; `frozen`: stopped nodes, with pids."""
+    """The ROS graph. `unheard`: why messages do not pass; `frozen`: stopped nodes, with pids; `silent`: no answer."""
 
     nodes: tuple[NodeInfo, ...] = ()
     topics: tuple[Endpoint, ...] = ()
     services: tuple[Endpoint, ...] = ()
     unheard: tuple[str, ...] = ()
     frozen: tuple[tuple[str, int], ...] = ()
+    silent: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -103,7 +103,7 @@ class ConsoleNode:
         self._compared: tuple[Profile | None, object, int] = (None, None, 0)
         self.setter = ParameterSetter(self.calls, self.parameters, self.journal)
         self.traffic = NodeTraffic(self.node, self.calls, lambda: self.graph.info)
-        self.sights = NodeSights(self.node, self.calls, lambda: self.graph.info)
+        self.sights = NodeSights(self.node, self.calls, lambda: self.graph)
         self._rosout = OfferedSubscription(
             self.node,
             Log,

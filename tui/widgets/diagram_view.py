@@ -43,13 +43,26 @@ class DiagramView(ScrollView, can_focus=True):
     .diagram--linked-chip { color: $primary; background: $panel; }
     .diagram--selected { color: $block-cursor-foreground; background: $block-cursor-background; text-style: bold; }
     .diagram--fault { color: $error; text-style: bold; }
+    .diagram--faded { color: $secondary; }
     .diagram--map { color: $secondary; background: $panel; }
     .diagram--seen { color: $foreground; background: $boost; text-style: bold; }
     .diagram--warn { color: $warning; background: $panel; }
     """
     COMPONENT_CLASSES: ClassVar[set[str]] = {
         f"diagram--{each}"
-        for each in ("box", "chip", "line", "linked", "linked-chip", "selected", "warn", "fault", "map", "seen")
+        for each in (
+            "box",
+            "chip",
+            "line",
+            "linked",
+            "linked-chip",
+            "selected",
+            "warn",
+            "fault",
+            "faded",
+            "map",
+            "seen",
+        )
     }
 
     EMPTY: ClassVar[Digraph] = Digraph()
@@ -73,6 +86,7 @@ class DiagramView(ScrollView, can_focus=True):
         self._graph = Digraph()
         self._warned: frozenset[str] = frozenset()
         self._faults: frozenset[tuple[str, str]] = frozenset()
+        self._faded: frozenset[str] = frozenset()
         self._map: tuple[object, list[str]] | None = None
         self._drawings: dict[Flow, Drawing] = {}
         self._flow: Flow | None = None
@@ -84,9 +98,13 @@ class DiagramView(ScrollView, can_focus=True):
         graph: Digraph,
         warned: frozenset[str] = frozenset(),
         faults: frozenset[tuple[str, str]] = frozenset(),
+        faded: frozenset[str] = frozenset(),
     ) -> None:
-        """Draw a graph; items in `warned` and edges in `faults` stand out. Selection and scrolling stay if they can."""
-        self._warned, self._faults = warned, faults
+        """Draw a graph; items in `warned` and edges in `faults` stand out, items in `faded` step back.
+
+        Selection and scrolling stay if they can.
+        """
+        self._warned, self._faults, self._faded = warned, faults, faded
         if graph != self._graph:
             self._graph = graph
             self._drawings.clear()
@@ -219,6 +237,8 @@ class DiagramView(ScrollView, can_focus=True):
             return "linked" if any(selected in edge for edge in run.edges) else "line"
         if run.item == selected:
             return "selected"
+        if run.item in self._faded:
+            return "faded"
         boxed = self.places[run.item].boxed
         if (selected, run.item) in self._links or (run.item, selected) in self._links:
             return "linked" if boxed else "linked-chip"

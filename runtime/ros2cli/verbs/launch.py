@@ -161,9 +161,8 @@ def launch(
     service.include_launch_description(LaunchDescription([include, WarnOfUndeclaredArguments(arguments)]))
     if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGINT, _late)  # the run has a handler of its own, and puts this one back at its end
-        atexit.register(
-            signal.signal, signal.SIGINT, signal.SIG_IGN
-        )  # Python takes its own handlers apart before it ends
+        # Python takes handlers of its own away before it has ended.
+        atexit.register(signal.signal, signal.SIGINT, signal.SIG_IGN)
     return service.run()
 
 

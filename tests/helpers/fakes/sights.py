@@ -15,6 +15,7 @@ class FakeSights:
         self.looking: tuple[str, int, int] = ("", 0, 0)
         self.tree = Frames()
         self.looked_at = False
+        self.nodes_looked_at = False
 
     def diagnostics(self) -> Diagnostics:
         return self.info
@@ -27,6 +28,9 @@ class FakeSights:
 
     def look_at_frames(self, on: bool) -> None:
         self.looked_at = on
+
+    def look_at_nodes(self, on: bool) -> None:
+        self.nodes_looked_at = on
 
     def frames(self) -> Frames:
         return self.tree if self.looked_at else Frames()

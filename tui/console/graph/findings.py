@@ -12,6 +12,9 @@ SHARED = ("/rosout", "/parameter_events", "/tf", "/tf_static", "/diagnostics", "
 """Topics that many nodes publish, or that nobody has to, without anything being wrong."""
 
 
+SILENT = "has not answered for a second: it was killed, it hangs, or it is busy"
+
+
 @dataclass(frozen=True)
 class Finding:
     """Something odd: the topic, service, action or node it is about, what it is, and whether it is surely wrong."""
@@ -27,7 +30,8 @@ def findings(info: GraphInfo) -> tuple[Finding, ...]:
     visible = GraphInfo(tuple(nodes), info.topics, info.services)
     otherwise = (Finding(each.partition(": ")[0], each, True) for each in info.unheard)
     frozen = (Finding(node, f"{node} is frozen: {mend(pid)}", True) for node, pid in info.frozen)
-    found = [*_topics(visible), *_services(nodes), *_alone(nodes), *otherwise, *frozen]
+    silent = (Finding(node, f"{node} {SILENT}", True) for node in info.silent)
+    found = [*_topics(visible), *_services(nodes), *_alone(nodes), *otherwise, *frozen, *silent]
     return tuple(sorted(found, key=lambda each: (not each.fault, each.subject)))
 
 

@@ -9,6 +9,7 @@ from time import monotonic, thread_time
 from typing import Any
 
 from bot_console.tui.console.graph.pairs import UnheardPairs
+from bot_console.tui.console.graph.silence import SilentNodes
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from rclpy.node import Node
 
@@ -64,6 +65,7 @@ class GraphWatch:
         self._rests_until = 0.0
         self._told = events is not None
         self._unheard = UnheardPairs(node)
+        self._silence = SilentNodes(node, self._silent_are)
         self._end = events(node.context.get_domain_id(), self._news.append) if events else _nothing
         node.create_timer(PERIOD, self._tick)
 
@@ -110,9 +112,20 @@ class GraphWatch:
             old.topics if topics is self._topics else _endpoints(topics, old.topics),
             old.services if services is self._services else _endpoints(services, old.services),
             frozen=old.frozen,
+            silent=old.silent,
         )
         self.info = replace(self.info, unheard=self._unheard.follow(self.info))
         self._nodes, self._topics, self._services = nodes, topics, services
+        self._changed(self.info)
+        self._silence.follow(self.info)
+
+    def look_at_nodes(self, on: bool) -> None:
+        """Find out which nodes do not answer from now on, or no more; events tell that already where there are any."""
+        if not self._told:
+            self._silence.look(on, self.info)
+
+    def _silent_are(self, nodes: tuple[str, ...]) -> None:
+        self.info = replace(self.info, silent=nodes)
         self._changed(self.info)
 
     def _unchanged(self) -> dict[Owner, tuple[Answer, NodeInfo]]:

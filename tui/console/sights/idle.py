@@ -28,6 +28,9 @@ class IdleSights:
     def look_at_frames(self, on: bool) -> None:
         """There are none."""
 
+    def look_at_nodes(self, on: bool) -> None:
+        """There are none."""
+
     def frames(self) -> Frames:
         """None, and why."""
         return self._frames

@@ -115,6 +115,10 @@ class Sights(Protocol):
         """Listen to what is told of frames from now on, or no more."""
         ...
 
+    def look_at_nodes(self, on: bool) -> None:
+        """Find out which nodes do not answer (`GraphInfo.silent`) where nothing else tells it, or no more."""
+        ...
+
     def frames(self) -> Frames:
         """What was told of frames while they were looked at."""
         ...

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from bot_console.tui.console.calls import Calls
+from bot_console.tui.console.graph.watch import GraphWatch
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.sights.diagnostics import DiagnosticsWatch
 from bot_console.tui.console.sights.frame_model import Frames
@@ -17,7 +18,7 @@ from rclpy.node import Node
 class NodeSights:
     """What the robot shows of itself; its methods may be called from any thread, the work is the executor's."""
 
-    def __init__(self, node: Node, calls: Calls, graph: Callable[[], GraphInfo]) -> None:
+    def __init__(self, node: Node, calls: Calls, graph: Callable[[], GraphWatch]) -> None:
         self._calls = calls
         self._graph = graph
         self._diagnostics = DiagnosticsWatch(node)
@@ -38,7 +39,7 @@ class NodeSights:
         """Receive the images of this topic."""
 
         async def look() -> None:
-            self._images.look_at(topic, columns, rows, self._graph())
+            self._images.look_at(topic, columns, rows, self._graph().info)
 
         self._calls.run(look(), lambda why: None)
 
@@ -50,7 +51,15 @@ class NodeSights:
         """Listen to what is told of frames from now on, or no more."""
 
         async def look() -> None:
-            self._frames.look(on, self._graph())
+            self._frames.look(on, self._graph().info)
+
+        self._calls.run(look(), lambda _: None)
+
+    def look_at_nodes(self, on: bool) -> None:
+        """Ask the nodes of the graph whether they live from now on, or no more."""
+
+        async def look() -> None:
+            self._graph().look_at_nodes(on)
 
         self._calls.run(look(), lambda _: None)
 

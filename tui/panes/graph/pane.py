@@ -14,6 +14,7 @@ from bot_console.tui.console.graph.findings import findings
 from bot_console.tui.console.model import ConsoleSnapshot, GraphInfo
 from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.query import parse
+from bot_console.tui.console.sights.model import Sights
 from bot_console.tui.files.save_file import save_file
 from bot_console.tui.format import counted
 from bot_console.tui.panes.graph.details import ITEM, PANE, TYPE, details, finding_options, narrowed
@@ -84,6 +85,8 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self._rates: dict[str, str] | None = None
         """What is written behind the names of topics; None: nothing is measured."""
         self._looked = 0.0
+        self._asking_by: Sights | None = None
+        """Who finds out which nodes do not answer."""
 
     def compose(self) -> ComposeResult:
         """The picture, a line on what is selected, a prompt."""
@@ -140,11 +143,12 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         """Draw it so; how many times larger than the pane it is then."""
         self._view = replace(self._view, mode=mode, short=short)
         self._shown = shown(info, self._view, self._rates or {})
-        self._picture.show(self._shown.graph, self._shown.dead_ends, self._shown.faults)
+        self._picture.show(self._shown.graph, self._shown.dead_ends, self._shown.faults, self._shown.silent)
         return self._picture.excess
 
     def tick(self) -> None:
         """Write rates where they are wanted and the pane is seen; measure nothing otherwise."""
+        self._ask_nodes()
         self._frames.look(self.console.sights, self.clock(), seen=self.display)
         if self._frames.open:
             self._tell()
@@ -165,9 +169,17 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             self._rates = rates
             self._draw()
 
+    def _ask_nodes(self) -> None:
+        """Have nodes asked whether they live while the pane is seen."""
+        wanted = self.console.sights if self.display else None
+        if wanted is not self._asking_by:  # another one, too, after the system was connected anew
+            self._asking_by = wanted
+            self.console.sights.look_at_nodes(wanted is not None)
+
     def let_go(self) -> None:
-        """Measure no more."""
+        """Measure and ask no more."""
         self.console.traffic.measure([], "graph")
+        self.console.sights.look_at_nodes(False)
         self.console.sights.look_at_frames(False)
 
     def on_resize(self) -> None:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from types import MappingProxyType
 
+from bot_console.tui.console.graph.findings import SILENT
 from bot_console.tui.console.graph.qos import mismatches
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.query import Query
@@ -66,6 +67,9 @@ class Shown:
     faults: frozenset[tuple[str, str]] = frozenset()
     """Edges on which nothing arrives, since the QoS of their ends does not match."""
 
+    silent: frozenset[str] = frozenset()
+    """Nodes that do not answer, or whose process is frozen."""
+
 
 def shown(info: GraphInfo, view: GraphView, rates: Mapping[str, str] = MappingProxyType({})) -> Shown:
     """Choose nodes and topics, and turn them into items and edges; `rates` are written behind the names of topics."""
@@ -96,12 +100,14 @@ def shown(info: GraphInfo, view: GraphView, rates: Mapping[str, str] = MappingPr
         hidden += len(ids - near)
         ids &= near
         edges = [(a, b) for a, b in edges if a in ids and b in ids]
+    silent = frozenset((*info.silent, *(name for name, _ in info.frozen)))
     if view.mode is Mode.NODES:
         graph = _nodes_only([each for each in ids if not is_link(each)], edges, _Labels(info, view, {}, ids, set()))
-        return Shown(graph, hidden=hidden, every=everything)
+        return Shown(graph, hidden=hidden, every=everything, silent=silent)
     label = _Labels(info, view, rates, ids, {topic for topic, _ in faults})
     items = tuple(Item(each, label.of(each), not is_link(each), int(is_link(each))) for each in sorted(ids))
-    return Shown(Digraph(items, tuple(sorted(edges))), dead_ends & ids, hidden, everything, frozenset(faults))
+    graph = Digraph(items, tuple(sorted(edges)))
+    return Shown(graph, dead_ends & ids, hidden, everything, frozenset(faults), silent)
 
 
 def _edges(nodes: list[NodeInfo], view: GraphView) -> list[tuple[str, str]]:
@@ -229,6 +235,7 @@ def summary(info: GraphInfo, item: str) -> str:
     parts = [f"publishes {len(node.publishers)}", f"subscribes {len(node.subscriptions)}"]
     parts += [f"{counted(len(node.services), 'service')}", f"{counted(len(node.clients), 'client')}"]
     stopped = "".join(f" - frozen: process {pid} is stopped" for name, pid in info.frozen if name == item)
+    stopped = stopped or (f" - {SILENT}" if item in info.silent else "")
     return harmless(f"{item}  {', '.join(parts)}{stopped}")
 
 

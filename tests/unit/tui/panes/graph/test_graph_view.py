@@ -71,3 +71,12 @@ def test_a_node_of_a_stopped_process_is_marked_in_the_line_below():
     assert "frozen" not in summary(info, "/a")
     (text,) = [each.text for each in findings(info) if each.fault]
     assert text.startswith("/b is frozen") and "kill -CONT 42" in text
+
+
+@pytest.mark.parametrize("mode", [Mode.ALL, Mode.NODES])
+def test_nodes_that_do_not_answer_are_told_apart(mode: Mode) -> None:
+    info = GraphInfo((NodeInfo("/arm"), NodeInfo("/base")), silent=("/arm",), frozen=(("/base", 7),))
+    assert shown(info, GraphView(mode=mode)).silent == {"/arm", "/base"}
+    assert summary(info, "/arm").endswith(" - has not answered for a second: it was killed, it hangs, or it is busy")
+    assert summary(info, "/base").endswith("- frozen: process 7 is stopped")
+    assert "/arm has not answered for a second" in " ".join(each.text for each in findings(info))

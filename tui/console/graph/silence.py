@@ -1,0 +1,108 @@
+"""Which nodes are in the graph and do not answer: DDS keeps a node that was killed for some ten seconds.
+
+rclpy tells of no node whether it lives, so each is asked for the types of no parameters, the least there is to ask.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+from bot_console.tui.console.model import GraphInfo
+from rcl_interfaces.srv import GetParameterTypes
+from rclpy.node import Node
+from rclpy.task import Future
+
+SERVICE = "get_parameter_types"
+PERIOD = 0.5
+"""Seconds between two looks."""
+OVERDUE = 2
+"""Looks after which an answer is missed. Looks count, not time: while this program got no processor nobody is late."""
+AGAIN = 4
+"""Looks after which a request counts as lost, and is sent anew."""
+MOST = 25
+"""Requests at each look; of more nodes, each is asked the less often."""
+
+
+class _Asked:
+    """A node, and what it was asked last."""
+
+    def __init__(self, client: Any) -> None:
+        self.client = client
+        self.answer: Future[Any] | None = None
+        self.looks = OVERDUE
+        """How often it was looked since the request, or since its answer."""
+        self.lives = False
+        """Whether it has ever answered."""
+
+    @property
+    def waiting(self) -> bool:
+        """Whether an answer is due."""
+        return self.answer is not None and not self.answer.done()
+
+
+class SilentNodes:
+    """Asks the nodes of the graph, once a second at most, while somebody looks at them; nobody otherwise.
+
+    `changed` is told the names of those that do not answer. The executor's thread calls all methods.
+    """
+
+    def __init__(self, node: Node, changed: Callable[[tuple[str, ...]], None]) -> None:
+        self._node = node
+        self._changed = changed
+        self._timer: Any = None
+        self._nodes: dict[str, _Asked] = {}
+        self._silent: frozenset[str] = frozenset()
+
+    def look(self, on: bool, graph: GraphInfo) -> None:
+        """Somebody looks, or nobody any more."""
+        if on and self._timer is None:
+            self._timer = self._node.create_timer(PERIOD, self.tick)
+        elif not on and self._timer is not None:
+            self._node.destroy_timer(self._timer)
+            self._timer = None
+        self.follow(graph)
+
+    def follow(self, graph: GraphInfo) -> None:
+        """The graph is another. A node without parameter services cannot be asked, and is never silent."""
+        nodes = graph.nodes if self._timer is not None else ()
+        asked = {each.name for each in nodes if any(own.name == f"{each.name}/{SERVICE}" for own in each.services)}
+        for name in self._nodes.keys() - asked:
+            self._node.destroy_client(self._nodes.pop(name).client)
+        for name in sorted(asked - self._nodes.keys()):
+            self._nodes[name] = _Asked(self._node.create_client(GetParameterTypes, f"{name}/{SERVICE}"))
+        self._tell(self._silent & asked)
+
+    def tick(self) -> None:
+        """Look who has not answered, and ask those whose turn it is."""
+        for each in self._nodes.values():
+            each.looks += 1
+        late = {name for name, each in self._nodes.items() if each.waiting and each.looks >= OVERDUE}
+        self._tell(self._silent | late)
+        due = [name for name, each in self._nodes.items() if each.looks >= (AGAIN if each.waiting else OVERDUE)]
+        for name in due[:MOST]:
+            self._ask(name)
+
+    def _ask(self, name: str) -> None:
+        asked = self._nodes.pop(name)
+        self._nodes[name] = asked  # the others come first the next time
+        if not asked.client.service_is_ready():
+            if asked.lives:
+                self._tell(self._silent | {name})
+            return  # a client that is new has to find its server first
+        if asked.answer is not None and not asked.answer.done():
+            asked.client.remove_pending_request(asked.answer)
+        asked.looks = 0
+        asked.answer = asked.client.call_async(GetParameterTypes.Request())
+        asked.answer.add_done_callback(partial(self._answered, name, asked))
+
+    def _answered(self, name: str, asked: _Asked, answer: Future[Any]) -> None:
+        if answer is asked.answer:
+            asked.looks, asked.lives = 0, True
+            self._tell(self._silent - {name})
+
+    def _tell(self, silent: frozenset[str]) -> None:
+        if silent != self._silent:
+            self._silent = silent
+            self._changed(tuple(sorted(silent)))
