@@ -94,8 +94,9 @@ class SilentNodes:
         if asked.answer is not None and not asked.answer.done():
             asked.client.remove_pending_request(asked.answer)
         asked.looks = 0
-        asked.answer = asked.client.call_async(GetParameterTypes.Request())
-        asked.answer.add_done_callback(partial(self._answered, name, asked))
+        answer: Future[Any] = asked.client.call_async(GetParameterTypes.Request())
+        asked.answer = answer
+        answer.add_done_callback(partial(self._answered, name, asked))
 
     def _answered(self, name: str, asked: _Asked, answer: Future[Any]) -> None:
         if answer is asked.answer:
