@@ -18,7 +18,8 @@ def stamp_of(message: Any, allow_headerless: bool) -> Time | None:
     """The time of a message's header; of one without, now where that is allowed, else None with a warning."""
     header = getattr(message, "header", None)
     if header is not None and hasattr(header, "stamp"):
-        return Time.from_msg(header.stamp)
+        stamp = header.stamp
+        return stamp if isinstance(stamp, Time) else Time.from_msg(stamp)
     if allow_headerless:
         clock: Clock = ROSClock()
         return clock.now()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from geometry_msgs.msg import TransformStamped
 from rclpy.duration import Duration
@@ -22,8 +23,8 @@ NORM_TOLERANCE = 1e-2
 class BufferCore:
     """Keeps transforms for `cache_time`; one thread may fill it while others ask.
 
-    Times are `rclpy.time.Time`; the zero time means the newest that is known. What asks raises `LookupException`,
-    `ConnectivityException`, `ExtrapolationException` and `InvalidArgumentException`.
+    Times are `rclpy.time.Time`, or stamps of messages; the zero time means the newest that is known. What asks raises
+    `LookupException`, `ConnectivityException`, `ExtrapolationException` and `InvalidArgumentException`.
     """
 
     def __init__(self, cache_time: Duration | None = None) -> None:
@@ -84,7 +85,7 @@ class BufferCore:
 
     def lookup_transform_core(self, target_frame: str, source_frame: str, time: Time) -> TransformStamped:
         """What takes points of `source_frame` to `target_frame` at a time."""
-        stamp, place = self._look_up(target_frame, source_frame, time.nanoseconds, "lookupTransform")
+        stamp, place = self._look_up(target_frame, source_frame, nanoseconds_of(time), "lookupTransform")
         return _message(target_frame, source_frame, stamp, place)
 
     def lookup_transform_full_core(
@@ -92,14 +93,14 @@ class BufferCore:
     ) -> TransformStamped:
         """From `source_frame` at one time to `target_frame` at another, by way of a frame that did not move."""
         self._check(fixed_frame, "lookupTransform argument fixed_frame")
-        _, first = self._look_up(fixed_frame, source_frame, source_time.nanoseconds, "lookupTransform")
-        stamp, second = self._look_up(target_frame, fixed_frame, target_time.nanoseconds, "lookupTransform")
+        _, first = self._look_up(fixed_frame, source_frame, nanoseconds_of(source_time), "lookupTransform")
+        stamp, second = self._look_up(target_frame, fixed_frame, nanoseconds_of(target_time), "lookupTransform")
         return _message(target_frame, source_frame, stamp, compose(second, first))
 
     def can_transform_core(self, target_frame: str, source_frame: str, time: Time) -> tuple[bool, str]:
         """Whether `lookup_transform_core` would answer, and why not."""
         try:
-            self._look_up(target_frame, source_frame, time.nanoseconds, "canTransform")
+            self._look_up(target_frame, source_frame, nanoseconds_of(time), "canTransform")
         except TransformException as error:
             return False, str(error)
         return True, ""
@@ -164,6 +165,17 @@ class BufferCore:
             return time or (latest[0] if latest else 0), IDENTITY
         time = time or latest_common_time(self._find, target, source)
         return time, transform(self._find, target, source, time)
+
+
+def nanoseconds_of(time: Any) -> int:
+    """A time, or the stamp of a message, in ns; raises `TypeError` for anything else."""
+    found = getattr(time, "nanoseconds", None)
+    if found is not None:
+        return found
+    try:
+        return time.sec * NANO + time.nanosec
+    except AttributeError:
+        raise TypeError("time must have sec and nanosec, or nanoseconds.") from None
 
 
 def _problem(child: str, parent: str, place: Rigid, authority: str) -> str | None:

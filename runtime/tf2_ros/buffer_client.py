@@ -55,7 +55,7 @@ class BufferClient(BufferInterface):
         if not isinstance(time, Time):
             raise TypeError("Must pass a rclpy.time.Time object.")
         goal = LookupTransform.Goal(target_frame=target_frame, source_frame=source_frame, advanced=False)
-        goal.source_time, goal.timeout = time.to_msg(), timeout.to_msg()
+        goal.source_time, goal.timeout = _stamp(time), timeout.to_msg()
         return self._ask(goal)
 
     def lookup_transform_full(
@@ -69,8 +69,8 @@ class BufferClient(BufferInterface):
     ) -> TransformStamped:
         """From `source_frame` at one time to `target_frame` at another, by way of a frame that did not move."""
         goal = LookupTransform.Goal(target_frame=target_frame, source_frame=source_frame, advanced=True)
-        goal.source_time, goal.timeout = source_time.to_msg(), timeout.to_msg()
-        goal.target_time, goal.fixed_frame = target_time.to_msg(), fixed_frame
+        goal.source_time, goal.timeout = _stamp(source_time), timeout.to_msg()
+        goal.target_time, goal.fixed_frame = _stamp(target_time), fixed_frame
         return self._ask(goal)
 
     def can_transform(self, target_frame: str, source_frame: str, time: Time, timeout: Duration = NOW) -> bool:
@@ -121,3 +121,8 @@ def _settled(future: Future[Any], deadline: int) -> Any:
     if not future.done():
         raise TimeoutException("The BufferServer has not answered in time: it hangs, or nobody spins this node.")
     return future.result()
+
+
+def _stamp(time: Any) -> Any:
+    """A time as messages have it, which it may be already."""
+    return time.to_msg() if isinstance(time, Time) else time

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -113,3 +114,11 @@ def test_a_chain_passes_on_what_its_last_filter_gives() -> None:
     source.signalMessage(message(1.0))
     assert passed == [[1.0]]
     assert isinstance(chain.getFilter(1), Cache)
+
+
+def test_a_stamp_may_be_a_time_as_well_as_a_message() -> None:
+    cache = Cache(SimpleFilter(), 5)
+    for second in (1.0, 2.0, 3.0):
+        cache.add(SimpleNamespace(header=SimpleNamespace(stamp=at_second(second))))
+    assert len(cache.getInterval(at_second(1.5), at_second(3.0))) == 2
+    assert cache.getOldestTime() == at_second(1.0)

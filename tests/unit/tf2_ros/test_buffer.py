@@ -181,3 +181,14 @@ def test_geometry_in_another_frame() -> None:
 def test_a_type_that_nobody_knows() -> None:
     with pytest.raises(TypeException, match="if not loaded or supported"):
         Buffer().transform(Time(), "map")
+
+
+def test_the_stamp_of_a_message_is_a_time(buffer: Buffer) -> None:
+    stamp = at(2.5).to_msg()
+    wanted = buffer.lookup_transform("map", "laser", at(2.5))
+    assert buffer.lookup_transform("map", "laser", stamp) == wanted
+    assert buffer.lookup_transform("map", "laser", stamp, Duration(seconds=1)) == wanted
+    assert buffer.lookup_transform_full("map", stamp, "laser", stamp, "odom") == wanted
+    assert buffer.can_transform("map", "laser", stamp) and not buffer.can_transform("map", "laser", at(9).to_msg())
+    with pytest.raises(TypeError, match="time must have sec and nanosec, or nanoseconds"):
+        buffer.lookup_transform("map", "laser", 2.5)  # type: ignore[arg-type]
