@@ -12,6 +12,8 @@ from dataclasses import replace
 
 from bot_console.tui.cli.attach.launch_host import start_host
 from bot_console.tui.cli.live.launch_lines import teller
+from bot_console.tui.console.connection.no_console import done
+from bot_console.tui.console.launch.asked import AskedForProcesses
 from bot_console.tui.console.launch.output import Add
 from bot_console.tui.console.launch.timeline import KEPT
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
@@ -46,7 +48,7 @@ class _Host:
         return replace(process, key=f"{self.number}:{process.key}")
 
 
-class HostLaunchers:
+class HostLaunchers(AskedForProcesses):
     """The `Launcher` over all of them; methods may be called from any thread."""
 
     def __init__(self, record: Add, printed: Callable[[int, str, str], None], start: Start = start_host) -> None:
@@ -106,22 +108,6 @@ class HostLaunchers:
         """Launch files of all packages of this machine."""
         return self._unused(use=False).launcher.files()
 
-    def start(self, key: str) -> Future[Answer]:
-        """Start an ended process again."""
-        return self._want("start", key)
-
-    def stop(self, key: str) -> Future[Answer]:
-        """Stop a process as Ctrl-C does."""
-        return self._want("stop", key)
-
-    def kill(self, key: str) -> Future[Answer]:
-        """End a process at once."""
-        return self._want("kill", key)
-
-    def restart(self, key: str) -> Future[Answer]:
-        """Stop, then start."""
-        return self._want("restart", key)
-
     def _want(self, verb: str, key: str) -> Future[Answer]:
         number, _, rest = key.partition(":")
         with self._lock:
@@ -129,9 +115,7 @@ class HostLaunchers:
         if host is not None:
             outcome: Future[Answer] = getattr(host.launcher, verb)(rest)
             return outcome
-        refused: Future[Answer] = Future()
-        refused.set_result(Answer(False, f"there is no process {key}"))
-        return refused
+        return done(Answer(False, f"there is no process {key}"))
 
     def close(self) -> None:
         """End all that was launched from this console, and only that."""

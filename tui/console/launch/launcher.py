@@ -9,7 +9,9 @@ from concurrent.futures import Future
 from pathlib import Path
 from typing import Any, Protocol
 
+from bot_console.tui.console.connection.no_console import done
 from bot_console.tui.console.launch.arguments import read_arguments
+from bot_console.tui.console.launch.asked import AskedForProcesses
 from bot_console.tui.console.launch.output import Add, ProcessOutput
 from bot_console.tui.console.launch.process import ENDED, KILLED, LaunchedProcess, Order
 from bot_console.tui.console.launch.restart import Recipe, recipe
@@ -45,7 +47,7 @@ class _Held:
         self.usage: Usage | None = None
 
 
-class RosLauncher:
+class RosLauncher(AskedForProcesses):
     """Runs launch files, each in a LaunchService and thread of its own. Methods may be called from any thread."""
 
     def __init__(
@@ -185,29 +187,11 @@ class RosLauncher:
         else:
             self._ended(held)
 
-    def start(self, key: str) -> Future[Answer]:
-        """Start an ended process again; the answer comes when it runs."""
-        return self._want("start", key)
-
-    def stop(self, key: str) -> Future[Answer]:
-        """Stop a process as Ctrl-C does; the answer comes when it has ended."""
-        return self._want("stop", key)
-
-    def kill(self, key: str) -> Future[Answer]:
-        """End a process at once, as SIGKILL does; launch starts it again where its launch file says so."""
-        return self._want("kill", key)
-
-    def restart(self, key: str) -> Future[Answer]:
-        """Stop, then start; the answer comes when it runs again."""
-        return self._want("restart", key)
-
     def _want(self, verb: str, key: str) -> Future[Answer]:
         with self._lock:
             held = self._held.get(key)
             if held is None or self._closed:
-                refused: Future[Answer] = Future()
-                refused.set_result(Answer(False, CLOSED if self._closed else f"there is no process {key}"))
-                return refused
+                return done(Answer(False, CLOSED if self._closed else f"there is no process {key}"))
             before = held.process.info
             order, outcome = held.process.want(verb)
             if held.process.info is not before or order is not Order.NOTHING:

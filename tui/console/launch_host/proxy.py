@@ -11,6 +11,7 @@ from concurrent.futures import TimeoutError as TooLate
 from dataclasses import replace
 from typing import Any
 
+from bot_console.tui.console.launch.asked import AskedForProcesses
 from bot_console.tui.console.launch.launcher import CLOSED
 from bot_console.tui.console.launch.output import Add
 from bot_console.tui.console.launch.process import ENDED
@@ -28,7 +29,7 @@ ARGUMENTS_S = 30.0
 """Seconds that a launch file may take to say its arguments: it is a program."""
 
 
-class HostedLauncher:
+class HostedLauncher(AskedForProcesses):
     """The stand-in of a launch host. Methods may be called from any thread."""
 
     def __init__(
@@ -69,22 +70,6 @@ class HostedLauncher:
     def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
         """Run one more launch file; the answer comes when its first process runs or it has failed or ended."""
         return self._want("launch", path, dict(arguments))
-
-    def start(self, key: str) -> Future[Answer]:
-        """Start an ended process again; the answer comes when it runs."""
-        return self._want("start", key)
-
-    def stop(self, key: str) -> Future[Answer]:
-        """Stop a process as Ctrl-C does; the answer comes when it has ended."""
-        return self._want("stop", key)
-
-    def kill(self, key: str) -> Future[Answer]:
-        """End a process at once, as SIGKILL does; launch starts it again where its launch file says so."""
-        return self._want("kill", key)
-
-    def restart(self, key: str) -> Future[Answer]:
-        """Stop, then start; the answer comes when it runs again."""
-        return self._want("restart", key)
 
     def keep(self, folder: str) -> Future[Answer]:
         """Save the last minutes, which the host keeps, as a bag."""

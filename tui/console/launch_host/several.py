@@ -7,6 +7,8 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
 
+from bot_console.tui.console.connection.no_console import done
+from bot_console.tui.console.launch.asked import AskedForProcesses
 from bot_console.tui.console.launch.timeline import KEPT
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.model import LaunchArgument, LaunchEvent, LaunchInfo, ProcessInfo
@@ -19,7 +21,7 @@ Open = Callable[[str], "HostedLauncher | None"]
 """Connects to a host by its door; None where nobody is behind it."""
 
 
-class SeveralLaunchers:
+class SeveralLaunchers(AskedForProcesses):
     """One launcher over several hosts. Methods may be called from any thread."""
 
     def __init__(
@@ -87,30 +89,12 @@ class SeveralLaunchers:
         """Launch files of the workspace."""
         return self._files()
 
-    def start(self, key: str) -> Future[Answer]:
-        """Start an ended process again."""
-        return self._asked("start", key)
-
-    def stop(self, key: str) -> Future[Answer]:
-        """Stop a process as Ctrl-C does."""
-        return self._asked("stop", key)
-
-    def kill(self, key: str) -> Future[Answer]:
-        """End a process at once."""
-        return self._asked("kill", key)
-
-    def restart(self, key: str) -> Future[Answer]:
-        """Stop, then start."""
-        return self._asked("restart", key)
-
-    def _asked(self, verb: str, key: str) -> Future[Answer]:
+    def _want(self, verb: str, key: str) -> Future[Answer]:
         door, _, its_key = key.rpartition(SEPARATOR)
         with self._lock:
             launcher = self._others.get(door) if door else self._own
         if launcher is None:
-            refused: Future[Answer] = Future()
-            refused.set_result(Answer(False, f"there is no process {its_key}: what has started it is gone"))
-            return refused
+            return done(Answer(False, f"there is no process {its_key}: what has started it is gone"))
         outcome: Future[Answer] = getattr(launcher, verb)(its_key)
         return outcome
 
