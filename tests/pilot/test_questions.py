@@ -16,6 +16,7 @@ from piloting import NAMES, Session, run
 from samples import live
 from textual import events
 from textual.keys import _character_to_key
+from textual.widgets import Input
 
 
 def rows(session: Session) -> ParameterRows:
@@ -55,6 +56,7 @@ def without(session: Session, node: str) -> None:
 
 def test_a_value_goes_to_the_parameter_that_was_asked_about_wherever_the_cursor_is_by_then() -> None:
     async def play(session: Session) -> None:
+        assert not session.app.screen.query(Input), "fields are made when they are first used"
         await edit(session, "max_speed")
         rows(session).cursor += 2
         await session.type("2")

@@ -10,7 +10,6 @@ from bot_console.tui.format import cut, harmless
 from bot_console.tui.keymap import bindings
 from rich.cells import cell_len
 from rich.text import Text
-from textual.app import ComposeResult
 from textual.binding import BindingType
 from textual.containers import Horizontal, Vertical
 from textual.widget import Widget
@@ -36,7 +35,7 @@ class Lines(Protocol):
 
 
 class CommandField(Vertical):
-    """A line, what it may become above it, what is wrong with it beside it."""
+    """A line, what it may become above it, what is wrong with it beside it; made when it is first opened."""
 
     DEFAULT_CSS = """
     CommandField { display: none; height: 2; background: $panel; }
@@ -62,17 +61,13 @@ class CommandField(Vertical):
         """What stood there before the first of them."""
         self._own_change = ""
 
-    def compose(self) -> ComposeResult:
-        """Candidates; the line."""
-        yield Static("", markup=False, id="command-candidates")
-        with Horizontal():
-            yield Label(":", markup=False)
-            yield Input(id="command-input", select_on_focus=False)
-            yield Label("", markup=False, classes="wrong", id="command-wrong")
-
-    @property
-    def _field(self) -> Input:
-        return self.query_one("#command-input", Input)
+    def _make(self) -> None:
+        self._candidates = Static("", markup=False)
+        self._field = Input(select_on_focus=False)
+        self._wrong = Label("", markup=False, classes="wrong")
+        line = Horizontal()
+        self.mount(self._candidates, line)
+        line.mount(Label(":", markup=False), self._field, self._wrong)
 
     @property
     def is_open(self) -> bool:
@@ -83,6 +78,8 @@ class CommandField(Vertical):
         """Take the keyboard; the line is empty."""
         if self.is_open:
             return
+        if not self.children:
+            self._make()
         self._before = self.screen.focused
         self._history.stay()
         self._put("")
@@ -144,7 +141,7 @@ class CommandField(Vertical):
 
     def _complain(self, wrong: str) -> None:
         said = wrong or self._lines.outlook(self._field.value)
-        self.query_one("#command-wrong", Label).update(harmless(cut(said, max(10, self.size.width * 2 // 3))))
+        self._wrong.update(harmless(cut(said, max(10, self.size.width * 2 // 3))))
 
     def _show(self) -> None:
         found = self._completion.found(self._typed)
@@ -160,7 +157,7 @@ class CommandField(Vertical):
                 break
             text.append(name, "reverse" if index == self._tried else "")
             text.append("  ")
-        shown = self.query_one("#command-candidates", Static)
+        shown = self._candidates
         if getattr(shown, "said", None) != (text.plain, text.spans):
             shown.said = (text.plain, text.spans)  # type: ignore[attr-defined] -- what is drawn already
             shown.update(text, layout=False)

@@ -7,7 +7,6 @@ from typing import ClassVar
 from bot_console.tui import keymap
 from bot_console.tui.format import harmless
 from bot_console.tui.widgets.prompt.question import Asker, Line
-from textual.app import ComposeResult
 from textual.binding import BindingType
 from textual.containers import Horizontal
 from textual.suggester import SuggestFromList
@@ -16,7 +15,10 @@ from textual.widgets import Input, Label
 
 
 class Prompt(Asker[str], Horizontal):
-    """A label, a text field, and room for what is wrong with the text."""
+    """A label, a text field, and room for what is wrong with the text; made when something is first asked.
+
+    Every pane has a prompt, and few are ever used: their parts would be a third of all that is mounted at the start.
+    """
 
     DEFAULT_CSS = """
     Prompt { height: 1; display: none; background: $panel; }
@@ -31,18 +33,20 @@ class Prompt(Asker[str], Horizontal):
     _line: Line | None = None
     _before: Widget | None = None
 
-    def compose(self) -> ComposeResult:
-        """Label, field, complaint."""
-        yield Label("", markup=False, id="prompt-label")
-        yield Input(id="prompt-input", select_on_focus=True)
-        yield Label("", markup=False, classes="wrong", id="prompt-wrong")
+    def _make(self) -> None:
+        self._label = Label("", markup=False)
+        self._field = Input(select_on_focus=True)
+        self._wrong = Label("", markup=False, classes="wrong")
+        self.mount(self._label, self._field, self._wrong)
 
     def ask(self, line: Line) -> None:
         """Ask; a question that is open already is given up."""
         self.give_up()
+        if not self.children:
+            self._make()
         self._question = self._line = line
-        self.query_one("#prompt-label", Label).update(harmless(line.label))
-        field = self.query_one("#prompt-input", Input)
+        self._label.update(harmless(line.label))
+        field = self._field
         suggestions = line.suggestions
         field.suggester = SuggestFromList(suggestions, case_sensitive=False) if suggestions else None
         field.select_on_focus = not suggestions
@@ -57,7 +61,7 @@ class Prompt(Asker[str], Horizontal):
     def _complain(self, text: str) -> str:
         wrong = self._line.check(text) if self._line else ""
         said = wrong or (self._line.outlook(text) if self._line else "")
-        self.query_one("#prompt-wrong", Label).update(harmless(said))
+        self._wrong.update(harmless(said))
         return wrong
 
     def on_input_changed(self, event: Input.Changed) -> None:
@@ -74,7 +78,7 @@ class Prompt(Asker[str], Horizontal):
 
     def on_descendant_blur(self) -> None:
         """Keep the keyboard when the mouse goes elsewhere in the pane; give up when it goes to another pane."""
-        focused, field = self.screen.focused, self.query_one("#prompt-input", Input)
+        focused, field = self.screen.focused, self._field
         if not self.is_open or focused is None or focused is field:  # nobody has it when the terminal loses it
             return
         if self.parent in focused.ancestors:
@@ -89,7 +93,7 @@ class Prompt(Asker[str], Horizontal):
     def close(self) -> None:
         """Vanish, and give the keyboard back to whom it was taken from."""
         self.remove_class("open")
-        if self.screen.focused is self.query_one("#prompt-input", Input):
+        if self.screen.focused is self._field:
             self.screen.set_focus(self._before)
         self._before = None
 
