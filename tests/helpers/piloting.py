@@ -14,6 +14,7 @@ from bot_console.tui.panes.images.pane import ImagesPane
 from bot_console.tui.panes.steering.pane import SteeringPane
 from fakes.console import FakeCommandLine, FakeConsole
 from fakes.launcher import FakeLauncher
+from rest import at_rest
 from textual.pilot import Pilot
 from textual.widget import Widget
 
@@ -93,13 +94,14 @@ def run(
     async def main() -> None:
         console, launcher = system
         app = BotConsoleApp(console, launcher, FakeCommandLine(console.asked), refresh_hz=0)
-        async with app.run_test(size=size, notifications=True) as pilot:
-            session = Session(app, pilot, console, launcher)
-            for kind in (SteeringPane, DiagnosticsPane, AlarmsPane, ImagesPane):
-                session.pane(kind).clock = Clock()
-            await session.settle()
-            await play(session)
-            if not faults_wanted:
-                assert app.faults.seen == [], "a pane has ended by a fault"
+        with at_rest():
+            async with app.run_test(size=size, notifications=True) as pilot:
+                session = Session(app, pilot, console, launcher)
+                for kind in (SteeringPane, DiagnosticsPane, AlarmsPane, ImagesPane):
+                    session.pane(kind).clock = Clock()
+                await session.settle()
+                await play(session)
+                if not faults_wanted:
+                    assert app.faults.seen == [], "a pane has ended by a fault"
 
     asyncio.run(main())

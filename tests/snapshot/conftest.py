@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Iterator
 
 import pytest
 from bot_console.tui.panes.alarms.pane import AlarmsPane
 from bot_console.tui.panes.diagnostics.pane import DiagnosticsPane
 from bot_console.tui.panes.images.pane import ImagesPane
 from piloting import Clock
+from rest import at_rest
 from textual.widgets import Input
 
 
@@ -20,3 +22,9 @@ def plain_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
     for each in (DiagnosticsPane, AlarmsPane, ImagesPane):
         monkeypatch.setattr(each, "clock", staticmethod(Clock()))
     monkeypatch.setattr(Input, "_toggle_cursor", lambda self: None)
+
+
+@pytest.fixture(autouse=True)
+def pictures_are_taken_at_rest() -> Iterator[None]:
+    with at_rest():
+        yield
