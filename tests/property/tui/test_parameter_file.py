@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from time import process_time
 
+import pytest
 import yaml
 from bot_console.runtime.rmw.parameter_precedence import ParameterTable
 from bot_console.runtime.rmw.parameter_scalars import scalar_value
@@ -117,3 +119,12 @@ def test_scalars_mean_what_they_mean_in_ros(text: str) -> None:
     ours, theirs = plain_value(text), scalar_value(text)
     # Hexadecimal fractions and signed words for NaN are read by C alone, and nobody writes them.
     assert same(ours, theirs) or (isinstance(theirs, float) and "x" in text)
+
+
+@pytest.mark.parametrize("before", ["", "0x"])
+@pytest.mark.parametrize("read", [plain_value, scalar_value])
+def test_a_text_of_very_many_digits_is_read_in_a_moment(read, before):
+    text = before + "1" * 30_000 + "z"
+    began = process_time()
+    assert read(text) == text
+    assert process_time() - began < 5, "the time grows with the square of the digits: 40 s"
