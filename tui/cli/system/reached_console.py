@@ -5,7 +5,8 @@ from __future__ import annotations
 import contextlib
 import sys
 import time
-from collections.abc import Generator
+from collections.abc import Callable, Generator
+from typing import TypeVar
 
 from bot_console.runtime.importer import install
 from bot_console.tui.cli.system.reaching import reach_system
@@ -16,6 +17,7 @@ LINK = 10.0
 STILL = 0.5
 """Seconds for which nothing may come or go before the system counts as known."""
 PERIOD = 0.05
+T = TypeVar("T")
 
 
 @contextlib.contextmanager
@@ -58,15 +60,23 @@ def _listen_to_hosts(console: RosConsole, stack: contextlib.ExitStack) -> None:
 
 def known(console: RosConsole, patience: float) -> bool:
     """Wait until nodes and their parameters stand still, so many seconds at most; whether there are any nodes."""
-    deadline, since, before = time.monotonic() + patience, time.monotonic(), (0, 0, 0)
-    while time.monotonic() < deadline:
+
+    def counts() -> tuple[int, int, int]:
         snapshot = console.snapshot()
         trees = snapshot.parameters
         nodes = sum(not each.hidden for each in snapshot.graph.nodes)
-        now = (nodes, len(trees), sum(len(each.parameters) for each in trees.values()))
-        if now != before:
-            before, since = now, time.monotonic()
-        if nodes and time.monotonic() - since >= STILL:
-            return True
+        return nodes, len(trees), sum(len(each.parameters) for each in trees.values())
+
+    return bool(settled(counts, lambda found: bool(found[0]), STILL, patience)[0])
+
+
+def settled(look: Callable[[], T], is_there: Callable[[T], bool], still: float, patience: float) -> T:
+    """What is seen once it is there and has stayed the same for `still` seconds; else after `patience` seconds."""
+    deadline = time.monotonic() + patience
+    seen, since = look(), time.monotonic()
+    while time.monotonic() < deadline and not (is_there(seen) and time.monotonic() - since >= still):
         time.sleep(PERIOD)
-    return bool(before[0])
+        now = look()
+        if now != seen:
+            seen, since = now, time.monotonic()
+    return seen

@@ -8,8 +8,7 @@ import time
 from collections.abc import Mapping
 from pathlib import Path
 
-from bot_console.runtime.importer import install
-from bot_console.tui.cli.system.domain import take_part
+from bot_console.tui.cli.system.reached_console import reached_console, settled
 from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.graph.expected import Expected, differences, read, written
 from bot_console.tui.console.graph.findings import findings
@@ -19,8 +18,6 @@ from bot_console.tui.format import harmless
 STILL = 1.0
 """Seconds for which the graph must not change before it counts as known."""
 PERIOD = 0.1
-LINK = 10.0
-"""Seconds to connect."""
 
 EPILOG = """exit codes: 0 as expected, or nothing wrong; 1 not; 2 wrong usage or a file that cannot be read
 
@@ -43,20 +40,8 @@ def run(words: list[str]) -> int:
         except (OSError, UnicodeDecodeError, ValueError) as error:
             print(f"{given.check} cannot be used: {harmless(str(error))}", file=sys.stderr)
             return 2
-    alone = take_part()
-    if alone:
-        print(alone, file=sys.stderr)
-        return 1
-    install()
-    console = RosConsole()
-    console.start()
-    try:
-        if not console.wait_ready(LINK):
-            print(f"no ROS system: {console.snapshot().problem or 'no answer'}", file=sys.stderr)
-            return 1
-        return _judge(console, expected, given)
-    finally:
-        console.close()
+    with reached_console() as console:
+        return 1 if console is None else _judge(console, expected, given)
 
 
 def _judge(console: RosConsole, expected: Expected | None, given: argparse.Namespace) -> int:
@@ -92,16 +77,11 @@ def _compare(console: RosConsole, expected: Expected, given: argparse.Namespace)
 
 def _known(console: RosConsole, wait: float) -> GraphInfo:
     """The graph, once it has nodes and stands still; else after so many seconds."""
-    deadline = time.monotonic() + wait
-    info, since = console.snapshot().graph, time.monotonic()
-    while time.monotonic() < deadline:
-        now = console.snapshot().graph
-        if now is not info:
-            info, since = now, time.monotonic()
-        if any(not each.hidden for each in info.nodes) and time.monotonic() - since >= STILL:
-            break
-        time.sleep(PERIOD)
-    return info
+
+    def has_nodes(info: GraphInfo) -> bool:
+        return any(not each.hidden for each in info.nodes)
+
+    return settled(lambda: console.snapshot().graph, has_nodes, STILL, wait)
 
 
 def _measured(console: RosConsole, topics: list[str], seconds: float) -> Mapping[str, float | None]:
