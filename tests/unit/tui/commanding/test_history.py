@@ -31,6 +31,10 @@ def test_up_goes_through_those_that_begin_so_and_down_comes_back(tmp_path: Path)
     history.stay()
     assert history.step("list", -1, anywhere=True) == "node list"
     assert history.step("node list", -1, anywhere=True) == "topic list"
+    history.stay()
+    assert history.step("topic hz /odom", -1) == "topic hz /odom", "there is no other one that begins so"
+    history.add("topic hz")
+    assert history.step("topic hz", -1) == "topic hz /odom", "the line that stands there already is passed by"
 
 
 def test_what_cannot_be_kept_is_known_until_the_end(tmp_path: Path) -> None:

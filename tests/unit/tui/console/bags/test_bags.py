@@ -14,7 +14,7 @@ from bot_console.tui.console.bags.definitions import definition, type_name
 from bot_console.tui.console.bags.player import Player, Playing
 from bot_console.tui.console.bags.qos import noted, offered
 from bot_console.tui.console.bags.reader import Bag, NoBag
-from bot_console.tui.console.bags.recorder import OVERHEAD, Recorder, Ring
+from bot_console.tui.console.bags.recorder import OVERHEAD, Recorder, Ring, in_order
 from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.files.save_file import NotSaved
 from geometry_msgs.msg import Twist
@@ -178,6 +178,14 @@ def test_recorded_and_played_again(tmp_path: Path, node: rclpy.node.Node) -> Non
     for _ in range(10):
         rclpy.spin_once(node, timeout_sec=0.05)
     assert heard == texts(bag) and player.published == len(heard)
+
+
+def test_what_is_taken_at_once_lies_as_it_was_sent_unless_clocks_differ() -> None:
+    now, foreign = 100 * SECOND, 90 * SECOND
+    found = [(now - 1, "/late", b"c"), (now - 3, "/early", b"a"), (foreign, "/foreign", b"d"), (now - 2, "/late", b"b")]
+    ordered = [(received - now, data) for received, _, data, _ in in_order(found, now, last=0)]
+    assert ordered == [(-3, b"a"), (-2, b"b"), (-1, b"c"), (0, b"d")]
+    assert [each[0] for each in in_order(found, now, last=now - 2)] == [now - 2, now - 2, now - 1, now]
 
 
 def test_a_topic_whose_type_is_not_here_is_told(tmp_path: Path, node: rclpy.node.Node) -> None:

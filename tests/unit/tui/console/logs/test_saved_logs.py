@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import Any
 
 import pytest
 from bot_console.tui.console.logs.file import AT_ONCE, Tail, open_log
@@ -65,6 +66,25 @@ def test_a_file_is_followed_over_rotation_and_truncation(tmp_path: Path) -> None
     with path.open("a") as file:
         file.write("f\n")
     assert grown(tail) == "f\n"
+    tail.close()
+
+
+def test_what_was_written_just_before_a_rotation_is_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "log"
+    path.write_text("a\n")
+    tail = Tail(path)
+    look = os.stat
+
+    def rotated(*which: Any, **how: Any) -> os.stat_result:
+        monkeypatch.setattr(os, "stat", look)
+        with path.open("a") as file:  # after all had been read
+            file.write("b\n")
+        os.rename(path, tmp_path / "log.1")
+        path.write_text("c\n")
+        return look(*which, **how)
+
+    monkeypatch.setattr(os, "stat", rotated)
+    assert grown(tail) == "a\nb\nc\n"
     tail.close()
 
 

@@ -76,9 +76,13 @@ def test_commas_in_brackets_part_nothing() -> None:
     assert split("/a/x, max(/a/x, /b/y) , /s/r[1:2],") == ["/a/x", "max(/a/x, /b/y)", "/s/r[1:2]"]
 
 
+def let_go(console: FakeConsole) -> list[str]:
+    return [each[1] for each in console.asked if each[0] == "unwatch"]
+
+
 def test_curves_share_what_they_need_and_let_it_go_with_the_last_of_them() -> None:
     console = FakeConsole()
-    console.series |= {A: ([1.0, 2.0], [1.0, 2.0]), "/c/y": ([0.5, 1.5], [10.0, 20.0])}
+    console.series |= {A: ([1.0, 2.0], [1.0, 2.0]), "/c/y": ([0.5, 1.5], [10.0, 20.0]), "/c/z": ([], [])}
     timeline = Timeline(console)
     assert timeline.add(f"{A} + /c/y").ok and timeline.add(A).ok
     assert [each[1] for each in console.asked] == [A, "/c/y"], "each is watched once"
@@ -87,10 +91,13 @@ def test_curves_share_what_they_need_and_let_it_go_with_the_last_of_them() -> No
     assert not timeline.take_in()
     refused = timeline.add(f"{A} - /no/topic")
     assert not refused.ok and "/no/topic" in refused.text and len(timeline.curves) == 2
+    assert let_go(console) == [], "what another curve needs is watched on"
+    assert not timeline.add("/c/z + /no/topic").ok
+    assert let_go(console) == ["/c/z"], "what was watched for a curve that cannot be is let go"
     timeline.remove(0)
-    assert console.asked[-1] == ("unwatch", "/c/y")
+    assert let_go(console) == ["/c/z", "/c/y"]
     timeline.remove(0)
-    assert console.asked[-1] == ("unwatch", A)
+    assert let_go(console) == ["/c/z", "/c/y", A]
     wrong = timeline.add("sine(/a/x)")
     assert not wrong.ok and "none of" in wrong.text
 
