@@ -104,8 +104,9 @@ class BotConsoleApp(RecordingApp, TuningDoor):
         self.stage = Stage(self, look.arrangement, self._opening.pane, lambda: self._snapshot)
         self._quitting = Quitting(self, console)
         self._stopping = Stopping(self, console)
-        self.desk = Desk(self, self.stage, self._stopping, console, command_line or NoCommandLine(), self.open)
         self._leaving = Leaving(self, console, self.redraw, holds=not isinstance(console, ReadOnlyConsole))
+        lines = command_line or NoCommandLine()
+        self.desk = Desk(self, self.stage, self._stopping, console, lines, self.open, self._leaving.run)
         self._safety_news = SafetyNews(console)
         self._plugins = plugins
         self.faults = Faults(self, self, self._panes_changed)

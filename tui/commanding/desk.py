@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
@@ -33,12 +34,15 @@ class Desk:
         console: Console,
         lines: CommandLine,
         open: Callable[[Opening], None],
+        run_outside: Callable[[Sequence[str]], int],
     ) -> None:
+        """`run_outside` lets a program have the terminal until it ends, and gives its exit code."""
         self._app = app
         self._stage = stage
         self._stopping = stopping
         self._console = console
         self._open = open
+        self._run_outside = run_outside
         self.runner = LineRunner(self, console, lines)
         self._completion = Completion(self.runner.offered)
 
@@ -110,6 +114,11 @@ class Desk:
     def layouts(self) -> Sequence[str]:
         """The names of the layouts."""
         return sorted(self._stage.arranging.arrangement.layouts())
+
+    def show_bag(self, folder: str) -> None:
+        """Show a bag in a console of its own, which has the terminal until it is quit."""
+        if self._run_outside([sys.executable, "-m", "bot_console.tui", "bag", "open", folder]):
+            self.notify(f"{folder} cannot be shown; bot-console bag info {folder} says why", severity="error")
 
     def hold_robot(self, hold: bool) -> None:
         """Hold the robot, or release it, after a question where others hold it too."""

@@ -10,7 +10,7 @@ from dataclasses import replace
 from difflib import get_close_matches
 from typing import Any, Protocol
 
-from bot_console.tui.commanding.verbs import VERBS, places, setting_of, wrong_use
+from bot_console.tui.commanding.verbs import VERBS, places, setting_of, wrong_bag, wrong_use
 from bot_console.tui.console.model import ChangeSource, SetOutcome
 from bot_console.tui.console.protocol import Answer, CommandLine, Console, Stream
 from bot_console.tui.format import harmless, value_text
@@ -51,6 +51,10 @@ class Host(Protocol):
 
     def layouts(self) -> Sequence[str]:
         """The names of the layouts."""
+        ...
+
+    def show_bag(self, folder: str) -> None:
+        """Show a bag in the place of everything, until that is quit."""
         ...
 
     def hold_robot(self, hold: bool) -> None:
@@ -95,6 +99,8 @@ class LineRunner:
             return f"there is no layout {words[1]}; there are {', '.join(self._host.layouts())}"
         if not wrong and words[0] == "help" and len(words) > 1 and words[1] not in VERBS:
             return f"no verb of the console is {words[1]}; ros2 {words[1]} -h tells of those of ros2"
+        if not wrong and words[0] == "bag":
+            return wrong_bag(words)
         return wrong
 
     def outlook(self, line: str) -> str:
@@ -169,6 +175,9 @@ class LineRunner:
 
     def _layout(self, words: Sequence[str]) -> None:
         self._host.load_layout(words[0])
+
+    def _bag(self, words: Sequence[str]) -> None:
+        self._host.show_bag(words[1])
 
     def _plot(self, words: Sequence[str]) -> None:
         self._host.open(Opening("plot", tuple(words)))

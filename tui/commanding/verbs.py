@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -21,6 +22,7 @@ class Verb:
 
 
 VERBS: Mapping[str, Verb] = {
+    "bag": Verb("bag open FOLDER", "look at a bag in a console of its own, until q", 2, 2),
     "help": Verb("help [VERB]", "all commands, or one", most=1),
     "layout": Verb("layout NAME", "show a layout", 1, 1),
     "plot": Verb("plot PATH ...", "curves of the plot: /topic/field or /node:parameter", 1),
@@ -63,6 +65,13 @@ def wrong_use(words: Sequence[str]) -> str:
     return "" if verb.least <= len(words) - 1 <= verb.most else f"write it as: {verb.usage}"
 
 
+def wrong_bag(words: Sequence[str]) -> str:
+    """What is wrong with `bag open FOLDER`; empty when nothing is."""
+    if words[1] != "open":
+        return "write it as: bag open FOLDER; record begins and ends one, the rest is for a shell: bot-console bag -h"
+    return "" if os.path.exists(words[2]) else f"there is no bag {words[2]}"
+
+
 def places(
     before: Sequence[str],
     snapshot: ConsoleSnapshot,
@@ -87,6 +96,8 @@ def places(
         return layouts()
     if verb == "help" and not given:
         return sorted(VERBS)
+    if verb == "bag" and not given:
+        return ("open",)
     if verb == "record":
         return ("stop",) if not given else ()
     return ()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.terminal.editor import editing
@@ -35,16 +35,23 @@ class Leaving:
         except ValueError as error:
             self._app.notify(str(error), severity="error")
             return
+        self.run(command)
+
+    def run(self, command: Sequence[str]) -> int:
+        """Let another program have the terminal until it ends; its exit code. Nothing is steered meanwhile."""
+        code = 0
         self._console.drive(0.0, 0.0)
         try:
             with self._app.suspend():
                 # Descriptors 0 to 2 lead to the log while the console runs; these are the terminal.
-                subprocess.run(command, stdin=sys.__stdin__, stdout=sys.__stdout__, stderr=sys.__stderr__, check=False)
+                inward, outward, errors = sys.__stdin__, sys.__stdout__, sys.__stderr__
+                code = subprocess.run(command, stdin=inward, stdout=outward, stderr=errors, check=False).returncode
         except SuspendNotSupported:
-            self._app.notify("This terminal cannot be handed to an editor.", severity="error")
+            self._app.notify("This terminal cannot be handed to another program.", severity="error")
         except OSError as error:
             self._app.notify(f"{command[0]}: {error.strerror or error}", severity="error")
         self._redraw()
+        return code
 
     def sleep(self) -> None:
         """Hold the robot, and give the terminal back to the shell; `fg` brings the console back."""

@@ -254,7 +254,9 @@ def _open(given: argparse.Namespace) -> int:
     options = parse([])
     notes = [f"{each} is not shown: the bag is too large" for each in contents.left_out]
     try:
-        BotConsoleApp(console, opening=replace(options.opening, notes=tuple(notes)), look=look_of(options)).run()
+        app = BotConsoleApp(console, opening=replace(options.opening, notes=tuple(notes)), look=look_of(options))
+        app.time_cursor.follow(console.topics)
+        app.run()
     finally:
         console.close()
     return 0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from collections.abc import Callable, Iterator
 from types import MappingProxyType
 from typing import Any
@@ -69,6 +70,19 @@ class Contents:
         for stamp, data in self._messages[topic]:
             yield stamp, deserialize_message(data, kind)
 
+    def count(self, topic: str, stamp: int | None = None) -> int:
+        """How many messages of a topic are held, up to a moment (ns since the epoch) where one is given."""
+        held = self._messages[topic]
+        return len(held) if stamp is None else bisect_right(held, stamp, key=_stamp)
+
+    def message(self, topic: str, at: int) -> Any:
+        """One message of a topic; raises what `messages` does."""
+        return deserialize_message(self._messages[topic][at][1], get_message(self.metadata.topics[topic].type))
+
+    def size(self, topic: str) -> int:
+        """Bytes of the messages of a topic that are held."""
+        return sum(len(data) for _, data in self._messages[topic])
+
     def _each(self, topic: str, take: Callable[[int, Any], None]) -> None:
         for stamp, message in self.messages(topic):
             take(stamp, message)
@@ -113,3 +127,7 @@ class Contents:
     def parameters(self) -> MappingProxyType[str, ParameterTree]:
         """What parameters were at the end, as far as events told."""
         return MappingProxyType(self.trees)
+
+
+def _stamp(held: tuple[int, bytes]) -> int:
+    return held[0]

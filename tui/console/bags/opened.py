@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from bot_console.tui.console.bags.contents import Contents
+from bot_console.tui.console.bags.traffic import BagTraffic
 from bot_console.tui.console.connection.no_console import NoConsole
 from bot_console.tui.console.logs.file import open_log
 from bot_console.tui.console.logs.search import matching
@@ -28,6 +29,7 @@ from bot_console.tui.console.plot.paths import number_paths
 from bot_console.tui.console.plot.series import parse_path, reader
 from bot_console.tui.console.protocol import Answer, LogSource, LogView, Samples
 from bot_console.tui.console.robot.robot_model import Pose
+from bot_console.tui.console.traffic import Traffic
 
 WHY = "this is a recording: it can be looked at, and nothing can be changed in it"
 
@@ -151,7 +153,13 @@ class OpenedBag(NoConsole):
 
     def __init__(self, contents: Contents, name: str) -> None:
         self._reading = PastReading(contents, name)
+        self.topics = BagTraffic(contents, WHY)
         super().__init__(WHY, self._reading)
+
+    @property
+    def traffic(self) -> Traffic:
+        """The messages."""
+        return self.topics
 
     def watch(self, path: str, asker: str = "") -> Answer:
         """Read a series."""

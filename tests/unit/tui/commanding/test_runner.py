@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from concurrent.futures import Future
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -31,6 +32,9 @@ class Screen:
     def layouts(self) -> Sequence[str]:
         return ("overview", "tuning")
 
+    def show_bag(self, folder: str) -> None:
+        self.told.append(f"shown: {folder}")
+
 
 def failed(why: str) -> Future[str]:
     future: Future[str] = Future()
@@ -52,6 +56,9 @@ def runner() -> tuple[LineRunner, Any, FakeCommandLine]:
         ("set /robot max_speed 1", "there is no node /robot with parameters"),
         ("set /robot_navigator speed 1", "/robot_navigator has no parameter speed"),
         ("set /robot_navigator max_speed fast", "'fast' is no number"),
+        ("bag open", "write it as: bag open FOLDER"),
+        ("bag info x", "write it as: bag open FOLDER"),
+        ("bag open /no/such/bag", "there is no bag /no/such/bag"),
         ("layout none", "there is no layout none; there are"),
         ("topc list", "there is no command topc; did you mean topic?"),
         ("zzz", "^p finds an action"),
@@ -103,3 +110,10 @@ def test_what_is_started_is_told_in_a_corner_and_takes_no_keys(line: str, printe
     lines.run = lambda _: printed
     run.run(line)
     assert screen.told == [told]
+
+
+def test_a_bag_is_opened_where_it_is(tmp_path: Path) -> None:
+    lines, screen, _ = runner()
+    lines.run(f"bag open '{tmp_path}'")
+    lines.run("bag open /no/such/bag")
+    assert screen.told == [f"shown: {tmp_path}", "there is no bag /no/such/bag"]

@@ -57,6 +57,27 @@ def console(folder: Path) -> OpenedBag:
     return OpenedBag(Contents(Bag(folder)), "bag")
 
 
+def test_messages_are_those_of_the_moment_that_is_looked_at(console: OpenedBag) -> None:
+    traffic = console.topics
+    rate, size = traffic.measured()["/odom"].rate, len(serialize_message(odometry(1)))
+    assert rate == 1.0 and traffic.measured()["/odom"].bandwidth == pytest.approx(size)
+    assert traffic.heard().fields == ()
+    traffic.listen("/odom")
+
+    def position() -> str:
+        return next(each.text for each in traffic.heard().fields if each.path == "pose.pose.position.x")
+
+    assert position() == "10" and traffic.heard().count == 10 and traffic.heard() is traffic.heard()
+    traffic.time_moved((BEGIN + 4) * SECOND)
+    assert position() == "4" and traffic.heard().count == 4
+    traffic.time_moved(BEGIN * SECOND)
+    assert traffic.heard().fields == () and "nothing has come" in traffic.heard().problem
+    traffic.time_moved(None)
+    traffic.listen("/rosout")
+    assert traffic.heard().topic == "/rosout" and traffic.heard().count == 1
+    assert traffic.publish("/odom", "nav_msgs/msg/Odometry", {}).text == WHY
+
+
 def test_log_changes_and_world_are_those_of_the_bag(console: OpenedBag) -> None:
     now = console.snapshot()
     assert [each.name for each in now.graph.topics] == ["/map", "/odom", "/parameter_events", "/rosout"]

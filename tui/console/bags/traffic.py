@@ -1,0 +1,60 @@
+"""Topics of a bag as a person looks at them: how often and how much in the mean, and the message of a moment."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from bot_console.tui.console.bags.contents import Contents
+from bot_console.tui.console.topics.idle import IdleTraffic
+from bot_console.tui.console.topics.message_tree import tree
+from bot_console.tui.console.traffic import LiveMessage, Measure
+
+
+class BagTraffic(IdleTraffic):
+    """Shows the last message up to the moment that is looked at; refuses to send, with the reason."""
+
+    def __init__(self, contents: Contents, why: str) -> None:
+        super().__init__(why)
+        self._contents = contents
+        self._topic = ""
+        self._stamp: int | None = None
+        self._heard = LiveMessage()
+        self._measured: Mapping[str, Measure] | None = None
+
+    def time_moved(self, stamp: int | None) -> None:
+        """Look at a moment (ns since the epoch); None is the end."""
+        self._stamp = stamp
+
+    def measured(self) -> Mapping[str, Measure]:
+        """Rates (Hz) and bytes per second over the whole bag."""
+        if self._measured is None:
+            about = self._contents.metadata
+            span = (about.end - about.begin) / 1e9 or 1.0
+            self._measured = {
+                name: Measure(topic.count / span, self._contents.size(name) / span, count=topic.count)
+                for name, topic in about.topics.items()
+            }
+        return self._measured
+
+    def listen(self, topic: str) -> None:
+        """Show this topic."""
+        self._topic = topic
+
+    def heard(self) -> LiveMessage:
+        """The message; the same object until another one is to be shown."""
+        topic, known = self._topic, self._contents.metadata.topics.get(self._topic)
+        if known is None:
+            return LiveMessage(topic, problem=f"{topic} is not in the recording" if topic else "")
+        count = self._contents.count(topic, self._stamp)
+        if (self._heard.topic, self._heard.count) == (topic, count):
+            return self._heard
+        problem = "nothing has come up to this moment"
+        if topic in self._contents.left_out:
+            problem = "it is too large to be held"
+        try:
+            message = self._contents.message(topic, count - 1) if count else None
+            fields = tree(message, known.type) if message is not None else ()
+            self._heard = LiveMessage(topic, known.type, fields, count, problem="" if count else problem)
+        except (ImportError, AttributeError, ValueError, RuntimeError) as error:
+            self._heard = LiveMessage(topic, known.type, (), count, problem=f"{known.type} cannot be read: {error}")
+        return self._heard
