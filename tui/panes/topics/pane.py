@@ -180,8 +180,8 @@ class TopicsPane(ListPane):
         if self._frozen:
             return f"{self._topic}  frozen, +{heard.count - self._shown.count} new; space goes on"
         rate = self._list.measure_of(self._topic).rate
-        parts = [counted(heard.count, "message"), age_text(heard.age)] + ([f"{rate_text(rate)} Hz"] if rate else [])
-        return f"{self._topic}  {', '.join(parts)}"
+        parts = [counted(heard.count, "message"), age_text(heard.age), f"{rate_text(rate)} Hz" if rate else ""]
+        return f"{self._topic}  {', '.join(filter(None, parts))}"
 
     def _tell(self) -> None:
         """What is listed, and all about the row at the cursor."""
