@@ -100,6 +100,7 @@ class SafetyMonitor(Node):
 
     def _on_scan(self, scan: LaserScan) -> None:
         self._scan.take(scan)
+        self._robot_time.heard(self._scan.stamp)
         if self._verdict.final[0] > 0.0:
             self._decide()
 

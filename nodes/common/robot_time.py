@@ -45,6 +45,10 @@ class RobotTime:
         elif self._subscription is None:
             self._subscription = self._node.create_subscription(ClockMessage, TOPIC, self._on_clock, NEWEST)
 
+    def heard(self, stamp: int) -> None:
+        """Take note of the stamp (ns) of a scan, with which a clock is compared."""
+        self._stamp = stamp
+
     def _leave(self) -> None:
         if self._origin is not None:
             self._anchor, self._origin = self.now() - self._steady.now().nanoseconds, None

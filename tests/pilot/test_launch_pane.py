@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from bot_console.tui.console.model import LaunchInfo, ProcessState
+from bot_console.tui.console.model import LaunchEvent, LaunchInfo, ProcessState
 from bot_console.tui.panes.launch.pane import LaunchPane
 from bot_console.tui.panes.launch.rows import ProcessRows
 from bot_console.tui.screens.confirm import ConfirmScreen
@@ -195,9 +195,11 @@ def test_an_empty_pane_says_what_to_do_and_a_process_that_comes_appears() -> Non
         session.console.change(launch=launched())
         await session.settle()
         assert "sensor_handler-1" in session.text()
-        session.console.change(launch=LaunchInfo())
+        session.console.change(launch=LaunchInfo(timeline=(LaunchEvent(0, START, f"launch /opt/{'x' * 200}"),)))
         await session.settle()
         assert "sensor_handler-1" not in session.text()
+        event = next(line for line in session.lines() if "launch /opt/" in line)
+        assert event.rstrip("│ ").endswith("x…"), "no cut without an ellipsis"
 
     run(empty(), play)
 

@@ -96,3 +96,14 @@ def test_a_scan_of_a_simulation_that_lags_stays_fresh_in_its_time(rig: Rig) -> N
     assert watch.fresh
     rig.clock(0.7)
     assert not watch.fresh
+
+
+def test_a_clock_is_followed_on_while_scans_go_on(rig: Rig) -> None:
+    rig.time.follow(0)
+    rig.clock(0.0)
+    began = rig.time.now()
+    for seconds in (4.0, 8.0, 12.0):
+        rig.time.heard(round(seconds * SECOND))
+        rig.clock(seconds)
+        rig.wall += 20 * SECOND
+    assert rig.time.now() - began == 12 * SECOND, "a clock is compared with the newest scan, not with the first"

@@ -68,6 +68,18 @@ def others_take_part() -> bool:
     return any(each.pid != os.getpid() and _lives(each.pid) for each in found)
 
 
+def frozen() -> list[int]:
+    """The ids of this user's processes in the domain that are stopped (SIGSTOP, Ctrl-Z, a debugger)."""
+    from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
+    from bot_console.runtime.rmw.zenoh.domain.sockets import sockets
+
+    try:
+        found = sockets(domain_folder(domain())) if os.name != "nt" else []
+    except FolderRefusedError:
+        return []
+    return sorted({each.pid for each in found if each.is_stopped()})
+
+
 def robot_there() -> list[str]:
     """The nodes of other processes that are a robot's: they obey velocities, or give scans or odometry.
 

@@ -16,7 +16,7 @@ from functools import partial
 from pathlib import Path
 
 from bot_console.tui.cli.system.background_system import SWITCH
-from bot_console.tui.cli.system.domain import domain, robot_there, take_part
+from bot_console.tui.cli.system.domain import domain, frozen, robot_there, take_part
 from bot_console.tui.cli.system.system_log import new_log
 from bot_console.tui.console.launch_host.door import DOOR
 from bot_console.tui.files.folders import OVERRIDE, state_folder
@@ -191,7 +191,10 @@ def status(words: Sequence[str]) -> int:
         print(f"running in ROS domain {domain()}: {there.told()}")
     if robot:
         print(f"robot in ROS domain {domain()}: {', '.join(robot)}")
-    if not there and not robot:
+    stopped = frozen()
+    for pid in stopped:
+        print(f"process {pid} is stopped: what it does for the others stands still; kill -CONT {pid} lets it go on")
+    if not there and not robot and not stopped:
         print(f"nothing runs in ROS domain {domain()}", file=sys.stderr)
         return 1
     return 0

@@ -14,7 +14,7 @@ from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, LaunchEvent, LaunchInfo, ProcessInfo, ProcessState, Severity
 from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.query import Query, parse
-from bot_console.tui.format import clock_text, counted, harmless
+from bot_console.tui.format import clock_text, counted, cut, harmless
 from bot_console.tui.panes.launch.rows import ProcessRows, matches, rows
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.pane import answer_of
@@ -103,10 +103,19 @@ class LaunchPane(ListPane):
         info = self._info or LaunchInfo()
         stamp = self.time_cursor.stamp
         until = [each for each in info.timeline if stamp is None or each.stamp <= stamp]
-        lines: list[Line] = [((event_text(each), STYLES.get(each.severity, "dim")),) for each in until[-EVENTS:]]
+        events = self.query_one("#launch-events", Picture)
+        width = events.size.width
+        lines: list[Line] = [
+            ((cut(event_text(each), width), STYLES.get(each.severity, "dim")),) for each in until[-EVENTS:]
+        ]
         if stamp is not None:
             lines = [*lines[1 - EVENTS :], ((f"◆ {clock_text(stamp)}", "accent"),)]
-        self.query_one("#launch-events", Picture).set_lines(lines)
+        events.set_lines(lines)
+
+    def on_picture_resized(self, event: Picture.Resized) -> None:
+        """Cut the events to the new width."""
+        event.stop()
+        self._show_events()
 
     def time_moved(self, stamp: int | None) -> None:
         """Show the events up to another moment."""

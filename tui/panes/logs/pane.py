@@ -90,8 +90,6 @@ class LogsPane(ListPane):
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Take in what is new in the log."""
-        if self._list.names.learn(snapshot.graph):
-            self._list.refresh()
         state = self._source.state
         if state is self._state:
             return
@@ -101,6 +99,8 @@ class LogsPane(ListPane):
 
     def tick(self) -> None:
         """Take in what the search has found meanwhile, and what a file has more."""
+        if self._list.names.learn(self.console.snapshot().graph):  # also hidden: a node may leave before
+            self._list.refresh()
         if not (self.display and self.is_mounted):
             return
         state = self._source.state

@@ -1,7 +1,14 @@
 """What counts as a robot that is there already: whoever gives scans or obeys velocities, and no console."""
 
+import os
+import signal
+import subprocess
+import sys
+
 import pytest
+from bot_console.runtime.rmw.zenoh.domain import sockets
 from bot_console.tui.cli.system import domain
+from bot_console.tui.cli.verbs import background
 from geometry_msgs.msg import Twist
 from rclpy.context import Context
 from rclpy.node import Node
@@ -37,3 +44,22 @@ def test_who_gives_scans_and_who_obeys_velocities_are(made):
     made("lidar").create_publisher(LaserScan, "/scan", 10)
     made("base").create_subscription(Twist, "/cmd_vel", lambda message: None, 10)
     assert domain.robot_there() == ["/base", "/lidar"]
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="states of processes are read from /proc")
+def test_a_process_that_is_stopped_is_told_by_status(monkeypatch, capsys):
+    with subprocess.Popen([sys.executable, "-c", "import time; time.sleep(600)"]) as child:
+        there = [sockets.Socket("/a", os.getpid(), "0" * 8), sockets.Socket("/b", child.pid, "1" * 8)]
+        monkeypatch.setattr(sockets, "sockets", lambda folder: there)
+        monkeypatch.setattr(background, "take_part", lambda: "")
+        monkeypatch.setattr(background, "robot_there", lambda: [])
+        monkeypatch.setattr(background, "_known", lambda: None)
+        try:
+            assert background.status([]) == 1
+            child.send_signal(signal.SIGSTOP)
+            os.waitpid(child.pid, os.WUNTRACED)
+            assert background.status([]) == 0
+        finally:
+            child.kill()
+    (told,) = capsys.readouterr().out.splitlines()
+    assert told.startswith(f"process {child.pid} is stopped: ") and f"kill -CONT {child.pid}" in told
