@@ -1,9 +1,10 @@
 """Samples that a thread of its own takes: all of them, in their order, and never for long without a pause."""
 
+import threading
 from collections import deque
 
 from bot_console.runtime.rmw.zenoh import apart
-from bot_console.runtime.rmw.zenoh.apart import PAUSE, TURN, take_apart
+from bot_console.runtime.rmw.zenoh.apart import PAUSE, QUIET, TURN, Taking, take_apart
 
 
 class Over(Exception):
@@ -16,28 +17,41 @@ class Channel:
     def __init__(self, samples):
         self._samples = deque(samples)
 
-    def recv(self):
+    def try_recv(self):
         if not self._samples:
             raise Over
         return self._samples.popleft()
 
+
+class Quiet:
+    """Never has any."""
+
     def try_recv(self):
-        return self._samples.popleft() if self._samples else None
+        return None
 
 
 class Clock:
     """Stands in for the module `time`; each look at it takes a thousandth of a second."""
 
     def __init__(self):
-        self.now, self.pauses = 0.0, []
+        self.now = 0.0
 
     def monotonic(self):
         self.now += 0.001
         return self.now
 
-    def sleep(self, seconds):
-        self.pauses.append((self.now, seconds))
-        self.now += seconds
+
+class Waits:
+    """Stands in for the event of a thread's end; keeps when was waited, and how long, and ends after so many."""
+
+    def __init__(self, clock, count=1000):
+        self.clock, self.left, self.waits = clock, count, []
+
+    def wait(self, seconds):
+        self.waits.append((self.clock.now, seconds))
+        self.clock.now += seconds
+        self.left -= 1
+        return self.left <= 0
 
 
 def test_all_come_in_their_order_and_the_thread_ends():
@@ -49,9 +63,27 @@ def test_all_come_in_their_order_and_the_thread_ends():
 def test_it_pauses_after_each_turn(monkeypatch):
     clock = Clock()
     monkeypatch.setattr(apart, "time", clock)
-    take_apart(Channel(range(30)), lambda sample: None, Over).join()
-    begins = [0.0, *(moment + seconds for moment, seconds in clock.pauses)]
-    assert len(clock.pauses) > 3
-    assert {seconds for _, seconds in clock.pauses} == {PAUSE}
-    for begin, (end, _) in zip(begins, clock.pauses, strict=False):
+    taking = Taking(Channel(range(30)), lambda sample: None, Over)
+    taking._over = waits = Waits(clock)
+    taking.run()
+    begins = [moment + seconds for moment, seconds in waits.waits]
+    assert len(waits.waits) > 3
+    assert {seconds for _, seconds in waits.waits[1:]} == {PAUSE}
+    for begin, (end, _) in zip(begins, waits.waits[1:], strict=False):
         assert end - begin <= TURN + 0.002, "it has taken samples for too long"
+
+
+def test_where_nothing_comes_it_looks_less_and_less_often(monkeypatch):
+    clock = Clock()
+    monkeypatch.setattr(apart, "time", clock)
+    taking = Taking(Quiet(), lambda sample: None, Over)
+    taking._over = waits = Waits(clock, 30)
+    taking.run()
+    lengths = [seconds for _, seconds in waits.waits]
+    assert lengths == sorted(lengths) and lengths[-1] == QUIET
+
+
+def test_it_can_be_ended():
+    taking = take_apart(Quiet(), lambda sample: None, Over)
+    taking.end()
+    assert not taking.is_alive() and taking not in threading.enumerate()
