@@ -35,9 +35,8 @@ LETTERS = [
     ":smile:",
     "#",
 ]
-DRAWN = ["[/", "\\[", "[@click=app.quit]x[/]", "a\\"] + [
-    "".join(random.Random(seed).choices(LETTERS, k=8)) for seed in range(4)
-]
+DRAWN = ["[/[@click=app.quit]x[/]", "a\\"]
+MORE = ["[/", "\\[", *("".join(random.Random(seed).choices(LETTERS, k=8)) for seed in range(4))]
 KEYS = {
     "graph": ["down", "enter"],
     "launch": ["down", "enter", "escape", "K"],
@@ -48,7 +47,7 @@ KEYS = {
 }
 
 
-@pytest.mark.parametrize("text", DRAWN)
+@pytest.mark.parametrize("text", [*DRAWN, *(pytest.param(each, marks=pytest.mark.soak) for each in MORE)])
 def test_any_text_is_drawn_in_every_pane_and_over_it(text: str) -> None:
     async def play(session: Session) -> None:
         session.console.change(problem=text)

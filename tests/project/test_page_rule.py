@@ -36,7 +36,8 @@ def lidar(name: str, **change: float) -> Settings:
 
 
 @pytest.mark.parametrize(
-    ("parameters", "seed"), [("profile", 1), pytest.param("profile", 2, marks=pytest.mark.soak), ("defaults", 1)]
+    ("parameters", "seed"),
+    [("profile", 1), *(pytest.param(*each, marks=pytest.mark.soak) for each in (("profile", 2), ("defaults", 1)))],
 )
 @pytest.mark.parametrize("name", NAMES)
 def test_ten_minutes_without_standing_for_twenty_seconds(name: str, seed: int, parameters: str) -> None:

@@ -16,12 +16,12 @@ pytestmark = pytest.mark.timeout(len(PROFILES) * len(SEEDS) * PATIENCE)
 GUIDE = Path(__file__).resolve().parents[3] / "docs" / "environments.md"
 
 
-@pytest.fixture(scope="module")
-def runs(tmp_path_factory):
+@pytest.fixture(scope="module", params=[SEEDS[:1], pytest.param(SEEDS, marks=pytest.mark.soak)], ids=["one", "all"])
+def runs(request, tmp_path_factory):
     """Reports by profile, one for each seed, of two simulated minutes."""
     folder = tmp_path_factory.mktemp("profiles")
     return {
-        name: [headless(folder, "--profile", name, "--duration", "120", "--seed", seed) for seed in SEEDS]
+        name: [headless(folder, "--profile", name, "--duration", "120", "--seed", seed) for seed in request.param]
         for name in PROFILES
     }
 
@@ -53,13 +53,13 @@ def test_indoor_stops_more_than_competition(runs):
 
 @pytest.mark.parametrize("name", ["indoor", "outdoor", "warehouse"])
 def test_careful_profiles_touch_nothing(runs, name):
-    assert figures(runs, name, "collisions") == [0, 0, 0]
+    assert not any(figures(runs, name, "collisions"))
 
 
 @pytest.mark.parametrize("name", PROFILES)
 def test_runs_are_deterministic(runs, name):
     assert all(figures(runs, name, "deterministic"))
-    assert len(set(figures(runs, name, "digest"))) == len(SEEDS)
+    assert len(set(figures(runs, name, "digest"))) == len(runs[name])
 
 
 def test_the_environment_guide_has_these_figures(runs):
@@ -68,6 +68,8 @@ def test_the_environment_guide_has_these_figures(runs):
     rows = re.findall(row, GUIDE.read_text(encoding="utf-8"), re.MULTILINE)
     assert {(name, seed) for name, seed, *_ in rows} == {(name, seed) for name in PROFILES for seed in SEEDS}
     for name, seed, speed, clearance, stops, collisions in rows:
+        if SEEDS.index(seed) >= len(runs[name]):
+            continue
         run = runs[name][SEEDS.index(seed)]
         assert run["mean_speed"] == pytest.approx(float(speed), rel=0.1)
         assert run["min_clearance"] == pytest.approx(float(clearance), abs=0.1)

@@ -90,6 +90,7 @@ class LogsPane(ListPane):
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Take in what is new in the log."""
+        self._list.learn(snapshot.graph)
         state = self._source.state
         if state is self._state:
             return
@@ -99,8 +100,7 @@ class LogsPane(ListPane):
 
     def tick(self) -> None:
         """Take in what the search has found meanwhile, and what a file has more."""
-        if self._list.names.learn(self.console.snapshot().graph):  # also hidden: a node may leave before
-            self._list.refresh()
+        self._list.learn(self.console.snapshot().graph)  # also hidden: a node may leave before it is shown
         if not (self.display and self.is_mounted):
             return
         state = self._source.state
