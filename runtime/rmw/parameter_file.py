@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import errno
 from typing import Any
 
 from bot_console.runtime.remote_address import is_remote
@@ -28,8 +27,8 @@ def read_parameter_file(path: str, overrides: ParameterOverrides) -> None:
     try:
         with open(path, "rb") as file:
             content = file.read()
-    except OSError as error:
-        if error.errno == errno.EISDIR:
+    except (OSError, ValueError) as error:  # ValueError: a name that no file can have
+        if isinstance(error, IsADirectoryError):
             raise ParameterYamlError("Error parsing a event near line 0") from None
         raise ParameterYamlError("Error opening YAML file") from None
     reader = _Reader(overrides)

@@ -19,7 +19,10 @@ def yaml_events(source: str | bytes) -> Iterator[Any]:
     import yaml
 
     untyped: Any = yaml  # the stubs say nothing of what `parse` takes and gives
-    return untyped.parse(source, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    try:
+        yield from untyped.parse(source, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    except ValueError as error:  # half a character, as a terminal's word may hold
+        raise yaml.YAMLError(str(error)) from None
 
 
 class ValueWriter:

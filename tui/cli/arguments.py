@@ -191,7 +191,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--workspace", action="append", type=Path, metavar="DIR", help="where packages are; may be repeated")
     add("--headless", action="store_true", help="no screen: logs on stderr, a JSON report on stdout at the end")
     add("--fast", action="store_true", help="with --headless: simulated time, as fast as it goes, repeatable")
-    add("--profiles", action="append", type=Path, metavar="DIR", help="where else profiles are; may be repeated")
+    add("--profiles", action="append", type=Path, metavar="DIR", help="more profiles for the Profiles pane; repeatable")
     add("--profile", metavar="NAME", help="the same as PROFILE")
     add("--duration", type=float, metavar="S", help="with --headless: seconds to run")
     add("--seed", type=int, metavar="N", help="seed of the world")

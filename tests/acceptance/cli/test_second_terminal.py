@@ -38,7 +38,9 @@ class Terminals:
         self.history: list[Words] = []
         """What was asked that may have changed the system."""
         self._programs = [self._start(words, subprocess.DEVNULL) for words in programs]
-        assert eventually(lambda: len(self._run(["ros2", "node", "list", "--all"], None)[0].split()) > len(programs))
+        if not eventually(lambda: len(self._run(["ros2", "node", "list", "--all"], None)[0].split()) > len(programs)):
+            self.close()
+            raise AssertionError("the programs have not come up")
 
     def ask(self, row: Row) -> tuple[str, str, int]:
         """Ask a command: what it printed, in the form of the records, and its exit code."""
@@ -49,7 +51,7 @@ class Terminals:
 
     def change(self, words: Words) -> None:
         """Ask a command for its effect."""
-        self._run(words, 2.0)
+        self._run(words, 20.0)
         self.history.append(words)
 
     def _run(self, words: Words, stop_after: float | None) -> tuple[str, str, int]:

@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 from bot_console.runtime.rmw.parameter_precedence import ParameterTable, ParameterYamlError, key_matches
+from bot_console.runtime.rmw.parameter_value import read_parameter_value
 
 NAN = "nan"
 
@@ -228,6 +229,18 @@ def test_a_file_that_cannot_be_read(tmp_path: Path) -> None:
         ParameterTable().add_file(str(tmp_path / "none.yaml"))
     with pytest.raises(ParameterYamlError, match=r"^Error parsing a event near line 0$"):
         ParameterTable().add_file(str(tmp_path))
+
+
+@pytest.mark.parametrize("name", ["a\0b.yaml", "half \ud800.yaml"])
+def test_a_name_that_no_file_can_have(name: str, tmp_path: Path) -> None:
+    with pytest.raises(ParameterYamlError, match=r"^Error opening YAML file$"):
+        ParameterTable().add_file(str(tmp_path / name))
+
+
+@pytest.mark.parametrize("text", ["[half \ud800]", "'half \ud800'"])
+def test_a_value_with_half_a_character(text: str) -> None:
+    with pytest.raises(ParameterYamlError, match=r"^Error parsing an event$"):
+        read_parameter_value(text, {})
 
 
 MATCHES = {
