@@ -41,6 +41,7 @@ class Taking(threading.Thread):
         self._take = take
         self._ended = ended
         self._over = threading.Event()
+        self._lock = threading.RLock()
 
     def run(self) -> None:
         """Take samples until there is an end."""
@@ -48,6 +49,12 @@ class Taking(threading.Thread):
         with suppress(self._ended):
             while not self._over.wait(wait):
                 wait = PAUSE if self._turn() else min(wait * 1.5 + 0.001, QUIET)
+
+    def take_waiting(self) -> None:
+        """Take at once all that is there, in the caller's thread."""
+        with self._lock, suppress(self._ended):
+            while (sample := self._channel.try_recv()) is not None:
+                self._take(sample)
 
     def end(self) -> None:
         """Take no more, and be gone."""
@@ -58,11 +65,12 @@ class Taking(threading.Thread):
         """Take what is there, for no longer than a turn; whether there was something."""
         until = time.monotonic() + TURN
         found = False
-        while (sample := self._channel.try_recv()) is not None:
-            found = True
-            self._take(sample)
-            if time.monotonic() >= until:
-                break
+        with self._lock:
+            while (sample := self._channel.try_recv()) is not None:
+                found = True
+                self._take(sample)
+                if time.monotonic() >= until:
+                    break
         return found
 
 

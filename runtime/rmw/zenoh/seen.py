@@ -6,7 +6,7 @@ import threading
 from collections.abc import Callable
 from contextlib import suppress
 
-from bot_console.runtime.rmw.zenoh.session import Declared, Session
+from bot_console.runtime.rmw.zenoh.session import Session, Watch
 from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
 from bot_console.runtime.rmw.zenoh.wire.tokens import Kind, Token, parse_token, tokens_of
 
@@ -23,7 +23,7 @@ class SeenTokens:
         self._lock = threading.RLock()
         self._tokens: dict[str, Token] = {}
         self._listeners: list[Listener] = []
-        self._declared: Declared = session.watch_tokens(key, self.saw, apart=apart)
+        self._declared: Watch = session.watch_tokens(key, self.saw, apart=apart)
 
     def saw(self, key: str, came: bool) -> None:
         """A token came or went; one that is no token of the format is ignored, as are those of this session."""
@@ -60,6 +60,11 @@ class SeenTokens:
         """Those that are there."""
         with self._lock:
             return list(self._tokens.values())
+
+    def take_waiting(self) -> None:
+        """Take at once what has come, where that is done apart."""
+        if self._declared.taking is not None:
+            self._declared.taking.take_waiting()
 
     def close(self) -> None:
         """Look no more."""

@@ -16,7 +16,7 @@ import time
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any, cast
 
-from bot_console.runtime.rmw.zenoh.apart import WAITING, take_apart
+from bot_console.runtime.rmw.zenoh.apart import WAITING, Taking, take_apart
 from bot_console.runtime.rmw.zenoh.domain.sockets import Socket
 
 if TYPE_CHECKING:
@@ -87,6 +87,12 @@ class Querier(Declared):
                 replied(sample.payload.to_bytes(), _bytes(sample.attachment))
 
         self.inner.get(zenoh.handlers.Callback(take, done, indirect=False), payload=payload, attachment=attachment)
+
+
+class Watch(Declared):
+    """Looks at tokens; `taking` is the thread that takes them, where one does that apart."""
+
+    taking: Taking | None = None
 
 
 class Query:
@@ -277,7 +283,7 @@ class Session:
         """Show something in the graph for as long as this process lives."""
         return self._declare(Declared(self, lambda session: session.liveliness().declare_token(key)))
 
-    def watch_tokens(self, key: str, seen: TokenSeen, *, apart: bool = False) -> Declared:
+    def watch_tokens(self, key: str, seen: TokenSeen, *, apart: bool = False) -> Watch:
         """Call back for each token that is there, comes or goes; `key` may have wildcards.
 
         With `apart` that is done by a thread of its own, a few tokens at a time: thousands of them would keep Zenoh's
@@ -294,10 +300,11 @@ class Session:
                 callback = zenoh.handlers.Callback(take, indirect=False)
                 return tokens.declare_subscriber(key, callback, history=True)
             shown = tokens.declare_subscriber(key, zenoh.handlers.FifoChannel(WAITING), history=True)
-            take_apart(shown.handler, take, zenoh.ZError)
+            watch.taking = take_apart(shown.handler, take, zenoh.ZError)
             return shown
 
-        return self._declare(Declared(self, declare))
+        watch = Watch(self, declare)
+        return self._declare(watch)
 
     def ask_tokens(self, key: str, seen: Callable[[str], None], done: Callable[[], None], timeout: float) -> None:
         """Call back once for each token that is there now, then `done`, after at most `timeout` (s)."""

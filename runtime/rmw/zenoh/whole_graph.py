@@ -37,6 +37,7 @@ class WholeGraph:
         # Watching brings what is there some time; only a question says when all of it has come.
         session.ask_tokens(key, lambda found: self._seen.saw(found, True), answered.set, session.patience)
         answered.wait(2 * session.patience)
+        self._seen.take_waiting()  # a router shows what is there before it says that it has answered
 
     def _saw(self, token: Token, came: bool) -> None:
         row = self._rows.setdefault(token.key, _row(token)) if came else self._rows.pop(token.key, None)

@@ -87,3 +87,9 @@ def test_it_can_be_ended():
     taking = take_apart(Quiet(), lambda sample: None, Over)
     taking.end()
     assert not taking.is_alive() and taking not in threading.enumerate()
+
+
+def test_all_that_waits_is_taken_at_once_where_that_is_wanted():
+    taken = []
+    Taking(Channel(range(30)), taken.append, Over).take_waiting()
+    assert taken == list(range(30))
