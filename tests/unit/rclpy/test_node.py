@@ -276,6 +276,6 @@ def test_no_graph_after_a_shutdown(ros: Any) -> None:
 
 def test_a_tilde_without_a_slash_behind_it(ros: Any) -> None:
     node = ros.node()
-    with pytest.raises(InvalidTopicNameException, match="must not have tilde '~' unless it is the first character"):
+    with pytest.raises(InvalidTopicNameException, match="a tilde '~' that is not followed by a forward slash"):
         node.create_publisher(String, "~foo", 1)
     assert node.create_publisher(String, "~/foo", 1).topic_name == "/n/foo"

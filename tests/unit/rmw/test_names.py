@@ -80,6 +80,8 @@ BRACES = "topic name must not have unmatched (unbalanced) curly braces '{}'"
         ("/abs/olute", None),
         ("~/private", None),
         ("~", None),
+        ("~a", None),
+        ("~ab", ("topic name must not have a tilde '~' that is not followed by a forward slash '/'", 1)),
         ("{node}/x", None),
         ("a{ns}b", None),
         ("{}", None),
