@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+import traceback
+
 PIP = "{0} is an ordinary Python package: pip install {1}"
 CPP = (
     "{0} is a library of ROS 2 around C++ ({1}); bot-console does not bring it. Run this program where ROS 2 is "
@@ -16,10 +19,16 @@ NO_INTERFACES = (
     "bot-console does not bring the interfaces of {0}. Put the sources of that package (package.xml with msg/, srv/ or "
     "action/) into the workspace; they are imported from there, and nothing has to be built."
 )
+ROS_1 = "{0} belongs to ROS 1, and this is ROS 2: {1}."
 INTERFACES = ("_actions", "_interfaces", "_msg", "_msgs", "_srvs")
 """How the names of packages with interfaces usually end."""
 
 KNOWN: dict[str, tuple[str, str]] = {
+    "PyKDL": (
+        CPP,
+        "the kinematics of Orocos; tf_transformations does most of what programs take of it",
+    ),
+    "actionlib": (ROS_1, "actions are in rclpy.action"),
     "cv2": (PIP, "'bot-console[opencv]' (or opencv-python-headless)"),
     "image_transport_py": (
         CPP,
@@ -29,10 +38,17 @@ KNOWN: dict[str, tuple[str, str]] = {
     "moveit_py": (CPP, "the planners of MoveIt"),
     "open3d": (PIP, "open3d"),
     "pygame": (PIP, "pygame"),
+    "python_qt_binding": (WINDOWS, "bot-console, keys 1 to 9"),
+    "qt_gui": (WINDOWS, "bot-console, keys 1 to 9"),
     "rosbag2_py": (CPP, "the storage of rosbag2; the Python package rosbags reads and writes the same files"),
+    "roslib": (ROS_1, "what it does is in rclpy and ament_index_python"),
+    "rospkg": (ROS_1, "packages are found by ament_index_python"),
+    "rospy": (ROS_1, "a node imports rclpy"),
+    "rqt_gui": (WINDOWS, "bot-console, keys 1 to 9"),
     "rqt_gui_py": (WINDOWS, "bot-console, keys 1 to 9"),
     "scipy": (PIP, "scipy"),
     "serial": (PIP, "pyserial"),
+    "tf": (ROS_1, "transforms are in tf2_ros, quaternions in tf_transformations"),
     "tf2_kdl": (CPP, "the types of KDL"),
     "transforms3d": (PIP, "transforms3d"),
     "ultralytics": (PIP, "ultralytics"),
@@ -88,4 +104,11 @@ def explain_missing_package(exception: BaseException) -> str | None:
     if package in KNOWN:
         text, what = KNOWN[package]
         return text.format(package, what)
-    return NO_INTERFACES.format(package) if package.endswith(INTERFACES) else None
+    asks_for_interfaces = package.endswith(INTERFACES) or _imports_interfaces(exception, package)
+    return NO_INTERFACES.format(package) if asks_for_interfaces else None
+
+
+def _imports_interfaces(exception: BaseException, package: str) -> bool:
+    """Whether the line that failed imports messages, services or actions of a package, whatever its name."""
+    lines = [each.line or "" for each in traceback.extract_tb(exception.__traceback__)]
+    return any(re.match(rf"\s*(from|import) {re.escape(package)}\.(msg|srv|action)\b", each) for each in lines)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import launch.logging
 from ament_index_python.packages import PackageNotFoundError
 from bot_console.runtime.missing_packages import what_brings
+from bot_console.runtime.workspace.executables import executables
 from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.events.node_missing import NodeMissing
@@ -35,7 +36,7 @@ def may_start(context: LaunchContext, action: Any, package: str | None) -> bool:
         perform_substitutions(context, action.process_description.cmd[0])
     except (PackageNotFoundError, SubstitutionFailure) as error:
         what = str(error).strip().strip('"')
-        brings = what_brings(package or "")
+        brings = _what_it_has(package or "") or what_brings(package or "")
         if _allowed(context):
             logger.warning(f"left out a node: {what}. {brings}")
             executable = perform_substitutions(context, normalize_to_list_of_substitutions(action.node_executable))
@@ -49,3 +50,12 @@ def may_start(context: LaunchContext, action: Any, package: str | None) -> bool:
         )
         raise
     return True
+
+
+def _what_it_has(package: str) -> str:
+    """The executables of a package that is here, a sentence; nothing where it has none, or is not here."""
+    try:
+        names = sorted(executables(package))
+    except PackageNotFoundError:
+        return ""
+    return f"{package} has: {', '.join(names)}." if names else ""

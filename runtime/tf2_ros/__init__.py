@@ -1,6 +1,8 @@
 """Transforms between frames over ROS, as upstream's `tf2_ros`: a buffer, who fills it, and who tells it."""
 
+from geometry_msgs.msg import TransformStamped
 from tf2_py import (
+    BufferCore,
     ConnectivityException,
     ExtrapolationException,
     InvalidArgumentException,
@@ -20,12 +22,14 @@ from tf2_ros.buffer_interface import (
     convert,
 )
 from tf2_ros.static_transform_broadcaster import StaticTransformBroadcaster
+from tf2_ros.static_transform_listener import StaticTransformListener
 from tf2_ros.transform_broadcaster import TransformBroadcaster
 from tf2_ros.transform_listener import TransformListener
 
 __all__ = [
     "Buffer",
     "BufferClient",
+    "BufferCore",
     "BufferInterface",
     "ConnectivityException",
     "ConvertRegistration",
@@ -35,11 +39,13 @@ __all__ = [
     "NotImplementedException",
     "Stamped",
     "StaticTransformBroadcaster",
+    "StaticTransformListener",
     "TimeoutException",
     "TransformBroadcaster",
     "TransformException",
     "TransformListener",
     "TransformRegistration",
+    "TransformStamped",
     "TypeException",
     "convert",
 ]

@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
-import threading
-from contextlib import suppress
-from typing import Any
-
-from rclpy.callback_groups import ReentrantCallbackGroup
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
+from rclpy.qos import HistoryPolicy, QoSProfile
 from tf2_msgs.msg import TFMessage
 from tf2_ros.buffer import Buffer
+from tf2_ros.static_transform_listener import DEFAULT_STATIC_TF_TOPIC, StaticTransformListener
 
 DEFAULT_TF_TOPIC = "/tf"
-DEFAULT_STATIC_TF_TOPIC = "/tf_static"
 
 
-class TransformListener:
+class TransformListener(StaticTransformListener):
     """Subscribes to `/tf` and `/tf_static`; the node has to be spun, or is with `spin_thread`."""
 
     def __init__(
@@ -28,46 +22,20 @@ class TransformListener:
         spin_thread: bool = False,
         qos: QoSProfile | int | None = None,
         static_qos: QoSProfile | int | None = None,
+        tf_topic: str = DEFAULT_TF_TOPIC,
+        tf_static_topic: str = DEFAULT_STATIC_TF_TOPIC,
     ) -> None:
-        self.buffer = buffer
-        self.node = node
-        self.group = ReentrantCallbackGroup()
+        super().__init__(buffer, node, static_qos=static_qos, tf_static_topic=tf_static_topic)
         qos = QoSProfile(depth=100, history=HistoryPolicy.KEEP_LAST) if qos is None else qos
-        if static_qos is None:
-            static_qos = QoSProfile(
-                depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL, history=HistoryPolicy.KEEP_LAST
-            )
-        self.tf_sub = node.create_subscription(
-            TFMessage, DEFAULT_TF_TOPIC, self.callback, qos, callback_group=self.group
-        )
-        self.tf_static_sub = node.create_subscription(
-            TFMessage, DEFAULT_STATIC_TF_TOPIC, self.static_callback, static_qos, callback_group=self.group
-        )
+        self.tf_sub = node.create_subscription(TFMessage, tf_topic, self.callback, qos, callback_group=self.group)
         if spin_thread:
-            self.executor = SingleThreadedExecutor(context=node.context)
-            self.executor.add_node(node)
-            self.dedicated_listener_thread = threading.Thread(target=self._spin, daemon=True)
-            self.dedicated_listener_thread.start()
-
-    def _spin(self) -> None:
-        with suppress(ExternalShutdownException):
-            self.executor.spin()
-
-    def __del__(self) -> None:
-        executor: Any = getattr(self, "executor", None)
-        if executor is not None:
-            executor.shutdown(0)
+            self._spin_in_a_thread()
 
     def unregister(self) -> None:
         """Listen no longer."""
         self.node.destroy_subscription(self.tf_sub)
-        self.node.destroy_subscription(self.tf_static_sub)
+        super().unregister()
 
     def callback(self, data: TFMessage) -> None:
         """Take what moves."""
         self.buffer.take_messages(data.transforms)  # type: ignore[arg-type] -- a sequence of messages
-
-    def static_callback(self, data: TFMessage) -> None:
-        """Take what stays where it is."""
-        for each in data.transforms:
-            self.buffer.set_transform_static(each, "default_authority")

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import runpy
+from pathlib import Path
+
 import pytest
 from bot_console.runtime.missing_packages import explain_missing_package
 from bot_console.runtime.process.crashes import explanation
@@ -24,6 +27,8 @@ def failure(statement: str) -> BaseException:
         ("import ultralytics", "ultralytics is an ordinary Python package: pip install ultralytics"),
         ("import rqt_gui_py", "rqt_gui_py makes windows of Qt, and bot-console has none."),
         ("import image_geometry", "image_geometry is a Python library of ROS 2"),
+        ("import rospy", "rospy belongs to ROS 1, and this is ROS 2: a node imports rclpy."),
+        ("import python_qt_binding", "python_qt_binding makes windows of Qt"),
     ],
 )
 def test_what_brings_a_package(statement: str, words: str) -> None:
@@ -35,6 +40,14 @@ def test_interfaces_belong_into_the_workspace(package: str) -> None:
     text = explain_missing_package(failure(f"from {package}.srv import Something"))
     assert text is not None
     assert text.startswith(f"bot-console does not bring the interfaces of {package}. Put the sources")
+
+
+@pytest.mark.parametrize("line", ["from sausages.msg import Fried", "import sausages.action"])
+def test_interfaces_are_known_by_what_is_imported_of_them(line: str, tmp_path: Path) -> None:
+    (tmp_path / "node.py").write_text(line)
+    with pytest.raises(ModuleNotFoundError) as caught:
+        runpy.run_path(str(tmp_path / "node.py"))
+    assert "the interfaces of sausages. Put the sources" in (explain_missing_package(caught.value) or "")
 
 
 @pytest.mark.parametrize(

@@ -230,6 +230,18 @@ def test_missing_executables_can_be_left_out(log_lines: list[str]) -> None:
     assert "process has finished cleanly" in "\n".join(log_lines)
 
 
+def test_a_missing_executable_of_a_package_that_has_others(log_lines: list[str]) -> None:
+    from launch_ros.missing_executables import allow_missing
+
+    from launch import LaunchDescription, LaunchService
+
+    service = LaunchService(noninteractive=True)
+    allow_missing(service)
+    service.include_launch_description(LaunchDescription([Node(package="turtlesim", executable="turtle")]))
+    assert service.run() == 0
+    assert "turtlesim has: draw_square, mimic, turtle_teleop_key, turtlesim_node." in "\n".join(log_lines)
+
+
 def test_where_nodes_log(run: Launch, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path))
     seen: list[str] = []

@@ -12,7 +12,14 @@ from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.time import Time
 from tf2_msgs.srv import FrameGraph
-from tf2_ros import Buffer, LookupException, StaticTransformBroadcaster, TransformBroadcaster, TransformListener
+from tf2_ros import (
+    Buffer,
+    LookupException,
+    StaticTransformBroadcaster,
+    StaticTransformListener,
+    TransformBroadcaster,
+    TransformListener,
+)
 
 Serve = Callable[[Callable[[], bool]], None]
 
@@ -26,6 +33,16 @@ def test_what_is_broadcast_is_known(node: Node, serve: Serve) -> None:
     TransformBroadcaster(node).sendTransform([frame("map", "base", 1.0, 1.0), frame("map", "other", 1.0)])
     serve(lambda: buffer.can_transform("map", "laser", Time()) and buffer.can_transform("map", "camera", Time()))
     assert place(buffer.lookup_transform("map", "laser", Time())) == (1.5, 0.0, 0.0)
+    listener.unregister()
+
+
+def test_static_transforms_alone(node: Node, serve: Serve) -> None:
+    buffer = Buffer()
+    listener = StaticTransformListener(buffer, node)
+    TransformBroadcaster(node).sendTransform(frame("map", "base", 1.0))
+    StaticTransformBroadcaster(node).sendTransform(frame("base", "laser", x=1.0))
+    serve(lambda: buffer.can_transform("base", "laser", Time()))
+    assert not buffer.can_transform("map", "base", Time())
     listener.unregister()
 
 
