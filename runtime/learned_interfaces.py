@@ -1,14 +1,20 @@
 """Interfaces that nobody here has: their definitions as a node told them, for as long as this process lives.
 
-Only packages that are not here at all are learned, so that nothing a person has is shadowed.
+Only packages that are not here at all are learned, so that nothing a person has is shadowed, and only what has the hash
+that the graph tells of the type.
 """
 
 from __future__ import annotations
 
+import re
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cache
 from pathlib import Path
+from typing import Any
+
+TYPE_NAME = re.compile(r"[a-z][a-z0-9_]*/(?:msg|srv)/[A-Z][A-Za-z0-9]*")
+"""What a folder and a file may be named after: the names come from another program, perhaps of another machine."""
 
 _folders: dict[str, Path] = {}
 
@@ -18,18 +24,74 @@ def learned_folders() -> Mapping[str, Path]:
     return _folders
 
 
-def learn(definitions: Mapping[str, str]) -> None:
-    """Take definitions by the full names of their types, as `my_interfaces/msg/Num`; a package that is here stays."""
+def learn(type_name: str, type_hash: str, told: Any) -> str:
+    """Take the response of a node's `get_type_description`; the type can be imported afterwards.
+
+    Gives why it cannot, with the node as the subject that is left out; empty where all is well.
+    """
+    from bot_console.runtime.rosidl.parse import DefinitionError
+
+    if told is None:
+        return "has not described it"
+    if not told.successful:
+        return f"does not describe it: {told.failure_reason}"
+    texts = {each.type_name: each.raw_file_contents for each in told.type_sources if each.encoding in ("msg", "srv")}
+    try:
+        if not all(map(TYPE_NAME.fullmatch, (type_name, *texts))):
+            raise DefinitionError("a name that no type has")
+        if not _has_hash(type_name, type_hash, texts):
+            return f"tells of it what does not have the hash {type_hash}"
+        _keep(texts)
+        here = _hash_here(type_name)
+    except (DefinitionError, ImportError, AttributeError, RecursionError) as error:
+        return f"describes it in a way that cannot be read: {error}"
+    return "" if here == type_hash else "has other definitions of the types in it than there are here"
+
+
+def _has_hash(type_name: str, type_hash: str, texts: Mapping[str, str]) -> bool:
+    from bot_console.runtime.rosidl.told_description import describe_texts
+    from bot_console.runtime.rosidl.type_hash import text_of_description
+
+    return text_of_description(describe_texts(type_name, texts)) == type_hash
+
+
+def _hash_here(type_name: str) -> str:
+    """The hash of the class that is imported under a name."""
+    import importlib
+
+    from bot_console.runtime.rosidl.type_hash import text
+
+    package, kind, short = type_name.split("/")
+    return text(getattr(importlib.import_module(f"{package}.{kind}"), short))
+
+
+def _keep(texts: Mapping[str, str]) -> None:
+    """Write the definitions where imports find them; a package that is here stays as it is."""
     import importlib.util
 
-    for name, text in definitions.items():
+    new: list[str] = []
+    for name, text in texts.items():
         package, kind, short = name.split("/")
         if package not in _folders and importlib.util.find_spec(package) is not None:
             continue
         folder = _kept() / package / kind
         folder.mkdir(parents=True, exist_ok=True)
-        (folder / f"{short}.{kind}").write_text(text, encoding="utf-8")
+        place = folder / f"{short}.{kind}"
+        if not place.exists():
+            place.write_text(text, encoding="utf-8")
+            new.append(f"{package}.{kind}")
         _folders[package] = _kept() / package
+    _tell_of_more(new)
+
+
+def _tell_of_more(modules: Iterable[str]) -> None:
+    """Modules that were imported before they had all their classes look again which there are."""
+    import importlib
+    import sys
+
+    for name in dict.fromkeys(modules):
+        if name in sys.modules:
+            importlib.reload(sys.modules[name])
 
 
 @cache

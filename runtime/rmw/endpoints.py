@@ -154,7 +154,7 @@ class SubscriptionEndpoint:
 
 @dataclass(eq=False)
 class ServiceEndpoint:
-    """Answers requests: `queue` holds (client, sequence number, request)."""
+    """Answers requests: `queue` holds (client, sequence number, request); `type_hash` where it is another process's."""
 
     node: NodeId
     name: str
@@ -162,6 +162,7 @@ class ServiceEndpoint:
     notify: Notify
     service_class: Any = None
     queue: deque[Any] = field(default_factory=deque[Any])
+    type_hash: str | None = None
 
 
 @dataclass(eq=False)

@@ -31,7 +31,6 @@ def message_class(node: Node, topic: str, type_name: str) -> Any:
 def _asked(node: Node, endpoint: Any, type_name: str) -> Any:
     """The class that an endpoint's node describes, or why it is none."""
     from bot_console.runtime.learned_interfaces import learn
-    from bot_console.runtime.rosidl import type_hash
     from type_description_interfaces.srv import GetTypeDescription
 
     name = f"{endpoint.node_namespace.rstrip('/')}/{endpoint.node_name}"
@@ -46,13 +45,5 @@ def _asked(node: Node, endpoint: Any, type_name: str) -> Any:
         told = future.result()
     finally:
         node.destroy_client(client)
-    if told is None:
-        return f"{name} has not described it"
-    if not told.successful:
-        return f"{name} does not describe it: {told.failure_reason}"
-    learn({each.type_name: each.raw_file_contents for each in told.type_sources if each.encoding == "msg"})
-    try:
-        found = get_message(type_name)
-    except (*MISSING, SyntaxError) as error:
-        return f"{name} describes it in a way that cannot be read: {error}"
-    return found if type_hash.text(found) == wanted else f"what {name} tells of it does not have the hash {wanted}"
+    problem = learn(type_name, wanted, told)
+    return f"{name} {problem}" if problem else get_message(type_name)

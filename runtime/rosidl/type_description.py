@@ -60,7 +60,7 @@ def _collect(cls: Any, found: dict[str, Description]) -> None:
     rows: list[Description] = []
     found[name] = {"type_name": name, "fields": rows}
     for field, kind, inner in _fields(cls):
-        rows.append({"name": field, "type": _field_type(kind, type_name(inner) if inner is not None else "")})
+        rows.append({"name": field, "type": field_type(kind, type_name(inner) if inner is not None else "")})
         if inner is not None:
             _collect(inner, found)
 
@@ -85,7 +85,8 @@ def _members(cls: Any) -> Iterator[tuple[str, Any]]:
         yield from ((name, getattr(cls, part)) for name, part in SERVICE_PARTS)
 
 
-def _field_type(kind: Type, nested: str) -> Description:
+def field_type(kind: Type, nested: str) -> Description:
+    """A field's type as it stands in a description; `nested` is the full name of the message it holds, or empty."""
     number = NESTED if nested else (BOUNDED_TEXT if kind.limit else IDS)[kind.item]
     if kind.sequence:
         number += BOUNDED if kind.bound else UNBOUNDED

@@ -13,6 +13,7 @@ from typing import Any
 import rclpy
 from bot_console.tui.console.calls import Calls, NoAnswer
 from bot_console.tui.console.graph.findings import mend
+from bot_console.tui.console.graph.told_types import TypeSource
 from bot_console.tui.console.graph.watch import FrozenNodes, GraphEvents, GraphWatch
 from bot_console.tui.console.launch.output import Add
 from bot_console.tui.console.logs.levels import LoggerLevels
@@ -74,6 +75,7 @@ class ConsoleNode:
         *,
         foreign: bool = False,
         frozen: FrozenNodes | None = None,
+        types: TypeSource | None = None,
     ) -> None:
         """In a `foreign` system nothing is asked for before it is offered: its nodes would warn of us."""
         self.context = Context()
@@ -102,7 +104,7 @@ class ConsoleNode:
         self.parameters = ParameterMirror(self.node, self.calls, self._parameter_changed, self.provenance)
         self._compared: tuple[Profile | None, object, int] = (None, None, 0)
         self.setter = ParameterSetter(self.calls, self.parameters, self.journal)
-        self.traffic = NodeTraffic(self.node, self.calls, lambda: self.graph.info)
+        self.traffic = NodeTraffic(self.node, self.calls, lambda: self.graph.info, types)
         self.sights = NodeSights(self.node, self.calls, lambda: self.graph)
         self._rosout = OfferedSubscription(
             self.node,

@@ -75,7 +75,7 @@ def _row(token: Token) -> Row:
     if token.kind == "NN":
         return node
     if token.kind == "SS":
-        return ServiceEndpoint(node, token.topic, token.type_name, _nothing)
+        return ServiceEndpoint(node, token.topic, token.type_name, _nothing, type_hash=token.type_hash)
     gid = gid_of(token.key)
     if token.kind == "SC":
         return ClientEndpoint(node, token.topic, token.type_name, _nothing, gid=gid)

@@ -14,6 +14,7 @@ from bot_console.tui.cli.live.process_news import tell_news
 from bot_console.tui.cli.live.ros2_command_line import Ros2CommandLine
 from bot_console.tui.cli.system.connecting import connect
 from bot_console.tui.cli.system.domain import domain
+from bot_console.tui.cli.system.type_source import DomainTypes
 from bot_console.tui.cli.system.workspaces import choose
 from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import Capabilities, LinkInfo, Severity
@@ -38,7 +39,13 @@ def run_network(options: AttachOptions) -> int:
     choose(options.look.workspace)
     from bot_console.tui.cli.live.session import graph_events
 
-    console = RosConsole(capabilities=CAPABILITIES, graph_events=graph_events, link=LinkWords(buses).info, foreign=True)
+    console = RosConsole(
+        capabilities=CAPABILITIES,
+        graph_events=graph_events,
+        link=LinkWords(buses).info,
+        foreign=True,
+        types=DomainTypes(),
+    )
     said = [(Severity.INFO, SAID.format(options.way, domain()))]
 
     def first_frame() -> None:

@@ -23,6 +23,7 @@ from bot_console.tui.cli.live.process_news import tell_news
 from bot_console.tui.cli.live.ros2_command_line import Ros2CommandLine
 from bot_console.tui.cli.look import look_of
 from bot_console.tui.cli.system.plugins import find_plugins
+from bot_console.tui.cli.system.type_source import DomainTypes
 from bot_console.tui.cli.system.workspaces import SYSTEM_LAUNCH, config_folders
 from bot_console.tui.cli.tune.tuner import LocalTuner
 from bot_console.tui.console.connection.ros_console import RosConsole
@@ -73,6 +74,7 @@ class Session:
             workspace_profiles=config_folders,
             fetch=_fetched,
             past=past,
+            types=DomainTypes(),
         )
         self.launcher = system(self.console)
         self._tuner = LocalTuner()

@@ -39,6 +39,7 @@ from bot_console.tui.console.sights.model import Sights
 from bot_console.tui.console.traffic import Traffic
 
 if TYPE_CHECKING:
+    from bot_console.tui.console.graph.told_types import TypeSource
     from bot_console.tui.console.graph.watch import FrozenNodes, GraphEvents
     from bot_console.tui.console.launch.output import Add
     from bot_console.tui.console.logs.view import LogViews
@@ -69,6 +70,7 @@ class RosConsole:
         fetch: Callable[[str], Path] | None = None,
         past: Keeper | None = None,
         frozen: FrozenNodes | None = None,
+        types: TypeSource | None = None,
     ) -> None:
         """`own_profiles` is where profiles are saved, `workspace_profiles` finds more folders that may hold some.
 
@@ -77,7 +79,8 @@ class RosConsole:
         `fetch` gives the copy of a parameter file on a server, or raises `OSError`; in any thread.
 
         `link` tells how a network is; `foreign` that the system is not ours, see `ConsoleNode`; `past` keeps the
-        last minutes, None: nobody does; `frozen` which nodes' processes are stopped.
+        last minutes, None: nobody does; `frozen` which nodes' processes are stopped;
+        `types` makes the types that this program does not have.
         """
         self._own_profiles = own_profiles
         self._workspace_profiles = workspace_profiles
@@ -87,6 +90,7 @@ class RosConsole:
         self._capabilities = capabilities or Capabilities()
         self._graph_events = graph_events
         self._frozen = frozen
+        self._types = types
         self._history_file = history
         self._link = link
         self._fetch = fetch
@@ -130,6 +134,7 @@ class RosConsole:
                 *(logs.add, self._graph_events, self._provenance, self._history()),
                 foreign=self._foreign,
                 frozen=self._frozen,
+                types=self._types,
             )
             self._learn = node.learn
             node.setter.profile = self._active_profile

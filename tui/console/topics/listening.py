@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from typing import Any
 
 from bot_console.tui.console.model import GraphInfo
@@ -19,8 +20,10 @@ AGES = 10
 class Listening:
     """Keeps what came last; it becomes lines only when somebody looks."""
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: Node, explain: Callable[[str, str], str]) -> None:
+        """`explain` says why a type is not known, or gives the text that stands beside it."""
         self._node = node
+        self._explain = explain
         self._topic = ""
         self._type = ""
         self._offer: tuple[bool, bool] | None = None
@@ -52,7 +55,7 @@ class Listening:
         try:
             kind = interface(Payload.MESSAGE, types[0])
         except ValueError as error:
-            self._problem = str(error)
+            self._problem = self._explain(types[0], str(error))
             return
         self._problem, self._type, self._offer = "", types[0], offer.key
         self._subscription = self._node.create_subscription(kind, topic, self._take, offer.profile())

@@ -11,6 +11,7 @@ from typing import Any, cast
 
 import yaml
 from bot_console.tui.console.calls import Calls, NoAnswer
+from bot_console.tui.console.graph.told_types import ToldTypes, TypeSource
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.topics import forms
@@ -32,12 +33,16 @@ REMEMBERED = 50
 class NodeTraffic:
     """Topics, services and actions; its methods may be called from any thread, the work is the executor's."""
 
-    def __init__(self, node: Node, calls: Calls, graph: Callable[[], GraphInfo]) -> None:
+    def __init__(
+        self, node: Node, calls: Calls, graph: Callable[[], GraphInfo], types: TypeSource | None = None
+    ) -> None:
+        """`types` makes those that this program does not have; without it they stay unknown."""
         self._calls = calls
         self._graph = graph
+        self._told = ToldTypes(node, calls, types, self._follow_known)
         self._clock = node.get_clock()
         self._meters = Meters(node)
-        self._listening = Listening(node)
+        self._listening = Listening(node, self._told.explain)
         self._publishing = Publishing(node)
         self._goals = Goals(node)
         self._asked: dict[str, frozenset[str]] = {}
@@ -46,6 +51,13 @@ class NodeTraffic:
 
     def follow(self, graph: GraphInfo) -> None:
         """The graph is another; called by the executor."""
+        self._told.follow(graph)
+        self._meters.follow(graph)
+        self._listening.follow(graph)
+
+    def _follow_known(self) -> None:
+        """There is one type more."""
+        graph = self._graph()
         self._meters.follow(graph)
         self._listening.follow(graph)
 
@@ -82,7 +94,10 @@ class NodeTraffic:
 
     def slots(self, payload: Payload, type_name: str, values: Values) -> Sequence[Slot]:
         """The form of a type."""
-        return forms.slots(payload, type_name, values)
+        try:
+            return forms.slots(payload, type_name, values)
+        except ValueError as error:
+            raise ValueError(self._told.explain(type_name, str(error))) from None
 
     def wrong(self, payload: Payload, type_name: str, path: str, text: str) -> str:
         """Why a text cannot stand in a slot."""

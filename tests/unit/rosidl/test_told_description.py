@@ -1,0 +1,35 @@
+"""Descriptions from definition files alone have the hashes of the classes that are generated from them."""
+
+from __future__ import annotations
+
+import importlib
+
+import pytest
+from bot_console.runtime.rosidl.parse import DefinitionError
+from bot_console.runtime.rosidl.texts import definition_text, interface_names
+from bot_console.runtime.rosidl.told_description import describe_texts
+from bot_console.runtime.rosidl.type_description import describe
+from bot_console.runtime.rosidl.type_hash import text, text_of_description
+
+PACKAGES = ("geometry_msgs", "rcl_interfaces", "std_msgs", "std_srvs", "type_description_interfaces")
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_hash_of_the_texts_is_that_of_the_class(package: str) -> None:
+    names = [name for name in interface_names(package) if not name.startswith("action/")]
+    assert names
+    for name in names:
+        kind, short = name.split("/")
+        cls = getattr(importlib.import_module(f"{package}.{kind}"), short)
+        told = describe(cls)
+        parts = [told["type_description"], *told["referenced_type_descriptions"]]
+        texts = {each["type_name"]: definition_text(*each["type_name"].split("/")) for each in parts}
+        described = describe_texts(
+            f"{package}/{name}", {part: text for part, text in texts.items() if text is not None}
+        )
+        assert text_of_description(described) == text(cls), name
+
+
+def test_what_a_type_consists_of_must_be_there() -> None:
+    with pytest.raises(DefinitionError, match="the definition of geometry_msgs/msg/Vector3 is missing"):
+        describe_texts("my/msg/Speed", {"my/msg/Speed": "geometry_msgs/Vector3 linear\n"})
