@@ -44,8 +44,6 @@ class Terminals:
 
     def ask(self, row: Row) -> tuple[str, str, int]:
         """Ask a command: what it printed, in the form of the records, and its exit code."""
-        for name, text in row["files"].items():
-            (self._folder / name).write_text(text, "utf-8")
         out, err, code = self._run(row["argv"], row["stop_after_s"])
         return normal(out, self._folder), normal(err, self._folder), code
 
@@ -101,6 +99,8 @@ def test_commands_of_a_second_terminal(programs: list[Words], tmp_path: Path):
     differences: list[tuple[str, object, object]] = []
     try:
         for row in in_order(of_system):
+            for name, text in row["files"].items():
+                (tmp_path / name).write_text(text, "utf-8")
             if row["before"] != terminals.history:
                 terminals.close()
                 terminals = Terminals(programs, tmp_path)
