@@ -25,6 +25,8 @@ from sensor_msgs.msg import LaserScan
 TELEOP, NAVIGATION = "cmd_vel_teleop", "cmd_vel_nav"
 LIFETIME_NS = 500_000_000
 """A command or scan older than this is dead."""
+LATE_NS = LIFETIME_NS // 4
+"""A scan older than this is late for one of ten in a second: from then on a simulator is asked for its time."""
 WATCH_PERIOD = 0.1
 """Seconds between two looks at what has died."""
 ZEROS = 10
@@ -111,7 +113,7 @@ class SafetyMonitor(Node):
         return self._arbiter.choose(*((NAVIGATION,) if self._stop.steered_by else ()))
 
     def _watch(self) -> None:
-        if self._scan.age > LIFETIME_NS // 2:
+        if LATE_NS < self._scan.age < math.inf:  # before the first scan nothing is late, and nothing drives
             self._robot_time.follow(self._scan.stamp)
         if self._stop.lock.held or self._choose() is None or self._verdict.limited_by == NO_SCAN:
             self._decide()

@@ -115,16 +115,16 @@ class Lidar:
         owner, beam = self._pairs(start - pose.heading, span)
         cos, sin = math.cos(pose.heading), math.sin(pose.heading)
         dx, dy = (self._cos * cos - self._sin * sin)[beam], (self._sin * cos + self._cos * sin)[beam]
-        edge = owner < len(ax)
-        o = owner[edge]
+        edges = int(owner.searchsorted(len(ax)))  # pairs of edges come before those of circles
         depth = np.empty(len(owner))
-        depth[edge] = _edge_depth(ax[o], ay[o], bx[o] - ax[o], by[o] - ay[o], dx[edge], dy[edge])
-        rest = ~edge
-        o = owner[rest] - len(ax)
-        depth[rest] = _circle_depth(cx[o], cy[o], radius[o], distance[o], dx[rest], dy[rest])
+        with np.errstate(divide="ignore", invalid="ignore"):
+            o = owner[:edges]
+            depth[:edges] = _edge_depth((ax, ay, bx - ax, by - ay), o, dx[:edges], dy[:edges])
+            o = owner[edges:] - len(ax)
+            depth[edges:] = _circle_depth((cx, cy, radius, distance), o, dx[edges:], dy[edges:])
         ranges = np.full(self.settings.beams, math.inf)
         np.minimum.at(ranges, beam, depth)
-        nearest = depth == ranges[beam]
+        nearest = (depth == ranges[beam]).nonzero()[0]
         shine = np.zeros(self.settings.beams)
         shares = (surfaces.edge_reflectivity, surfaces.circle_reflectivity, reflectivity)
         shine[beam[nearest]] = np.concatenate(shares)[owner[nearest]]
@@ -132,19 +132,18 @@ class Lidar:
         return ranges, shine
 
     def _pairs(self, start: Floats, span: Floats) -> tuple[Ints, Ints]:
-        """Which surface can meet which beam: two arrays of indices, from each surface's angular span (rad)."""
+        """Which surface can meet which beam: two arrays of indices in the order of surfaces, from their spans (rad)."""
         settings = self.settings
         step = settings.increment or 1.0
         begin = np.mod(start - settings.first_angle, TURN)
         # A span that runs past a full turn comes round again at the first beams.
-        begin = np.concatenate((begin, begin - TURN))
-        end = begin + np.concatenate((span, span))
+        begin = np.array((begin, begin - TURN))
         first = np.maximum(np.ceil((begin - EDGE) / step), 0).astype(np.int64)
-        last = np.minimum(np.floor((end + EDGE) / step), settings.beams - 1).astype(np.int64)
-        count = np.maximum(last - first + 1, 0)
-        owner = np.repeat(np.arange(len(count)), count)
-        within = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)
-        return owner % len(span), first[owner] + within
+        last = np.minimum(np.floor((begin + span + EDGE) / step), settings.beams - 1).astype(np.int64)
+        count = np.maximum(last - first + 1, 0).ravel("F")
+        # The place among all pairs, less that of the span's first pair, is how far on from its first beam it is.
+        beam = (first.ravel("F") - count.cumsum() + count).repeat(count)
+        return np.arange(len(span)).repeat(2).repeat(count), np.arange(len(beam)) + beam
 
 
 def _spans(
@@ -159,20 +158,20 @@ def _spans(
     return start, np.concatenate((np.abs(width), 2 * half))
 
 
-def _edge_depth(ax: Floats, ay: Floats, sx: Floats, sy: Floats, dx: Floats, dy: Floats) -> Floats:
-    """Where rays along (dx, dy) meet lines from (ax, ay) along (sx, sy): m, `inf` for a miss."""
-    with np.errstate(divide="ignore", invalid="ignore"):
-        across = dx * sy - dy * sx
-        depth = (ax * sy - ay * sx) / across
-        share = (ax * dy - ay * dx) / across
-        return np.where((depth >= 0) & (share >= -EDGE) & (share <= 1 + EDGE), depth, math.inf)
+def _edge_depth(edges: tuple[Floats, Floats, Floats, Floats], owner: Ints, dx: Floats, dy: Floats) -> Floats:
+    """Where rays along (dx, dy) meet their edges, from (x, y) along (sx, sy): m, `inf` for a miss."""
+    x, y, sx, sy = edges
+    across = dx * sy[owner] - dy * sx[owner]
+    depth = (x * sy - y * sx)[owner] / across
+    share = (x[owner] * dy - y[owner] * dx) / across
+    return np.where((depth >= 0) & (share >= -EDGE) & (share <= 1 + EDGE), depth, math.inf)
 
 
-def _circle_depth(cx: Floats, cy: Floats, radius: Floats, distance: Floats, dx: Floats, dy: Floats) -> Floats:
-    """Where rays along (dx, dy) meet circles: m, 0 from inside, `inf` for a miss."""
-    along = cx * dx + cy * dy
-    inside = radius * radius - (distance * distance - along * along)
-    with np.errstate(invalid="ignore"):
-        depth = along - np.sqrt(inside)
+def _circle_depth(circles: tuple[Floats, Floats, Floats, Floats], owner: Ints, dx: Floats, dy: Floats) -> Floats:
+    """Where rays along (dx, dy) meet their circles (x, y, radius, distance): m, 0 from inside, `inf` for a miss."""
+    x, y, radius, distance = circles
+    along = x[owner] * dx + y[owner] * dy
+    inside = (radius * radius)[owner] - ((distance * distance)[owner] - along * along)
+    depth = along - np.sqrt(inside)
     depth = np.where((inside >= 0) & (depth >= 0), depth, math.inf)
-    return np.where(distance <= radius, 0.0, depth)
+    return np.where((distance <= radius)[owner], 0.0, depth)

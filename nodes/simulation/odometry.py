@@ -29,9 +29,9 @@ class Odometry:
         """Add a forward way in m and a turn in rad, driven as an arc."""
         if way == 0.0 and turn == 0.0:
             return
-        error = self._rng.standard_normal(2)
-        way += self.noise.distance * math.sqrt(abs(way)) * float(error[0])
-        turn += self.noise.heading * math.sqrt(abs(turn)) * float(error[1])
+        draw = self._rng.standard_normal  # one number at a time: an array of two costs more than both
+        way += self.noise.distance * math.sqrt(abs(way)) * draw()
+        turn += self.noise.heading * math.sqrt(abs(turn)) * draw()
         middle = self.pose.heading + 0.5 * turn
         self.pose = Pose(
             self.pose.x + way * math.cos(middle),

@@ -1,4 +1,8 @@
-"""Keeps a stepped run on one processor: its threads only take turns, and a turn passes 2 to 3 times faster there."""
+"""Keeps a stepped run on one processor: its threads only take turns, and a turn passes 2 to 3 times faster there.
+
+Twice as fast again where the system lets a thread that wakes another one go on to its own wait: the woken one would else
+interrupt it, find the interpreter taken, and sleep again.
+"""
 
 from __future__ import annotations
 
@@ -10,9 +14,9 @@ _processors: list[set[int]] = []
 
 
 def pin_thread() -> Callable[[], None]:
-    """Pin the calling thread, and the threads that it will start, to one processor; returns what undoes it.
+    """Pin the calling thread, and the threads that it will start, to one processor where none interrupts another.
 
-    Without effect where the system does not offer it (only Linux does).
+    Returns what undoes it. Without effect where the system does not offer it (only Linux does).
     """
     if not hasattr(os, "sched_setaffinity"):
         return lambda: None
@@ -22,12 +26,25 @@ def pin_thread() -> Callable[[], None]:
     except OSError:  # not allowed in this container
         return lambda: None
     _processors.append(before)
+    undo_policy = _let_wakers_go_on()
 
     def unpin() -> None:
         _processors.remove(before)
         os.sched_setaffinity(0, before)
+        undo_policy()
 
     return unpin
+
+
+def _let_wakers_go_on() -> Callable[[], None]:
+    """Make the calling thread one that interrupts no other when it is woken; returns what undoes it."""
+    if os.sched_getscheduler(0) != os.SCHED_OTHER:  # somebody has chosen another policy
+        return lambda: None
+    try:
+        os.sched_setscheduler(0, os.SCHED_BATCH, os.sched_param(0))
+    except OSError:  # not allowed in this container
+        return lambda: None
+    return lambda: os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
 
 
 def sched_getaffinity(pid: int, /) -> set[int]:

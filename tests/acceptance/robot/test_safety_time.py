@@ -56,3 +56,17 @@ def test_it_stands_half_a_second_after_the_kill(seconds: float) -> None:
         after = [(at - killed_at, speed) for at, speed in speeds(watch.stdout) if at > killed_at]
         assert after[-1][0] > 1.5
         assert not [each for each in after if each[0] > 0.5 and abs(each[1]) > NOISE]
+
+
+def test_the_monitor_asks_for_the_simulations_time_once_a_scan_is_late() -> None:
+    def listeners(running: System) -> str:
+        told = running.finish(running.ros2("topic", "info", "/clock")).stdout
+        return told.partition("Subscription count: ")[2].strip()
+
+    with system() as running:
+        running.ros2("launch", str(ROOT / "launch" / "robot_system.launch.py"))
+        running.run(3.0)
+        assert listeners(running) == "0", "scans in time: nobody needs to be woken a hundred times in a second"
+        running.finish(running.ros2("param", "set", "/simulator", "scan_rate", "5.0"))
+        running.run(1.0)
+        assert listeners(running) == "1"

@@ -1,0 +1,42 @@
+"""What a stepped run asks of the system for its threads, and that it gives it back."""
+
+from __future__ import annotations
+
+import os
+import time
+
+import pytest
+from bot_console.runtime.process import NodeProcess, stepped
+
+pytestmark = pytest.mark.skipif(not hasattr(os, "sched_setaffinity"), reason="only Linux offers this")
+
+
+def test_the_threads_of_a_run_take_turns_on_one_processor_and_interrupt_nobody() -> None:
+    before = os.sched_getscheduler(0)
+    seen: list[int] = []
+    with stepped() as clock:
+        NodeProcess("node", clock).start(lambda: seen.append(os.sched_getscheduler(0)))
+        clock.run_for(0.1)
+    assert seen == [os.SCHED_BATCH]
+    assert os.sched_getscheduler(0) == before
+
+
+def test_a_turn_is_one_switch_of_the_system() -> None:
+    import resource
+
+    def switches() -> int:
+        usage = resource.getrusage(resource.RUSAGE_SELF)
+        return usage.ru_nvcsw + usage.ru_nivcsw
+
+    def run() -> None:
+        while True:
+            time.sleep(0.001)
+
+    with stepped() as clock:
+        for name in ("one", "other"):
+            NodeProcess(name, clock).start(run)
+        clock.run_for(0.1)
+        before = switches()
+        clock.run_for(2.0)
+        # Two turns in each ms; what else goes on on the machine interrupts some of them.
+        assert switches() - before < 1.5 * 4000
