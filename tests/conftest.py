@@ -21,7 +21,7 @@ if not ON_ROS:
     install()
 
 # Who starts the tests in the background lets them ignore these, and with them every program that a test starts.
-for number in (signal.SIGINT, getattr(signal, "SIGQUIT", signal.SIGINT)):
+for number in (signal.SIGINT, *(getattr(signal, name) for name in ("SIGQUIT", "SIGHUP") if hasattr(signal, name))):
     if signal.getsignal(number) is signal.SIG_IGN:
         signal.signal(number, signal.default_int_handler if number is signal.SIGINT else signal.SIG_DFL)
 

@@ -92,6 +92,7 @@ class BotConsoleApp(RecordingApp, TuningDoor):
             self.register_theme(each)
         look = look or Look()
         self.theme = THEMES[look.theme].name
+        self.use_colours()
         self.plain, self.kept = look.plain, look.kept
         self.set_keymap({**look.keys})
         self.console_of_robot = console

@@ -1,12 +1,14 @@
-"""A pilot's rest: when the app has nothing left to do, known from its event loop and not from a clock alone.
+"""A pilot's rest: when the app has nothing left to do, known from its event loop and not from a clock.
 
-Textual's pilot takes a process for idle that used next to no processor time for 20 ms; beside others a process uses
-none because it gets none, with keys still on their way.
+Textual's pilot takes a process for idle that used next to no processor time for 20 ms: that is 80 ms for each key, and
+beside others a process uses none because it gets none, with keys still on their way. Before that it sends a message to
+every widget and waits until all have answered, which a rested event loop makes needless.
 """
 
 from __future__ import annotations
 
 import asyncio
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -16,20 +18,28 @@ from textual import _wait
 from textual import app as app_module
 from textual import pilot as pilot_module
 from textual._context import active_app
+from textual.css.stylesheet import Stylesheet
 
 LOOKS = 100_000
 """Turns of the event loop after which what never rests is left alone."""
+SOON = 0.02
+"""What is due within these s is waited for."""
 
 
 async def rest(min_sleep: float = 0.02, max_sleep: float = 1) -> None:
-    """Wait until nothing is left to run or to draw, also when threads and timers have had their time."""
-    await _drained()
-    await _wait.wait_for_idle(min_sleep, max_sleep)
-    await _drained()
-
-
-async def _drained() -> None:
+    """Wait until nothing is left to run or to draw; where other threads may be at work, until they use no time."""
     loop: Any = asyncio.get_running_loop()
+    end = loop.time() + SOON
+    await _drained(loop)
+    if threading.active_count() > 1:
+        await _wait.wait_for_idle(min_sleep, max_sleep)
+        await _drained(loop)
+    while due := [each.when() for each in loop._scheduled if not each.cancelled() and each.when() < end]:
+        await asyncio.sleep(max(0.0, min(due) - loop.time()))
+        await _drained(loop)
+
+
+async def _drained(loop: Any) -> None:
     app = active_app.get(None)
     for _ in range(LOOKS):
         await asyncio.sleep(0)
@@ -43,6 +53,27 @@ async def _drained() -> None:
 
 @contextmanager
 def at_rest() -> Iterator[None]:
-    """Pilots wait so, meanwhile."""
-    with patch.object(app_module, "wait_for_idle", rest), patch.object(pilot_module, "wait_for_idle", rest):
+    """Pilots wait so, meanwhile; and no style sheet is read again that an app of this process has read."""
+    with (
+        patch.object(Stylesheet, "_parse_rules", _parsed_once),
+        patch.object(app_module, "wait_for_idle", rest),
+        patch.object(pilot_module, "wait_for_idle", rest),
+        patch.object(pilot_module.Pilot, "_wait_for_screen", _screen_at_rest),
+    ):
         yield
+
+
+async def _screen_at_rest(pilot: pilot_module.Pilot[Any], timeout: float = 30) -> bool:
+    await _drained(asyncio.get_running_loop())
+    return True
+
+
+_parsed: dict[object, Any] = {}
+_parse_rules = Stylesheet._parse_rules
+
+
+def _parsed_once(sheet: Stylesheet, css: str, *where: Any, **how: Any) -> Any:
+    asked = (css, *where, *how.items(), *sorted(sheet._variables.items()))
+    if asked not in _parsed:
+        _parsed[asked] = _parse_rules(sheet, css, *where, **how)
+    return _parsed[asked]

@@ -7,13 +7,14 @@ app as Textual does it.
 from __future__ import annotations
 
 from bot_console.tui.terminal.output import SUPPORTED, HoldingScreen, SparingApp
+from bot_console.tui.terminal.styled_once import StyledOnceApp, StyledOnceScreen
 from textual._context import active_message_pump
 from textual.dom import DOMNode
 from textual.message import Message
 from textual.screen import Screen
 
 
-class GuardedApp(SparingApp):
+class GuardedApp(SparingApp, StyledOnceApp):
     """An app that is asked about each fault before it ends."""
 
     def contain(self, error: Exception, culprits: list[DOMNode]) -> bool:
@@ -50,7 +51,7 @@ class GuardedApp(SparingApp):
         self._close_messages_no_wait()
 
 
-class GuardedScreen(HoldingScreen):
+class GuardedScreen(HoldingScreen, StyledOnceScreen):
     """A screen that goes on drawing when one of its widgets cannot be drawn."""
 
     async def _dispatch_message(self, message: Message) -> None:

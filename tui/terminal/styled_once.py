@@ -1,0 +1,43 @@
+"""A start that styles each widget once: Textual reads every style sheet and matches every rule twice.
+
+It does so because the theme and the active screen may have changed since the widgets were mounted; at the start neither
+has.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from textual.app import App
+from textual.screen import Screen
+
+
+class StyledOnceApp(App[None]):
+    """An app that reads its style sheets again only for other colours."""
+
+    _colours: dict[str, str] | None = None
+
+    def refresh_css(self, animate: bool = True) -> None:
+        """Read and apply the style sheets for the theme's colours, unless they are those in use."""
+        colours = self.get_css_variables()
+        if colours != self._colours:
+            super().refresh_css(animate)
+        self._colours = colours
+
+    def use_colours(self) -> None:
+        """Let the first reading of the style sheets have the colours of the theme that was chosen."""
+        self._colours = self.get_css_variables()
+        self.stylesheet.set_variables(self._colours)
+
+
+class StyledOnceScreen(Screen[Any]):
+    """A screen whose widgets are not styled again when it is shown for the first time."""
+
+    _was_shown = False
+
+    def update_node_styles(self, animate: bool = True) -> None:
+        """Match the rules again, for this screen and all in it; they have just been when it is shown first."""
+        is_shown = self.stack_updates > 0
+        if self._was_shown or not is_shown:
+            super().update_node_styles(animate)
+        self._was_shown = is_shown or self._was_shown
