@@ -36,6 +36,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         return stop.code if isinstance(stop.code, int) else 1 if stop.code else 0
     except KeyboardInterrupt:
         return int(signal.SIGINT)
+    except BrokenPipeError:  # nobody reads on: no fault, and quiet where commands run for a shell
+        raise
     except RuntimeError as error:  # among them what the client library refuses
         return _finish(str(error))
     except Exception as error:  # a verb's border: upstream ends in this traceback, and a console goes on after it

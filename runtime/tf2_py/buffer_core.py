@@ -50,19 +50,12 @@ class BufferCore:
         for each in messages:
             history = histories.get(each.child_frame_id)
             if history is None or history.is_static:
-                self._insert(each, "default_authority", is_static=False)
+                self._read(each)
                 continue
             history.wait(each)
 
-    def _digest(self, history: FrameHistory) -> FrameHistory:
-        waiting, history.waiting = history.waiting, []
-        for each in waiting:
-            self._insert(each, "default_authority", is_static=False)
-        return history
-
-    def _find(self, frame: str) -> FrameHistory | None:
-        history = self._histories.get(frame)
-        return self._digest(history) if history is not None and history.waiting else history
+    def _read(self, message: TransformStamped) -> None:
+        self._insert(message, "default_authority", is_static=False)
 
     def _insert(self, message: TransformStamped, authority: str, *, is_static: bool) -> None:
         child = message.child_frame_id.removeprefix("/")
@@ -74,7 +67,7 @@ class BufferCore:
         if problem is None:
             history = self._histories.get(child)
             if history is None or history.is_static != is_static:
-                history = self._histories[child] = FrameHistory(self._keep, is_static)
+                history = self._histories[child] = FrameHistory(self._keep, is_static, self._read)
             self._parents.add(parent)
             problem = history.insert((stamp, parent, place, authority))
             if problem:
@@ -119,7 +112,7 @@ class BufferCore:
         """The newest time at which the way between two frames is known."""
         self._check(target_frame, "getLatestCommonTime argument target_frame")
         self._check(source_frame, "getLatestCommonTime argument source_frame")
-        return Time(nanoseconds=latest_common_time(self._find, target_frame, source_frame))
+        return Time(nanoseconds=latest_common_time(self._histories.get, target_frame, source_frame))
 
     def all_frames_as_string(self) -> str:
         """All frames with their parents, one a line."""
@@ -130,7 +123,9 @@ class BufferCore:
         return descriptions.as_yaml(self._all())
 
     def _all(self) -> dict[str, FrameHistory]:
-        return {name: self._digest(each) for name, each in list(self._histories.items())}
+        for each in list(self._histories.values()):
+            each.digest()
+        return dict(self._histories)
 
     def _frameExists(self, frame_id: str) -> bool:
         return frame_id in self._histories or frame_id in self._parents
@@ -156,15 +151,18 @@ class BufferCore:
 
     def _look_up(self, target: str, source: str, time: int, what: str) -> tuple[int, Rigid]:
         """Time (ns) and place; `what` is the question that a refusal names."""
-        for frame, role in ((target, "target_frame"), (source, "source_frame")):
-            if frame not in self._histories:
-                self._check(frame, f"{what} argument {role}")
+        histories = self._histories
+        if target not in histories:
+            self._check(target, f"{what} argument target_frame")
+        if source not in histories:
+            self._check(source, f"{what} argument source_frame")
+        find = histories.get
         if target == source:
-            history = self._find(target)
+            history = find(target)
             latest = None if history is None else history.latest()
             return time or (latest[0] if latest else 0), IDENTITY
-        time = time or latest_common_time(self._find, target, source)
-        return time, transform(self._find, target, source, time)
+        time = time or latest_common_time(find, target, source)
+        return time, transform(find, target, source, time)
 
 
 def nanoseconds_of(time: Any) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
+from collections.abc import Callable
 from typing import Any
 
 from tf2_py.rigid import Rigid, interpolate
@@ -18,29 +19,37 @@ Entry = tuple[int, str, Rigid, str]
 class FrameHistory:
     """Transforms of one frame by time; messages wait unread until somebody asks, as most of them never matter."""
 
-    __slots__ = ("_keep", "_stamps", "entries", "is_static", "waiting")
+    __slots__ = ("_keep", "_read", "_stamps", "_waiting", "entries", "is_static")
 
-    def __init__(self, keep: int, is_static: bool) -> None:
+    def __init__(self, keep: int, is_static: bool, read: Callable[[Any], None]) -> None:
+        """Keep transforms for `keep` (ns); `read` is what inserts a message that has waited."""
         self._keep = keep
         self.is_static = is_static
+        self._read = read
         self._stamps: list[int] = []
+        self._waiting: list[Any] = []
         self.entries: list[Entry] = []
-        self.waiting: list[Any] = []
 
     def wait(self, message: Any) -> None:
         """Keep a message unread."""
-        waiting = self.waiting
+        waiting = self._waiting
         waiting.append(message)
         if len(waiting) % DIGEST_AFTER == 0:
             self._drop_old_messages()
 
     def _drop_old_messages(self) -> None:
         """Let go of unread messages that are too old, where they came in order; nobody has asked for them."""
-        waiting = self.waiting
+        waiting = self._waiting
         limit = stamp_of(waiting[-1]) - self._keep
         old = bisect_left(waiting, limit, key=stamp_of)
         if all(stamp_of(each) < limit for each in waiting[:old]):
             del waiting[:old]
+
+    def digest(self) -> None:
+        """Read the messages that wait."""
+        waiting, self._waiting = self._waiting, []
+        for each in waiting:
+            self._read(each)
 
     def insert(self, entry: Entry) -> str | None:
         """Take a transform; returns why not where it is too old, or one of that time is there already."""
@@ -80,25 +89,30 @@ class FrameHistory:
 
     def latest(self) -> tuple[int, str] | None:
         """The newest time (ns; 0 of a static frame) and the parent then; None where nothing is known."""
+        if self._waiting:
+            self.digest()
         if not self.entries:
             return None
         return (0 if self.is_static else self._stamps[-1]), self.entries[-1][1]
 
     def at(self, time: int) -> tuple[str, Rigid]:
         """Parent and place at a time (ns; 0 is the newest); raises `LookupError` with the words of upstream."""
-        if not self.entries:
+        if self._waiting:
+            self.digest()
+        entries, stamps = self.entries, self._stamps
+        if not entries:
             raise LookupError("")
-        if self.is_static or time == 0 or time == self._stamps[-1]:
-            _, parent, place, _ = self.entries[-1]
+        newest = stamps[-1]
+        if time in (newest, 0) or self.is_static:
+            _, parent, place, _ = entries[-1]
             return parent, place
-        stamps = self._stamps
         after = bisect_right(stamps, time)
-        if after == len(stamps) or after == 0 or stamps[after - 1] < stamps[-1] - self._keep:
+        if time > newest or after == 0 or stamps[after - 1] < newest - self._keep:
             raise LookupError(self._outside(time, self.first))
-        stamp, parent, place, _ = self.entries[after - 1]
+        stamp, parent, place, _ = entries[after - 1]
         if stamp == time:
             return parent, place
-        later, other_parent, other_place, _ = self.entries[after]
+        later, other_parent, other_place, _ = entries[after]
         if parent != other_parent:
             return parent, place
         return parent, interpolate(place, other_place, (time - stamp) / (later - stamp))

@@ -11,6 +11,7 @@ from tf2_py.rigid import IDENTITY, Rigid, compose, inverse
 MAX_DEPTH = 1000
 LOOP = "The tf tree is invalid because it contains a loop."
 Find = Callable[[str], FrameHistory | None]
+"""What is known of a frame; None for one that is nobody's child."""
 
 
 def transform(find: Find, target: str, source: str, time: int) -> Rigid:
@@ -60,7 +61,7 @@ def latest_common_time(find: Find, target: str, source: str) -> int:
 
     Raises `ConnectivityException`, for a loop `LookupException`.
     """
-    above = _ancestors(find, source)
+    above = _ancestors(find, source, target)
     if target in above:
         return above[target]
     newest = 0
@@ -77,21 +78,22 @@ def latest_common_time(find: Find, target: str, source: str) -> int:
     raise LookupException(LOOP)
 
 
-def _ancestors(find: Find, frame: str) -> dict[str, int]:
-    """All frames above one, with the newest time at which the way to each is known."""
+def _ancestors(find: Find, frame: str, up_to: str) -> dict[str, int]:
+    """Frames above one, as far as another, with the newest time at which the way to each is known."""
     newest = 0
     above = {frame: 0}
-    while (history := find(frame)) is not None and (latest := history.latest()) is not None:
-        newest = _older(newest, latest[0])
-        frame = latest[1]
+    while frame != up_to and (history := find(frame)) is not None and (latest := history.latest()) is not None:
+        time, frame = latest
         if frame in above:
             raise LookupException(LOOP)
-        above[frame] = newest
+        above[frame] = newest = _older(newest, time)
     return above
 
 
 def _older(one: int, other: int) -> int:
-    return min(one, other) if one and other else one or other
+    if one and other:
+        return one if one < other else other
+    return one or other
 
 
 def unconnected(target: str, source: str) -> str:

@@ -74,7 +74,7 @@ class Buffer(BufferCore, BufferInterface):
         self, target_frame: str, source_frame: str, time: Time, timeout: Duration = NOW
     ) -> TransformStamped:
         """What takes points of `source_frame` to `target_frame` at a time, waited for as long as `timeout`."""
-        if timeout.nanoseconds:
+        if timeout is not NOW and timeout.nanoseconds:
             self.can_transform(target_frame, source_frame, time, timeout)
         return self.lookup_transform_core(target_frame, source_frame, time)
 

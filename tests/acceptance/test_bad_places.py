@@ -42,6 +42,14 @@ def test_a_full_disk_is_told_once(words: list[str], tmp_path: Path) -> None:
     assert len(done.stderr.strip().splitlines()) == 1, done.stderr
 
 
+def test_nobody_who_reads_on_is_no_fault(tmp_path: Path) -> None:
+    reader, writer = os.pipe()
+    os.close(reader)
+    with open(writer, "w") as closed:
+        done = command(["ros2", "interface", "list"], tmp_path, stdout=closed)
+    assert (done.returncode, done.stderr) == (1, "")
+
+
 @pytest.mark.parametrize("words", [["run", "x.py"], ["ros2", "pkg", "list"], ["launch", "x.launch.py"]], ids=" ".join)
 def test_a_folder_that_was_deleted_is_told(words: list[str], tmp_path: Path) -> None:
     there = tmp_path / "gone"

@@ -6,6 +6,7 @@ The share of a core is that of taking the messages; their way through a topic co
 from __future__ import annotations
 
 import json
+import math
 import time
 from collections.abc import Callable
 from typing import Any
@@ -24,12 +25,14 @@ CHAIN = 4
 
 
 def message(at: float) -> Any:
-    """All frames at a time (s): chains of four."""
+    """All frames at a time (s), each turning in its parent: chains of four."""
+    turn = math.sin(at / 20), math.cos(at / 20)
     transforms = []
     for index in range(FRAMES):
         each = TransformStamped(child_frame_id=f"f{index}")
         each.header.frame_id = "odom" if index % CHAIN == 0 else f"f{index - 1}"
         each.header.stamp.sec, each.header.stamp.nanosec = int(at), round(at % 1 * 10**9)
+        each.transform.rotation.z, each.transform.rotation.w = turn
         transforms.append(each)
     return TFMessage(transforms=transforms)
 
