@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import traceback
 
 PIP = "{0} is an ordinary Python package: pip install {1}"
 CPP = (
@@ -110,5 +109,7 @@ def explain_missing_package(exception: BaseException) -> str | None:
 
 def _imports_interfaces(exception: BaseException, package: str) -> bool:
     """Whether the line that failed imports messages, services or actions of a package, whatever its name."""
+    import traceback
+
     lines = [each.line or "" for each in traceback.extract_tb(exception.__traceback__)]
     return any(re.match(rf"\s*(from|import) {re.escape(package)}\.(msg|srv|action)\b", each) for each in lines)

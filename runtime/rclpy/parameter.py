@@ -6,6 +6,7 @@ from enum import Enum
 from typing import TYPE_CHECKING, Any, cast
 
 from bot_console.runtime.rmw.parameter_types import ARRAYS, BY_CLASS, BY_CODE, STRING
+from bot_console.runtime.rmw.plain_yaml import plain_scalar
 from rclpy.impl.parameter_values import FIELDS, infer, value_fits
 from rclpy.impl.reexports import reexporting
 
@@ -98,22 +99,29 @@ _YAML_ARRAYS = tuple((each.python, each.code) for each in ARRAYS if each.python 
 
 def get_parameter_value(string_value: str) -> ParameterValue:
     """The value that a text means in YAML 1.1, as `ros2 param set` takes it; raises `yaml.YAMLError`."""
-    import yaml
     from rcl_interfaces.msg import ParameterValue
-    from yaml.parser import ParserError
 
-    value: Any
-    try:
-        value = yaml.safe_load(string_value)
-    except ParserError:
-        value = string_value
-    if value is None:
-        value = string_value
+    value = _yaml_value(string_value)
     code = _yaml_type(value)
     if code is None:
         # Upstream takes what is no parameter value as a string: mixed lists by their text, the rest as it is.
         return ParameterValue(type=STRING.code, string_value=string_value if isinstance(value, list) else value)
     return ParameterValue(type=code, **{FIELDS[code]: value})
+
+
+def _yaml_value(text: str) -> Any:
+    """What a text means in YAML; itself where it means nothing, or cannot be parsed."""
+    plain = plain_scalar(text)
+    if plain is not None:
+        return plain
+    import yaml
+    from yaml.parser import ParserError
+
+    try:
+        value = yaml.safe_load(text)
+    except ParserError:
+        return text
+    return text if value is None else value
 
 
 def _yaml_type(value: Any) -> int | None:

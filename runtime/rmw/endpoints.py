@@ -6,7 +6,7 @@ import itertools
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 from bot_console.runtime.rmw.qos import Profile
 
@@ -106,8 +106,7 @@ def no_event(kind: Event, what: Any) -> None:
     """Nobody listens to the events of an endpoint."""
 
 
-@dataclass(frozen=True)
-class NodeId:
+class NodeId(NamedTuple):
     """A node of the graph; two nodes may have the same name, so identity counts."""
 
     name: str

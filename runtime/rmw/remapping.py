@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from enum import Flag, auto
+from typing import NamedTuple
 
 from bot_console.runtime.rmw.lexer import GrammarError, Lexeme, Lexer
 from bot_console.runtime.rmw.names import expand
@@ -19,8 +19,7 @@ class Kind(Flag):
     NAMESPACE = auto()
 
 
-@dataclass(frozen=True)
-class RemapRule:
+class RemapRule(NamedTuple):
     """One rule; `node` limits it to nodes of that name."""
 
     kind: Kind

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from typing import NamedTuple
 
 Result = str | int | None
 """A text is printed on stderr and makes the exit code 1; a number is the exit code; None is 0."""
@@ -12,8 +12,7 @@ Result = str | int | None
 Arguments = Callable[[argparse.ArgumentParser], None]
 
 
-@dataclass(frozen=True)
-class Verb:
+class Verb(NamedTuple):
     """A verb such as `list` of the command `node`."""
 
     name: str
@@ -23,8 +22,7 @@ class Verb:
     epilog: str | None = None
 
 
-@dataclass(frozen=True)
-class Command:
+class Command(NamedTuple):
     """A command such as `node`: either verbs, or a function of its own."""
 
     name: str
@@ -32,5 +30,5 @@ class Command:
     verbs: Sequence[Verb] = ()
     arguments: Arguments = lambda parser: None
     main: Callable[[argparse.Namespace], Result] | None = None
-    raw: bool = field(default=False)
+    raw: bool = False
     """Whether everything behind the command belongs to it, as with `run`."""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import os
 import signal
 import sys
-import traceback
 from collections.abc import Mapping, Sequence
 
 from bot_console.runtime.terse import place_fault
@@ -27,6 +27,25 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
 """Where each command is, and what it is for; a module is imported when its command is asked for."""
 
 
+class HelpFormatter(argparse.RawDescriptionHelpFormatter):
+    """argparse's own, but for the width of the terminal: each parser makes some, and argparse imports shutil for it."""
+
+    def __init__(self, prog: str) -> None:
+        super().__init__(prog, width=_columns() - 2)
+
+
+def _columns() -> int:
+    """The width of the terminal, as `shutil.get_terminal_size` finds it."""
+    told = os.environ.get("COLUMNS", "")
+    if told.isdecimal() and int(told):
+        return int(told)
+    try:
+        found = os.get_terminal_size(sys.__stdout__.fileno()).columns if sys.__stdout__ else 0
+    except (ValueError, OSError):  # closed, or no terminal
+        found = 0
+    return found or 80
+
+
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command line, without the word `ros2`, and give its exit code. Prints to this process's streams."""
     words = list(sys.argv[1:] if argv is None else argv)
@@ -45,6 +64,8 @@ def main(argv: Sequence[str] | None = None) -> int:
             return 128 + signal.SIGTERM
         if fault := place_fault(error):
             return _finish(fault)
+        import traceback
+
         traceback.print_exc()
         return 1
 
@@ -88,7 +109,7 @@ def _top_parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         "ros2",
         description="ros2 is an extensible command-line tool for ROS 2.",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        formatter_class=HelpFormatter,
     )
     parser.add_argument("--use-python-default-buffering", action="store_true", help="Do not force line buffering.")
     return parser
@@ -110,14 +131,13 @@ def _all_commands(parser: argparse.ArgumentParser) -> argparse._SubParsersAction
 
 def _add(parser: argparse.ArgumentParser, command: Command) -> argparse.ArgumentParser:
     commands = _all_commands(parser)
-    formatter = argparse.RawDescriptionHelpFormatter
-    subparser = commands.add_parser(command.name, description=command.description, formatter_class=formatter)
+    subparser = commands.add_parser(command.name, description=command.description, formatter_class=HelpFormatter)
     command.arguments(subparser)
     if command.verbs:
         verbs = _subparsers(subparser, f"ros2 {command.name}", {each.name: each.description for each in command.verbs})
         for verb in command.verbs:
             leaf = verbs.add_parser(
-                verb.name, description=verb.description, formatter_class=formatter, epilog=verb.epilog
+                verb.name, description=verb.description, formatter_class=HelpFormatter, epilog=verb.epilog
             )
             leaf.set_defaults(_verb=verb, parser=leaf)
             verb.arguments(leaf)

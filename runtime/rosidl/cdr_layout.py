@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import cache
-from typing import Any
+from typing import Any, NamedTuple
 
 from bot_console.runtime.rosidl.definition import Type, parse_type
 from bot_console.runtime.rosidl.slot_types import nested_class
@@ -31,8 +30,7 @@ FILLER = ""
 """Name of the byte by which a structure without fields is sent."""
 
 
-@dataclass(frozen=True)
-class Part:
+class Part(NamedTuple):
     """A field by its path from the outermost message; `owner` is the class that has it."""
 
     path: tuple[str, ...]

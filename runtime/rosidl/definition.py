@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 PRIMITIVES = {
     "bool": "boolean",
@@ -51,8 +51,7 @@ SHAPES = re.compile(r"^(?:sequence<(?P<item>.+?)(?:, (?P<bound>\d+))?>|(?P<fixed
 BOUNDED = re.compile(r"^(w?string)<(\d+)>$")
 
 
-@dataclass(frozen=True)
-class Type:
+class Type(NamedTuple):
     """A field's type: an element type, alone or in a sequence (`bound` 0 is none) or in an array of fixed size.
 
     `item` is a primitive's name or `package/Name`; `limit` is the length a string may have, 0 without one.
@@ -78,8 +77,7 @@ class Type:
         return f"{item}[{self.size}]" if self.size else item
 
 
-@dataclass(frozen=True)
-class Field:
+class Field(NamedTuple):
     """A field with the Python literal of its default; None where the type's own default holds."""
 
     name: str
@@ -87,8 +85,7 @@ class Field:
     default: str | None = None
 
 
-@dataclass(frozen=True)
-class Constant:
+class Constant(NamedTuple):
     """A constant, the Python literal of its value, and its type as definition files write it."""
 
     name: str
@@ -96,8 +93,7 @@ class Constant:
     type: str = ""
 
 
-@dataclass(frozen=True)
-class Definition:
+class Definition(NamedTuple):
     """A message, or one part of a service or action such as `SetBool_Request`."""
 
     name: str
@@ -105,8 +101,7 @@ class Definition:
     constants: Sequence[Constant] = ()
 
 
-@dataclass(frozen=True)
-class Interface:
+class Interface(NamedTuple):
     """An interface: `kind` is msg, srv or action; a service has two parts and an action three."""
 
     package: str

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import io
+import subprocess
+import sys
+
 import pytest
 from ros2cli import main
-from ros2cli.command_line import COMMANDS
+from ros2cli.command_line import COMMANDS, HelpFormatter
 
 
 def test_help_names_all_commands(capsys: pytest.CaptureFixture[str]) -> None:
@@ -36,3 +40,26 @@ def test_the_verbs_need_no_arguments_list(monkeypatch: pytest.MonkeyPatch, capsy
     monkeypatch.setattr("sys.argv", ["ros2", "pkg", "prefix", "no_package"])
     assert main() == 1
     assert capsys.readouterr().err == "Package not found\n"
+
+
+def test_a_short_verb_does_not_import_what_it_rarely_needs() -> None:
+    """`ros2 param set` in a second terminal: each of these would be a twentieth of its processor time, or more."""
+    program = """
+import sys
+from bot_console.runtime.importer import install
+install()
+from ros2cli.command_line import main
+from rclpy.parameter import get_parameter_value
+assert main(["param", "set", "/no_node"]) == 2
+assert get_parameter_value("1.5").double_value == 1.5
+print(*{"numpy", "shutil", "traceback", "yaml"} & {*sys.modules})
+"""
+    shown = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert shown.stdout == "\n"
+
+
+@pytest.mark.parametrize(("told", "width"), [("100", 100), ("0", 80), ("wide", 80)])
+def test_help_is_as_wide_as_the_terminal(told: str, width: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", told)
+    monkeypatch.setattr("sys.__stdout__", io.StringIO())  # no terminal
+    assert HelpFormatter("ros2")._width == width - 2

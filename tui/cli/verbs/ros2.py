@@ -14,12 +14,19 @@ ALONE = ("interface", "pkg")
 
 
 def main(words: Sequence[str]) -> int:
-    """Run a `ros2` command line in this process."""
+    """Run a `ros2` command line in this process, which does nothing else."""
+    import gc
+
     from bot_console.runtime.importer import install
 
+    gc.disable()  # what is imported stays: to look it through again and again is a tenth of a short verb's time
     install()
+    from ros2cli.command_line import load
     from ros2cli.command_line import main as run
 
+    load(words[0] if words else "")
+    gc.freeze()
+    gc.enable()
     return run(words)
 
 

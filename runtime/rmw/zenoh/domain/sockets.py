@@ -12,7 +12,7 @@ import fcntl
 import os
 import re
 import sys
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from bot_console.runtime.process.real import getpid
 from bot_console.runtime.rmw.zenoh.domain.folder import BASE_VARIABLE
@@ -27,8 +27,7 @@ class PathTooLongError(RuntimeError):
     """A socket's path is longer than the system allows."""
 
 
-@dataclass(frozen=True)
-class Socket:
+class Socket(NamedTuple):
     """The socket of a process. `zid` holds the first eight digits of its session's id."""
 
     path: str
