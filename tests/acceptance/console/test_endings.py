@@ -96,7 +96,16 @@ ENDS = {
 CODES = {"q": 0, "ctrl-c": 0, "SIGTERM": 143, "SIGHUP": 129, "SIGINT": 130, "SIGQUIT": 131, "crash": 1}
 
 
-@pytest.mark.parametrize("how", ENDS)
+OFTEN = ("q", "SIGTERM", "crash")
+"""Those that the default run tries; each takes a console of its own."""
+
+
+def some(values, often):
+    """All of them as parameters, those that are not tried often for `-m soak`."""
+    return [pytest.param(each, marks=() if each in often else pytest.mark.soak) for each in values]
+
+
+@pytest.mark.parametrize("how", some(ENDS, OFTEN))
 def test_robot_is_stopped_and_terminal_usable(console, how):
     before = len((console.folder / "received").read_text().splitlines())
     ENDS[how](console)
@@ -106,6 +115,7 @@ def test_robot_is_stopped_and_terminal_usable(console, how):
     assert console.is_usable()
 
 
+@pytest.mark.soak
 def test_a_second_signal_does_not_break_the_end(console):
     console.process.send_signal(signal.SIGTERM)
     os.kill(console.process.pid, signal.SIGHUP)
@@ -120,7 +130,7 @@ def test_a_terminal_that_vanishes_ends_the_console(console):
     assert (console.folder / "received").read_text().splitlines()[-1] == "0.0"
 
 
-@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSEGV, signal.SIGABRT])
+@pytest.mark.parametrize("number", some((signal.SIGKILL, signal.SIGSEGV, signal.SIGABRT), (signal.SIGKILL,)))
 def test_killed_it_leaves_a_usable_terminal_and_no_process(console, number):
     assert console.modes() != console.settings[3], "the console has set it"
     console.process.send_signal(number)

@@ -14,7 +14,7 @@ if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
 
 from processes.live_robot import LiveRobot, live_robot
-from processes.losses import PERSONS, STOPS
+from processes.losses import PERSONS, STOPS, closed_terminal, killed_console, stopped_then_killed
 
 
 @pytest.fixture(scope="module")
@@ -26,6 +26,11 @@ def robot(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveRobot]:
     shutil.rmtree(sockets, ignore_errors=True)
 
 
-@pytest.mark.parametrize("loss", [*PERSONS, STOPS[0], STOPS[1]], ids=lambda each: each.__name__)
+OFTEN = (killed_console, closed_terminal, stopped_then_killed)
+"""Those that the default run tries; each takes consoles of its own."""
+LOSSES = [pytest.param(each, marks=() if each in OFTEN else pytest.mark.soak) for each in (*PERSONS, *STOPS)]
+
+
+@pytest.mark.parametrize("loss", LOSSES, ids=lambda each: each.__name__)
 def test_it_stands_until_a_person_hands_it_back(robot: LiveRobot, loss: Callable[[LiveRobot], float]) -> None:
     loss(robot)

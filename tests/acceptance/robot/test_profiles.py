@@ -1,4 +1,4 @@
-"""The four environments behave as their names say, over several seeds."""
+"""The four environments behave as their names say, over several seeds: a minute of processor time for each seed."""
 
 import re
 import sys
@@ -12,16 +12,16 @@ from headless import PATIENCE, headless
 
 PROFILES = ("indoor", "outdoor", "warehouse", "competition")
 SEEDS = ("1", "2", "3")
-pytestmark = pytest.mark.timeout(len(PROFILES) * len(SEEDS) * PATIENCE)
+pytestmark = [pytest.mark.soak, pytest.mark.timeout(len(PROFILES) * len(SEEDS) * PATIENCE)]
 GUIDE = Path(__file__).resolve().parents[3] / "docs" / "environments.md"
 
 
-@pytest.fixture(scope="module", params=[SEEDS[:1], pytest.param(SEEDS, marks=pytest.mark.soak)], ids=["one", "all"])
-def runs(request, tmp_path_factory):
+@pytest.fixture(scope="module")
+def runs(tmp_path_factory):
     """Reports by profile, one for each seed, of two simulated minutes."""
     folder = tmp_path_factory.mktemp("profiles")
     return {
-        name: [headless(folder, "--profile", name, "--duration", "120", "--seed", seed) for seed in request.param]
+        name: [headless(folder, "--profile", name, "--duration", "120", "--seed", seed) for seed in SEEDS]
         for name in PROFILES
     }
 

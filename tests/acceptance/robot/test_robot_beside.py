@@ -92,8 +92,8 @@ WAITS = "the launch file starts more later, which is waited for, at most 30 s, b
 @pytest.mark.parametrize(
     "bringing",
     [
-        later(5.0, BRINGING),
-        f"OpaqueFunction(function=lambda context: [{later(5.0, BRINGING)}])",
+        pytest.param(later(5.0, BRINGING), marks=pytest.mark.soak),
+        pytest.param(f"OpaqueFunction(function=lambda context: [{later(5.0, BRINGING)}])", marks=pytest.mark.soak),
         later(2.0, later(3.0, f"GroupAction([{BRINGING}])")),
     ],
     ids=["timer", "timer of a function", "timer of a timer"],
@@ -105,6 +105,7 @@ def test_no_two_robots_when_the_launch_brings_one_later(tmp_path, bringing):
     assert log.count(WAITS) == 1
 
 
+@pytest.mark.soak
 def test_what_starts_later_and_is_no_robot_holds_ours_up_for_its_time_only(tmp_path):
     write(tmp_path, "driver", later(4.0, "Node(executable='blind.py')"), later(900.0, "Shutdown()"))
     report = headless(tmp_path, "--duration", "10", "--launch", "mine.launch.py")
