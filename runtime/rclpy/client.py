@@ -10,14 +10,14 @@ from functools import partial
 from typing import Any
 
 from bot_console.runtime.process import current
-from bot_console.runtime.rmw.endpoints import ClientEndpoint, Owner
+from bot_console.runtime.rmw.endpoints import ClientEndpoint
 from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.entity import CLIENT, Entity
+from rclpy.impl.graph_wait import wait_until_there
 from rclpy.impl.reexports import reexporting
 from rclpy.task import Future
 
 NANO = 1_000_000_000
-POLL = NANO // 4
 
 
 class Client(Entity):
@@ -126,26 +126,7 @@ class Client(Entity):
 
     def wait_for_service(self, timeout_sec: float | None = None) -> bool:
         """Block until a server is there; False when time (s) is over or the context was shut down."""
-        clock = current().clock
-        deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * NANO)
-        wakeup = clock.wakeup()
-
-        def woken(owner: Owner) -> None:
-            wakeup.set()
-
-        forget = self._node._ros_bus.on_graph_change(woken)
-        try:
-            while self.context.ok() and not self.service_is_ready():
-                now = clock.steady_ns()
-                if deadline is not None and now >= deadline:
-                    break
-                # The graph wakes this up; the poll is for a shutdown of the context.
-                until = now + POLL
-                wakeup.wait(until if deadline is None else min(until, deadline))
-                wakeup.clear()
-        finally:
-            forget()
-        return self.service_is_ready()
+        return wait_until_there(self._node, self.service_is_ready, timeout_sec)
 
     def configure_introspection(self, clock: Any, service_event_qos_profile: Any, introspection_state: Any) -> None:
         """Publish what the client does on a topic beside the service."""

@@ -1,7 +1,7 @@
 """Keeps a stepped run on one processor: its threads only take turns, and a turn passes 2 to 3 times faster there.
 
-Twice as fast again where the system lets a thread that wakes another one go on to its own wait: the woken one would else
-interrupt it, find the interpreter taken, and sleep again.
+Twice as fast again where the system lets a thread that wakes another one go on to its own wait: the woken one would
+else interrupt it, find the interpreter taken, and sleep again.
 """
 
 from __future__ import annotations

@@ -14,20 +14,18 @@ from typing import Any
 from action_msgs.msg import GoalStatus as GoalStatus  # programs import it from here
 from action_msgs.srv import CancelGoal
 from bot_console.runtime.process import current
-from bot_console.runtime.rmw.endpoints import Owner, own
+from bot_console.runtime.rmw.endpoints import own
 from rclpy.action.client_goal_handle import ClientGoalHandle
 from rclpy.action.endpoints import ClientEndpoints, action_names
 from rclpy.action.entity import ActionEntity, call, take
 from rclpy.action.goal_state import TERMINAL
 from rclpy.action.pending_requests import PendingRequests
+from rclpy.impl.graph_wait import wait_until_there
 from rclpy.impl.reexports import reexporting
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 from rclpy.task import Future
 from rclpy.waitable import NumberOfEntities
 from unique_identifier_msgs.msg import UUID
-
-NANO = 1_000_000_000
-POLL = NANO // 4
 
 
 class ActionClient(ActionEntity):
@@ -187,26 +185,7 @@ class ActionClient(ActionEntity):
 
     def wait_for_server(self, timeout_sec: float | None = None) -> bool:
         """Block until a server is there; False when time (s) is over or the context was shut down."""
-        clock = current().clock
-        deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * NANO)
-        wakeup = clock.wakeup()
-
-        def woken(owner: Owner) -> None:
-            wakeup.set()
-
-        forget = self._node._ros_bus.on_graph_change(woken)
-        try:
-            while self._node.context.ok() and not self.server_is_ready():
-                now = clock.steady_ns()
-                if deadline is not None and now >= deadline:
-                    break
-                # The graph wakes this up; the poll is for a shutdown of the context.
-                until = now + POLL
-                wakeup.wait(until if deadline is None else min(until, deadline))
-                wakeup.clear()
-        finally:
-            forget()
-        return self.server_is_ready()
+        return wait_until_there(self._node, self.server_is_ready, timeout_sec)
 
 
 def _wait(future: Future[Any]) -> Any:

@@ -4,18 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from bot_console.runtime.process import current
 from bot_console.runtime.rmw import names
 from bot_console.runtime.rmw.bus import Bus
 from bot_console.runtime.rmw.endpoints import Endpoint, NodeId, Owner
 from bot_console.runtime.rmw.graph_tables import NamesAndTypes, collect
 from rclpy._rclpy_pybind11 import NodeNameNonExistentError, RCLError
+from rclpy.impl.graph_wait import wait_until_there
 from rclpy.node_parts.topic_names import expand_name, remapped
 
 if TYPE_CHECKING:
     from rclpy.type_hash import TypeHash
-
-NANO = 1_000_000_000
 
 
 class NodeGraph:
@@ -158,19 +156,7 @@ class NodeGraph:
     def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
         """Whether a node is there, or comes within the time (s); a name without a slash is one of the root."""
         full_name = f"/{fully_qualified_node_name.removeprefix('/')}"
-        clock = current().clock
-        deadline = clock.steady_ns() + int(timeout * NANO)
-        wakeup = clock.wakeup()
-        forget = self._ros_bus.on_graph_change(lambda owner: wakeup.set())
-        try:
-            while full_name not in self.get_fully_qualified_node_names():
-                if clock.steady_ns() >= deadline:
-                    return False
-                wakeup.wait(deadline)
-                wakeup.clear()
-            return True
-        finally:
-            forget()
+        return wait_until_there(self, lambda: full_name in self.get_fully_qualified_node_names(), timeout)
 
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
         """A topic's full name, remapped unless told otherwise; raises `RCLError`."""

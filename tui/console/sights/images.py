@@ -11,7 +11,8 @@ import numpy as np
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.sights import pixels
 from bot_console.tui.console.sights.model import COMPRESSED, IMAGE, Picture
-from bot_console.tui.console.topics.offers import offered_qos, types_of
+from bot_console.tui.console.topics.followed import FollowedTopic
+from bot_console.tui.console.topics.offers import Offer
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
@@ -20,17 +21,13 @@ LARGEST = 50_000_000
 NO_PIL = "compressed images need Pillow: pip install 'bot-console[images]'"
 
 
-class ImageWatch:
+class ImageWatch(FollowedTopic):
     """Keeps what came last; it becomes pixels only when somebody looks."""
 
     def __init__(self, node: Node) -> None:
-        self._node = node
-        self._topic = ""
+        super().__init__(node)
         self._size = (0, 0)
-        self._subscription: Any = None
-        self._offer: object = None
         self._newest: tuple[int, Any] = (0, None)
-        self._problem = ""
         self._made: tuple[object, Picture] = (None, Picture())
 
     def look_at(self, topic: str, columns: int, rows: int, graph: GraphInfo) -> None:
@@ -41,30 +38,14 @@ class ImageWatch:
             self._topic, self._newest, self._problem = topic, (0, None), ""
         self.follow(graph)
 
-    def follow(self, graph: GraphInfo) -> None:
-        """The graph is another: the topic may have come only now, or be offered with another QoS."""
-        topic = self._topic
-        types = types_of(graph, topic) if topic else ()
-        if not topic or not types:
-            self._problem = f"there is no topic {topic} now" if topic and self._subscription is None else ""
-            return
-        offer = offered_qos(graph, topic)
-        if self._subscription is not None and self._offer == (types[0], offer.key):
-            return
-        self._let_go()
-        if types[0] not in (IMAGE, COMPRESSED):
-            self._problem = f"{topic} is of type {types[0]}, which is no image"
-            return
-        kind = getattr(importlib.import_module("sensor_msgs.msg"), types[0].rpartition("/")[2])
-        profile = offer.profile()
-        newest = QoSProfile(depth=1, reliability=profile.reliability, durability=profile.durability)
-        self._problem, self._offer = "", (types[0], offer.key)
-        self._subscription = self._node.create_subscription(kind, topic, self._take, newest)
+    def _class(self, kind: str) -> type:
+        if kind not in (IMAGE, COMPRESSED):
+            raise ValueError(f"{self._topic} is of type {kind}, which is no image")
+        return getattr(importlib.import_module("sensor_msgs.msg"), kind.rpartition("/")[2])
 
-    def _let_go(self) -> None:
-        if self._subscription is not None:
-            self._node.destroy_subscription(self._subscription)
-        self._subscription = None
+    def _profile(self, offer: Offer) -> QoSProfile:
+        wide = offer.profile()
+        return QoSProfile(depth=1, reliability=wide.reliability, durability=wide.durability)
 
     def _take(self, message: Any) -> None:
         self._newest = (self._newest[0] + 1, message)

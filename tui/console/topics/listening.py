@@ -7,9 +7,9 @@ from collections.abc import Callable
 from typing import Any
 
 from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.console.topics.followed import FollowedTopic
 from bot_console.tui.console.topics.interfaces import interface
 from bot_console.tui.console.topics.message_tree import tree
-from bot_console.tui.console.topics.offers import offered_qos, types_of
 from bot_console.tui.console.traffic import LiveMessage, Payload
 from rclpy.node import Node
 
@@ -17,19 +17,14 @@ AGES = 10
 """Parts of a second in which an age is told, so that it is not another thing at every look."""
 
 
-class Listening:
+class Listening(FollowedTopic):
     """Keeps what came last; it becomes lines only when somebody looks."""
 
     def __init__(self, node: Node, explain: Callable[[str, str], str]) -> None:
         """`explain` says why a type is not known, or gives the text that stands beside it."""
-        self._node = node
+        super().__init__(node)
         self._explain = explain
-        self._topic = ""
-        self._type = ""
-        self._offer: tuple[bool, bool] | None = None
-        self._subscription: Any = None
         self._newest: tuple[int, Any, float] = (0, None, 0.0)
-        self._problem = ""
         self._live = LiveMessage()
 
     def listen(self, topic: str, graph: GraphInfo) -> None:
@@ -41,29 +36,11 @@ class Listening:
         self._topic = topic
         self.follow(graph)
 
-    def follow(self, graph: GraphInfo) -> None:
-        """The graph is another: the topic may have come only now, or be offered with another QoS."""
-        topic = self._topic
-        types = types_of(graph, topic) if topic else ()
-        if not topic or not types:
-            self._problem = f"there is no topic {topic} now" if topic and self._subscription is None else ""
-            return
-        offer = offered_qos(graph, topic)
-        if self._subscription is not None and (types[0], offer.key) == (self._type, self._offer):
-            return
-        self._let_go()
+    def _class(self, kind: str) -> type:
         try:
-            kind = interface(Payload.MESSAGE, types[0])
+            return interface(Payload.MESSAGE, kind)
         except ValueError as error:
-            self._problem = self._explain(types[0], str(error))
-            return
-        self._problem, self._type, self._offer = "", types[0], offer.key
-        self._subscription = self._node.create_subscription(kind, topic, self._take, offer.profile())
-
-    def _let_go(self) -> None:
-        if self._subscription is not None:
-            self._node.destroy_subscription(self._subscription)
-        self._subscription = None
+            raise ValueError(self._explain(kind, str(error))) from None
 
     def _take(self, message: Any) -> None:
         self._newest = (self._newest[0] + 1, message, time.monotonic())
