@@ -181,12 +181,14 @@ def _element(text: str, quotes: bool, array: Kind) -> bool | int | float | str |
         return text
     if quotes:
         raise ValueError(f"'{_short(text)}' stands in quotes, which makes it a text")
-    value = _scalar(text, ARRAYS[array])
-    if array is not Kind.BYTE_ARRAY:
-        return value
-    if not isinstance(value, int) or not 0 <= value <= 255:
-        raise ValueError(f"'{_short(text)}' is no byte: 0x00 .. 0xff, or 0 .. 255")
-    return bytes([value])
+    return _byte(text) if array is Kind.BYTE_ARRAY else _scalar(text, ARRAYS[array])
+
+
+def _byte(text: str) -> bytes:
+    try:
+        return bytes([int(text, 0)])
+    except ValueError:
+        raise ValueError(f"'{_short(text)}' is no byte: 0x00 .. 0xff, or 0 .. 255") from None
 
 
 def harmless(text: str) -> str:

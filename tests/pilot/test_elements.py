@@ -76,6 +76,11 @@ def test_bytes_and_an_empty_array() -> None:
     async def play(session: Session) -> None:
         assert "empty" in session.text()
         await session.press("enter")
+        assert "new [0] (byte)" in session.text()
+        await session.type("x")
+        await session.press("enter")
+        assert "no byte: 0x00 .. 0xff" in session.text()
+        await session.press("backspace")
         await session.type("255")
         await session.press("enter")
         assert "0xff" in session.text()

@@ -39,7 +39,7 @@ def sent(*numbers: signal.Signals) -> Callable[[Terminal], None]:
 def armed(terminal: Terminal) -> None:
     """`q` while the steering is armed."""
     terminal.type("6")
-    terminal.read_until(lambda: b"disarmed" in terminal.output, "the steering pane")
+    terminal.read_until(lambda: b"cmd_vel_teleop" in terminal.output, "the topic that is steered by")
     terminal.type("\r")
     terminal.read_until(lambda: b"ARMED" in terminal.output, "the armed steering")
     terminal.type("q")
@@ -107,9 +107,9 @@ def main() -> None:
         for number in range(options.ends):
             kind = kinds[number % len(kinds)]
             counts[kind] += 1
-            if wrong := end(kind, folder, base):
-                failed.append(f"{kind}: {wrong}")
-            print(f"{number + 1} of {options.ends}, {kind}, {len(failed)} failed", file=sys.stderr, flush=True)
+            wrong = end(kind, folder, base)
+            failed += [f"{kind}: {wrong}"] if wrong else []
+            print(f"{number + 1} of {options.ends}, {kind}: {wrong or 'clean'}", file=sys.stderr, flush=True)
     finally:
         shutil.rmtree(folder, ignore_errors=True)
         shutil.rmtree(base, ignore_errors=True)

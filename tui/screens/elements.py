@@ -8,7 +8,6 @@ from typing import ClassVar, TypeAlias
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import Kind, Value
-from bot_console.tui.console.parameter_types import ARRAYS
 from bot_console.tui.console.query import Query, parse
 from bot_console.tui.format import counted, element_text, harmless, parse_element
 from bot_console.tui.screens.question import QuestionScreen
@@ -147,7 +146,7 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
             shown.rows_changed()
             shown.cursor = at
 
-        self._ask(f"new [{at}] ({ARRAYS[self._asked.kind].word})", "", put)
+        self._ask(f"new [{at}] ({self._asked.kind.word.removesuffix(' array')})", "", put)
 
     def action_delete(self) -> None:
         """Delete the element at the cursor."""
