@@ -85,6 +85,8 @@ def make_navigator(context):
     chosen = LaunchConfiguration("navigator").perform(context)
     if chosen.lower() in ("false", "0"):
         return []
+    if chosen.lower() not in ("true", "1", "goals") and not chosen.endswith(".py"):
+        raise RuntimeError(f"navigator:={chosen}: take true, false, goals or a Python file")
     program = {"package": PACKAGE, "executable": "navigation_node" if chosen == "goals" else "robot_node"}
     if chosen.endswith(".py"):  # need not be executable
         program = {"executable": chosen, "prefix": "python3", "exec_name": os.path.basename(chosen)}

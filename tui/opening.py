@@ -106,8 +106,15 @@ def _curves(word: str) -> list[str]:
 
 
 def matching(wanted: str, known: Sequence[str]) -> list[str]:
-    """The paths that a word of `rqt_plot` means: itself, or every number of its topic, arrays left out."""
+    """The paths that a word of `rqt_plot` means: itself, or every number below it, arrays left out.
+
+    rqt writes `/odom/twist/twist/linear/x` for what is `/odom/twist.twist.linear.x` here.
+    """
     path = wanted if wanted.startswith("/") else f"/{wanted}"
     if path in known:
         return [path]
-    return [each for each in known if each.startswith(f"{path}/") and not each.endswith(("]", "()"))]
+    slashed = path.replace(".", "/")
+    spelled = [(each.replace(".", "/"), each) for each in known]
+    return [each for theirs, each in spelled if theirs == slashed] or [
+        each for theirs, each in spelled if theirs.startswith(f"{slashed}/") and not each.endswith(("]", "()"))
+    ]

@@ -40,7 +40,7 @@ class Quitting:
                     "Quit without saving?",
                     lambda _: self._app.exit(),
                     given_up=self._go_on,
-                    reasons=f"{lost(snapshot)}\n\nThe robot is held meanwhile. s in the Parameters pane saves them.",
+                    reasons=f"{lost(snapshot)}\n\nThe robot is held meanwhile. s in the Parameters pane saves.",
                 )
             )
         )

@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable, Sequence
+from typing import Any
 
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.terminal.editor import editing
@@ -72,3 +73,30 @@ class Leaving:
         if self._holds:
             self._app.notify("The robot was held meanwhile; ! releases it.")
         self._redraw()
+
+
+def takes_up_again(driver: Any) -> None:
+    """Let a Linux driver of Textual go on after any stop, also one that it heard nothing of (SIGSTOP, a debugger).
+
+    Textual sets the terminal up at each SIGCONT. Where it had not been left before, a second thread would read the
+    keys beside the first one: each takes some of them, and the end waits for ever for the one that got nothing.
+    """
+    set_up = driver.resume_application_mode
+    wanted, at_it = False, False
+
+    def resume() -> None:
+        nonlocal wanted, at_it
+        wanted = True
+        if at_it:  # a SIGCONT in the midst of this one
+            return
+        at_it = True
+        try:
+            while wanted:
+                wanted = False
+                if driver._key_thread is not None and driver._key_thread.is_alive():
+                    driver.suspend_application_mode()
+                set_up()
+        finally:
+            at_it = False
+
+    driver.resume_application_mode = resume

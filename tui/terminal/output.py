@@ -17,6 +17,7 @@ from bot_console.tui.terminal.closing import let_go
 from bot_console.tui.terminal.difference import ShownScreen
 from bot_console.tui.terminal.gate import AnswerGate
 from bot_console.tui.terminal.gone import LastingFile
+from bot_console.tui.terminal.leaving import takes_up_again
 from rich.color import ColorSystem
 from textual import events
 from textual._compositor import ChopsUpdate, LayoutUpdate
@@ -114,6 +115,8 @@ class SparingApp(App[None]):
         # Drivers without a terminal, as for tests, have none.
         if hasattr(driver, "_file"):
             driver._file = LastingFile(driver._file)
+        if hasattr(driver, "_key_thread"):
+            takes_up_again(driver)
         return driver
 
     def _driver_or_none(self) -> Any:

@@ -124,6 +124,17 @@ def test_a_second_signal_does_not_break_the_end(console):
     assert console.is_usable()
 
 
+def test_a_console_that_was_frozen_takes_keys_and_ends(console):
+    for _ in range(3):
+        os.kill(console.process.pid, signal.SIGSTOP)
+        os.waitpid(console.process.pid, os.WUNTRACED)
+        os.kill(console.process.pid, signal.SIGCONT)
+        console.drain(0.5)
+    console.type("q")
+    assert console.wait() == 0
+    assert console.is_usable()
+
+
 def test_a_terminal_that_vanishes_ends_the_console(console):
     console.hang_up()
     assert console.process.wait(PATIENCE) == 129

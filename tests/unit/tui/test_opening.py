@@ -28,6 +28,13 @@ def test_the_colon_of_rqt_plot_names_further_fields_and_a_relative_topic_is_one(
     assert matching("robot/speed", known) == ["/robot/speed/data"]
 
 
+def test_rqt_writes_the_fields_of_fields_with_slashes() -> None:
+    known = ["/odom/twist.twist.linear.x", "/odom/twist.twist.linear.y", "/odom/twist.covariance[0]"]
+    for wanted in ("/odom/twist/twist/linear/x", "odom/twist.twist.linear.x"):
+        assert matching(wanted, known) == known[:1]
+    assert matching("/odom/twist/twist/linear", known) == matching("/odom/twist", known) == known[:2]
+
+
 @pytest.mark.parametrize("line", ["rqt_reconfigure /arm", "ros2 run rqt_reconfigure rqt_reconfigure arm"])
 def test_a_node_is_chosen(line: str) -> None:
     assert opening(line) == Opening("parameters", node="/arm")

@@ -60,6 +60,17 @@ def test_each_profile_is_there_once(tmp_path: Path) -> None:
     assert "| parameter | competition | indoor | outdoor | warehouse |" in readme and "config |" not in readme
 
 
+def test_a_word_that_is_no_navigator_is_refused_and_not_taken_for_ours(tmp_path: Path) -> None:
+    run([str(tmp_path)])
+    description = get_launch_description_from_python_launch_file(str(tmp_path / NAME / "launch/robot_system.launch.py"))
+    context = LaunchContext()
+    context.launch_configurations["navigator"] = "mine"
+    with pytest.raises(RuntimeError, match="navigator:=mine: take true, false, goals or a Python file"):
+        for entity in description.entities:
+            if not isinstance(entity, Node):
+                entity.execute(context)
+
+
 @pytest.mark.parametrize(
     ("launch_file", "words"),
     [("robot_system.launch.py", {"navigator": "my_node.py"}), ("program.launch.py", {"program": "my_node.py"})],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -9,7 +10,7 @@ from typing import Any
 
 import pytest
 from bot_console.tui.terminal.editor import editing
-from bot_console.tui.terminal.leaving import ASLEEP, LOOK, PATIENCE, Leaving
+from bot_console.tui.terminal.leaving import ASLEEP, LOOK, PATIENCE, Leaving, takes_up_again
 from fakes.console import FakeConsole
 from samples import live
 
@@ -101,3 +102,39 @@ def test_who_may_not_release_the_robot_does_not_hold_it() -> None:
     away, shell = leaving(console, holds=False)
     away.sleep()
     assert shell.done == ["asleep", "redraw"] and not [each for each in console.asked if each[0] == "all_stop"]
+
+
+class Driver:
+    """Stands for Textual's driver: keeps what was done, in order."""
+
+    def __init__(self) -> None:
+        self.done: list[str] = []
+        self._key_thread: Any = None
+        self.then: Callable[[], object] = lambda: None
+
+    def suspend_application_mode(self) -> None:
+        self.done.append("left")
+        self._key_thread = None
+
+    def resume_application_mode(self) -> None:
+        self.done.append("set up")
+        self._key_thread = threading.current_thread()
+        then, self.then = self.then, lambda: None
+        then()
+
+
+def test_a_terminal_that_was_not_left_is_left_before_it_is_set_up_again() -> None:
+    driver = Driver()
+    takes_up_again(driver)
+    driver.resume_application_mode()
+    assert driver.done == ["set up"]
+    driver.resume_application_mode()
+    assert driver.done == ["set up", "left", "set up"]
+
+
+def test_going_on_twice_at_once_is_one_after_the_other() -> None:
+    driver = Driver()
+    takes_up_again(driver)
+    driver.then = driver.resume_application_mode
+    driver.resume_application_mode()
+    assert driver.done == ["set up", "left", "set up"]
