@@ -56,6 +56,7 @@ class TestRun:
                 _raised("Processes under test stopped before tests completed"),
             )
             return
+        setattr(result, "_previousTestClass", None)  # noqa: B010 -- else unittest tears its last class down a second time
         after.run(result)
 
     def _describe(self, ready: Any) -> tuple[LaunchDescription, dict[str, Any]]:

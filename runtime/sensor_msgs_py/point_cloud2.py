@@ -129,9 +129,15 @@ def create_cloud(
     step: int | None = None,
     point_step: int | None = None,
 ) -> PointCloud2:
-    """A cloud of points given as rows of an array, a list of tuples, or a structured array."""
+    """A cloud of points given as rows of an array, a list of tuples, or a structured array.
+
+    A point takes `step` (bytes); without it as many as in a structured array, else what its fields need.
+    """
     fields = list(fields)
-    dtype = dtype_from_fields(fields, step or point_step)
+    step = step or point_step
+    if step is None and isinstance(points, np.ndarray) and points.dtype.names is not None:
+        step = points.dtype.itemsize
+    dtype = dtype_from_fields(fields, step)
     points = _structured(points, dtype)
     assert points.dtype == dtype, (
         "PointFields and structured NumPy array dtype do not match for all fields! "

@@ -41,6 +41,16 @@ def generate_test_description():
     return described(), {'answer': 42}
 
 class TestGreeter(unittest.TestCase):
+    made = []
+
+    @classmethod
+    def setUpClass(cls):
+        cls.made.append('fixture')
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.made.remove('fixture')
+
     def test_it_says_hello(self, proc_output, answer):
         proc_output.assertWaitFor('hello', timeout=30, stream='stdout')
         assert answer == 42

@@ -56,3 +56,11 @@ def test_padded_points_other_byte_order_and_vectors() -> None:
     cloud.data = data.tobytes()
     assert point_cloud2.read_points(cloud).tolist() == [(1.0, 2.0), (3.0, 4.0)]
     assert point_cloud2.dtype_from_fields([field]).names == ("v_0", "v_1")
+
+
+def test_a_structured_array_keeps_its_size() -> None:
+    fields = [PointField(name="x", offset=0, datatype=PointField.FLOAT32, count=1)]
+    padded = np.zeros(2, np.dtype({"names": ["x"], "formats": ["f4"], "offsets": [0], "itemsize": 20}))
+    assert point_cloud2.create_cloud(Header(), fields, padded).point_step == 20
+    with pytest.raises(AssertionError, match="do not match"):
+        point_cloud2.create_cloud(Header(), fields, padded, 4)
