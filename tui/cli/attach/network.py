@@ -37,13 +37,14 @@ def run_network(options: AttachOptions) -> int:
         print(error, file=sys.stderr)
         return 1
     choose(options.look.workspace)
-    from bot_console.tui.cli.live.session import graph_events
+    from bot_console.tui.cli.live.session import frozen_nodes, graph_events
 
     console = RosConsole(
         capabilities=CAPABILITIES,
         graph_events=graph_events,
         link=LinkWords(buses).info,
         foreign=True,
+        frozen=frozen_nodes,
         types=DomainTypes(),
     )
     said = [(Severity.INFO, SAID.format(options.way, domain()))]

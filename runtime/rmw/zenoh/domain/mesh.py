@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 from collections.abc import Callable, Generator, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
 from bot_console.runtime.rmw.zenoh.domain.joining import folder_lock
@@ -12,6 +13,9 @@ from bot_console.runtime.rmw.zenoh.domain.sockets import live_sockets, own_socke
 from bot_console.runtime.rmw.zenoh.session import ATTENDANCE, Session, SessionError
 from bot_console.runtime.rmw.zenoh.settings import Serving, session_settings
 from bot_console.runtime.rmw.zenoh.watch import Watch
+
+if TYPE_CHECKING:
+    from bot_console.runtime.rmw.zenoh.network.stopped import StoppedTokens
 
 
 class MeshSession(Session):
@@ -22,6 +26,7 @@ class MeshSession(Session):
         super().__init__(domain)
         self._serving = serving
         self._watch: Watch | None = None
+        self._tokens: StoppedTokens | None = None
         with self._door() as folder:
             self._join(folder)
         self.declare_token(ATTENDANCE + self.zid[:8])
@@ -45,6 +50,10 @@ class MeshSession(Session):
     def watch(self) -> None:
         """Look after the session's place in the mesh for as long as it is open; not for short-lived programs."""
         self._watch = self._watch or Watch(self)
+        if self._serving and not self._tokens:
+            from bot_console.runtime.rmw.zenoh.network.stopped import StoppedTokens
+
+            self._tokens = StoppedTokens(self, self.stopped)
 
     def rejoin(self, needed: Callable[[str], bool]) -> None:
         """Open the session anew where that is `needed` (asked with the folder's lock held), and declare all again."""
@@ -69,16 +78,19 @@ class MeshSession(Session):
 
     def close(self) -> None:
         """Leave the mesh; what was declared is gone. A second time does nothing."""
-        if self._watch:
-            self._watch.end()
+        self._look_no_more()
         super().close()
         self.socket.remove()
 
     def leave(self) -> None:
         """Take the socket out of the folder, for a process that ends at once and does not wait for `close`."""
-        if self._watch:
-            self._watch.end()
+        self._look_no_more()
         self.socket.remove()
+
+    def _look_no_more(self) -> None:
+        for each in (self._watch, self._tokens):
+            if each:
+                each.end()
 
 
 def open_session(domain: int) -> MeshSession:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
 from bot_console.runtime.rmw.zenoh.link_probe import LinkProbe, LinkState
 from bot_console.runtime.rmw.zenoh.network.reach import Tls, why_unreachable
+from bot_console.runtime.rmw.zenoh.network.stopped import StoppedBehind
 from bot_console.runtime.rmw.zenoh.session import ATTENDANCE, Session, SessionError, SettingsError
 
 CONFIG_VARIABLE = "ZENOH_SESSION_CONFIG_URI"
@@ -86,10 +88,16 @@ class NetworkSession(Session):
             raise SessionError(why_unreachable(way.endpoints, way.tls) or str(error)) from None
         self.declare_token(ATTENDANCE + self.zid[:8])
         self._probe: LinkProbe | None = None
+        self._stopped: StoppedBehind | None = None
 
     def watch(self) -> None:
-        """Ask the router again and again whether the link is alive."""
+        """Ask the router again and again whether the link is alive, and look which processes it shows as frozen."""
         self._probe = self._probe or LinkProbe(self.is_answered, str(self.way))
+        self._stopped = self._stopped or StoppedBehind(self)
+
+    def stopped(self) -> Mapping[str, int]:
+        """The frozen processes behind the router, where it is one of ours; nothing is known while nobody watches."""
+        return self._stopped.now() if self._stopped else {}
 
     @property
     def link(self) -> LinkState:

@@ -1,0 +1,67 @@
+"""Which processes behind a router are frozen: it shows a token for each, and its clients look at them.
+
+Zenoh itself takes a frozen process for alive until its lease is over, and a client cannot read the states of processes
+of another machine.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping
+
+from bot_console.runtime.rmw.zenoh.session import Declared, Session
+
+TOKEN = "@bot_console_stopped/"
+"""Begin of such a token; the begin of the session's id and the process's id follow."""
+PERIOD = 0.25
+"""Seconds between two looks."""
+
+
+class StoppedTokens:
+    """Shows the frozen processes of a router's mesh, in a thread of its own until `end`."""
+
+    def __init__(self, session: Session, stopped: Callable[[], Mapping[str, int]]) -> None:
+        self._session = session
+        self._stopped = stopped
+        self._shown: dict[tuple[str, int], Declared] = {}
+        self._ended = threading.Event()
+        threading.Thread(target=self._run, name="stopped-tokens", daemon=True).start()
+
+    def end(self) -> None:
+        """Look no more."""
+        self._ended.set()
+
+    def _run(self) -> None:
+        while not self._ended.wait(PERIOD):
+            try:
+                self.look()
+            except (OSError, RuntimeError):  # the folder is refused for now, or the session is being closed
+                continue
+
+    def look(self) -> None:
+        """Show those that are frozen now, and no others."""
+        now = set(self._stopped().items())
+        for each in self._shown.keys() - now:
+            self._shown.pop(each).undeclare()
+        for zid, pid in now - self._shown.keys():
+            self._shown[zid, pid] = self._session.declare_token(f"{TOKEN}{zid}/{pid}")
+
+
+class StoppedBehind:
+    """Knows which processes a router shows as frozen."""
+
+    def __init__(self, session: Session) -> None:
+        self._found: dict[str, int] = {}
+        session.watch_tokens(f"{TOKEN}*/*", self._seen)
+
+    def _seen(self, key: str, came: bool) -> None:
+        """Take a token in; a name that is none of ours comes from another program and says nothing."""
+        zid, _, pid = key.removeprefix(TOKEN).partition("/")
+        if came and pid.isascii() and pid.isdecimal():
+            self._found[zid] = int(pid)
+        elif not came:
+            self._found.pop(zid, None)
+
+    def now(self) -> Mapping[str, int]:
+        """The first eight digits of their sessions' ids, and their pids; from any thread."""
+        return self._found.copy()
