@@ -55,6 +55,8 @@ def load(arguments: argparse.Namespace) -> Result:
             values = parameter_dict_from_yaml_file(arguments.parameter_file, not arguments.no_use_wildcard)
         except RuntimeError as error:
             return str(error)
+        except OSError as error:  # of which upstream shows the traceback
+            return f"{arguments.parameter_file}: {error.strerror or error}"
         parameters = list(values.values())
         request = SetParameters.Request(parameters=parameters)
         results = call(node, SetParameters, f"{absolute(arguments.node_name)}/set_parameters", request).results

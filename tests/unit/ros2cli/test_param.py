@@ -146,6 +146,8 @@ def test_load_with_wildcard(ros, tmp_path: Path) -> None:
     assert ros.ask("param", "load", "/tuned", str(file)).stdout == "Set parameter gain successful\n"
     without = ros.ask("param", "load", "/tuned", str(file), "--no-use-wildcard")
     assert (without.exit, without.stderr) == (1, "Param file does not contain selected parameters\n")
+    nowhere = ros.ask("param", "load", "/tuned", str(tmp_path / "none.yaml"))
+    assert (nowhere.exit, nowhere.stderr) == (1, f"{tmp_path}/none.yaml: No such file or directory\n")
 
 
 @pytest.mark.parametrize("verb", [["get"], ["describe"], ["delete"], ["set", "x"]])
