@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from bot_console.runtime.rmw.zenoh.apart import WAITING, Taking, take_apart
 from bot_console.runtime.rmw.zenoh.domain.sockets import Socket
+from bot_console.runtime.rmw.zenoh.keeping_publisher import KeepingPublisher
 
 if TYPE_CHECKING:
     import zenoh
@@ -200,22 +201,13 @@ class Session:
             "priority": zenoh.Priority.DATA_LOW if patient else zenoh.Priority.DATA,
             "allowed_destination": zenoh.Locality.REMOTE,
         }
-        ext = zenoh.ext
 
         def declare(session: zenoh.Session) -> Any:
             if not cache:
                 return session.declare_publisher(key, **quality)
             # The heartbeat overtakes what a patient one has still to send: it would be taken for lost, and the last
             # samples fetched from the cache before those in between have come.
-            misses = reliable and not patient
-            heartbeat = ext.MissDetectionConfig(heartbeat=None, sporadic_heartbeat=0.5) if misses else None
-            return ext.declare_advanced_publisher(
-                *(session, key),
-                **quality,
-                cache=ext.CacheConfig(cache),
-                sample_miss_detection=heartbeat,
-                publisher_detection=True,
-            )
+            return KeepingPublisher(zenoh.ext, session, key, quality, cache, misses=reliable and not patient)
 
         return self._declare(Publisher(self, declare))
 
