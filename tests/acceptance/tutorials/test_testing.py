@@ -1,0 +1,81 @@
+"""A launch test as the tutorial of testing builds it up: nodes beside it, their messages, lines and exit codes."""
+
+from __future__ import annotations
+
+import unittest
+from pathlib import Path
+
+import pytest
+from launch_testing.launch_test import load
+from launch_testing.test_run import test_runs as runs_of
+
+LAUNCH_TEST = """
+import time
+import unittest
+
+import launch_testing
+import launch_testing.actions
+import pytest
+import rclpy
+from launch import LaunchDescription
+from launch_ros.actions import Node
+from launch_testing_ros import WaitForTopics
+from std_msgs.msg import String
+
+
+@pytest.mark.launch_test
+@launch_testing.parametrize("topic", ["chatter", "news"])
+def generate_test_description(topic):
+    renamed = [("chatter", topic)]
+    talker = Node(package="demo_nodes_py", executable="talker", remappings=renamed)
+    listener = Node(package="demo_nodes_py", executable="listener", remappings=renamed)
+    found = {"talker": talker, "listener": listener}
+    return LaunchDescription([talker, listener, launch_testing.actions.ReadyToTest()]), found
+
+
+class TestWhileTheyRun(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rclpy.init()
+
+    @classmethod
+    def tearDownClass(cls):
+        rclpy.shutdown()
+
+    def setUp(self):
+        self.node = rclpy.create_node("test_talker")
+
+    def tearDown(self):
+        self.node.destroy_node()
+
+    def test_it_talks(self, topic):
+        heard = []
+        self.node.create_subscription(String, topic, lambda message: heard.append(message.data), 10)
+        until = time.time() + 30
+        while not heard and time.time() < until:
+            rclpy.spin_once(self.node, timeout_sec=0.1)
+        self.assertIn("Hello World", heard[0])
+
+    def test_the_topic_is_there(self, topic):
+        with WaitForTopics([(topic, String)], timeout=30.0) as waiting:
+            self.assertEqual(waiting.topics_received(), {topic})
+
+    def test_the_listener_says_what_it_heard(self, proc_output, listener):
+        proc_output.assertWaitFor("I heard: [Hello World", process=listener, timeout=30, stream="stderr")
+
+
+@launch_testing.post_shutdown_test()
+class TestAfterwards(unittest.TestCase):
+    def test_they_ended_as_they_were_asked(self, proc_info):
+        launch_testing.asserts.assertExitCodes(proc_info)
+"""
+
+
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnknownMarkWarning")
+def test_nodes_under_test(tmp_path: Path) -> None:
+    path = tmp_path / "test_talker.py"
+    path.write_text(LAUNCH_TEST)
+    result = unittest.TestResult()
+    for each in runs_of(load(path)):
+        each.run({}, result)
+    assert (result.failures, result.errors, result.testsRun) == ([], [], 8)
