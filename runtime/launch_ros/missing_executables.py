@@ -36,7 +36,8 @@ def may_start(context: LaunchContext, action: Any, package: str | None) -> bool:
         perform_substitutions(context, action.process_description.cmd[0])
     except (PackageNotFoundError, SubstitutionFailure) as error:
         what = str(error).strip().strip('"')
-        brings = _what_it_has(package or "") or what_brings(package or "")
+        has = _what_it_has(package or "")
+        brings = has or what_brings(package or "")
         if _allowed(context):
             logger.warning(f"left out a node: {what}. {brings}")
             executable = perform_substitutions(context, normalize_to_list_of_substitutions(action.node_executable))
@@ -44,10 +45,13 @@ def may_start(context: LaunchContext, action: Any, package: str | None) -> bool:
             event = NodeMissing(action=action, package=package or "", executable=executable, reason=reason)
             context.emit_event_sync(event)
             return False
-        logger.warning(
-            f"a node of package '{package}' cannot run here. {brings} Leave out what is missing with --allow-missing, "
-            "or run this launch file on a machine where the package is installed"
-        )
+        if has:
+            logger.warning(f"{has} --allow-missing leaves out what is missing")
+        else:
+            logger.warning(
+                f"a node of package '{package}' cannot run here. {brings} Leave out what is missing with "
+                "--allow-missing, or run this launch file on a machine where the package is installed"
+            )
         raise
     return True
 

@@ -240,6 +240,10 @@ def test_a_missing_executable_of_a_package_that_has_others(log_lines: list[str])
     service.include_launch_description(LaunchDescription([Node(package="turtlesim", executable="turtle")]))
     assert service.run() == 0
     assert "turtlesim has: draw_square, mimic, turtle_teleop_key, turtlesim_node." in "\n".join(log_lines)
+    service = LaunchService(noninteractive=True)
+    service.include_launch_description(LaunchDescription([Node(package="turtlesim", executable="turtle")]))
+    assert service.run() == 1
+    assert "turtlesim_node. --allow-missing leaves out what is missing" in "\n".join(log_lines)
 
 
 def test_where_nodes_log(run: Launch, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
