@@ -8,9 +8,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from bot_console_robot.simulation.arrays import Floats, table
 from bot_console_robot.simulation.collisions import CollisionLog
+from bot_console_robot.simulation.figures.metrics import Metrics
 from bot_console_robot.simulation.geometry import Pose
 from bot_console_robot.simulation.lidar import Lidar, LidarSettings, Scan, Surfaces
-from bot_console_robot.simulation.metrics import Metrics
 from bot_console_robot.simulation.moving import MovingObstacle
 from bot_console_robot.simulation.odometry import Odometry, OdometryNoise
 from bot_console_robot.simulation.robot import DifferentialDrive, DriveLimits

@@ -14,7 +14,7 @@ PATIENCE = 120.0
 
 
 def command(words: list[str], folder: Path, **options: object) -> subprocess.CompletedProcess[str]:
-    program = [sys.executable, "-c", "from bot_console.tui.cli import program; program()", *words]
+    program = [sys.executable, "-c", "from bot_console.tui.cli.main import program; program()", *words]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), **options.pop("env", {})}
     return subprocess.run(
         program,
@@ -54,7 +54,7 @@ def test_nobody_who_reads_on_is_no_fault(tmp_path: Path) -> None:
 def test_a_folder_that_was_deleted_is_told(words: list[str], tmp_path: Path) -> None:
     there = tmp_path / "gone"
     there.mkdir()
-    program = "import os, sys; os.rmdir(os.getcwd()); from bot_console.tui.cli import program; program()"
+    program = "import os, sys; os.rmdir(os.getcwd()); from bot_console.tui.cli.main import program; program()"
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(each for each in sys.path if each)}
     done = subprocess.run(
         [sys.executable, "-c", program, *words], cwd=there, env=environment, capture_output=True, text=True,

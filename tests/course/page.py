@@ -117,7 +117,7 @@ class Page:
 
     def bot_console(self, *words: str) -> Program:
         """Run `bot-console ...` to its end."""
-        from bot_console.tui.cli import main
+        from bot_console.tui.cli.main import main
 
         return self._system.finish(
             self._system.start("bot-console", lambda: sys.exit(main(words)), ["bot-console", *words])

@@ -9,9 +9,9 @@ import shlex
 from pathlib import Path
 
 from bot_console.runtime.ros2cli.command_line import _add, _top_parser, load
-from bot_console.tui import cli
 from bot_console.tui.cli import arguments
-from bot_console.tui.cli.tune import command_line
+from bot_console.tui.cli import main as program
+from bot_console.tui.cli.tune import run as tune
 from bot_console.tui.cli.verbs import bag, ros2
 from bot_console.tui.cli.verbs import run as console_run
 from launch.launch_description_sources import get_launch_description_from_any_launch_file
@@ -87,15 +87,15 @@ def _console(words: list[str]) -> str:
     if name == "ros2":
         return _console(words[1:])
     if name == "tune":
-        command_line.command_parser().parse_args(words[1:])
+        tune.command_parser().parse_args(words[1:])
         return ""
     if name == "colcon":
         return ""
     if name == "setup":
         return "" if set("|".join(words[1:]).split("|")) <= {"bash", "zsh", "fish"} else "is no shell"
     if name in OWN:
-        return "" if name in cli._COMMANDS else f"there is no command {name}"
-    if name in ros2.VERBS or name in cli._COMMANDS:
+        return "" if name in program._COMMANDS else f"there is no command {name}"
+    if name in ros2.VERBS or name in program._COMMANDS:
         return _ros2(words)
     given = arguments.parse(words)
     return "" if given.launch else _undeclared(SYSTEM, given.launch_arguments)

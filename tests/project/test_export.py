@@ -7,7 +7,7 @@ import xml.etree.ElementTree as ElementTree
 import pytest
 from bot_console.runtime.workspace.exporting import NAME, export, imported
 from bot_console.runtime.workspace.package import read_package
-from bot_console.tui.cli import main
+from bot_console.tui.cli.main import main
 
 ROS = {
     *("rclpy", "launch", "launch_ros", "ament_index_python", "builtin_interfaces", "diagnostic_msgs", "geometry_msgs"),

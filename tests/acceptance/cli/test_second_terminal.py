@@ -14,7 +14,7 @@ import pytest
 from helpers.cli_records import COURSE, Row, filled, normal, rows, usage_of_other_interpreter
 from helpers.processes.mesh import eventually
 
-PROGRAM = "from bot_console.tui.cli import program; program()"
+PROGRAM = "from bot_console.tui.cli.main import program; program()"
 ENDLESS = 30.0
 """Seconds after which a command that ends by itself counts as hanging."""
 

@@ -49,7 +49,7 @@ CRASH = """
 import os
 import sys
 from pathlib import Path
-from bot_console.tui import cli
+from bot_console.tui.cli.main import main
 from bot_console.tui.app import BotConsoleApp
 
 pull = BotConsoleApp.pull
@@ -65,7 +65,7 @@ def crash(self):
     pull(self)
 
 BotConsoleApp.pull = crash
-sys.exit(cli.main(sys.argv[1:]))
+sys.exit(main(sys.argv[1:]))
 """
 
 

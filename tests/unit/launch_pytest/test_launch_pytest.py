@@ -122,7 +122,7 @@ def test_never():
 def _run(folder: Path, text: str, *options: str) -> subprocess.CompletedProcess[str]:
     (folder / "test_it.py").write_text(HEAD + text)
     words = ["test", "-p", "no:cacheprovider", "-q", *options, "test_it.py"]
-    program = f"import sys; from bot_console.tui.cli import main; sys.exit(main({words!r}))"
+    program = f"import sys; from bot_console.tui.cli.main import main; sys.exit(main({words!r}))"
     command = [sys.executable, "-c", program]
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=120, check=False)
 

@@ -141,7 +141,7 @@ def test_under_pytest_and_alone(tmp_path: Path, text: str, code: int) -> None:
     path = write(tmp_path, text)
     for words in (["test", "-q", "-p", "no:cacheprovider", str(path)], ["launch_test", str(path)]):
         ended = subprocess.run(
-            [sys.executable, "-c", f"import sys; from bot_console.tui.cli import main; sys.exit(main({words!r}))"],
+            [sys.executable, "-c", f"import sys; from bot_console.tui.cli.main import main; sys.exit(main({words!r}))"],
             cwd=tmp_path, capture_output=True, text=True, check=False,
         )  # fmt: skip
         assert ended.returncode == code, ended.stdout + ended.stderr

@@ -1,7 +1,7 @@
 import math
 
 import pytest
-from bot_console_robot.simulation.metrics import Metrics
+from bot_console_robot.simulation.figures.metrics import Metrics
 
 
 def run(speeds: list[float], clearance: float = 1.0) -> Metrics:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from bot_console.tui.cli.attach.command_line import MachineCommandLine
 from bot_console.tui.cli.attach.launchers import HostLaunchers
 from bot_console.tui.cli.attach.options import AttachOptions
+from bot_console.tui.cli.attach.ros2_command_line import MachineCommandLine
 from bot_console.tui.cli.attach.session import AttachedSession
 from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import Capabilities, LaunchInfo, Severity

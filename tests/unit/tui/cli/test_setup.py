@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
-from bot_console.tui.cli import main
+from bot_console.tui.cli.main import main
 from bot_console.tui.cli.verbs import setup
 
 SHELLS = [each for each in ("bash", "zsh", "fish") if shutil.which(each)]
@@ -23,7 +23,7 @@ def home(tmp_path: Path) -> Path:
     program = tmp_path / "bin" / "bot-console"
     program.parent.mkdir()
     program.write_text(
-        f"#!{sys.executable}\nimport sys\nfrom bot_console.tui.cli import main\nsys.exit(main())\n", "utf-8"
+        f"#!{sys.executable}\nimport sys\nfrom bot_console.tui.cli.main import main\nsys.exit(main())\n", "utf-8"
     )
     program.chmod(0o755)
     return tmp_path

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 from bot_console.runtime.terse import told
-from bot_console.tui.cli import main, show
+from bot_console.tui.cli import show
 from bot_console.tui.cli.arguments import parse
+from bot_console.tui.cli.main import main
 from bot_console.tui.cli.verbs import background
 from bot_console.tui.files.folders import OVERRIDE
 

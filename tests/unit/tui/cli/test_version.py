@@ -11,7 +11,7 @@ PROGRAM = """
 import json, sys
 import __future__, collections.abc, re, typing  # what the script that pip writes brings along, at most
 before = set(sys.modules)
-from bot_console.tui.cli import main
+from bot_console.tui.cli.main import main
 code = main(["--version"])
 print(json.dumps([code, sorted(each for each in set(sys.modules) - before if not each.startswith("bot_console"))]))
 """

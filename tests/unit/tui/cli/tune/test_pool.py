@@ -7,7 +7,7 @@ import os
 from collections.abc import Generator
 
 import pytest
-from bot_console.tui.cli import main
+from bot_console.tui.cli.main import main
 from bot_console.tui.cli.tune.describing import dials_of
 from bot_console.tui.cli.tune.pool import CAN_FORK, Pool, profile_text
 from bot_console.tui.tuning.question import Question, Trial

@@ -7,7 +7,7 @@ from argparse import Namespace
 from pathlib import Path
 
 import pytest
-from bot_console.tui.cli.tune import command_line
+from bot_console.tui.cli.tune import run as tune
 from bot_console.tui.cli.tune.describing import line_of, result_of
 from bot_console.tui.tuning.dial import Dial
 from bot_console.tui.tuning.question import Question
@@ -34,9 +34,9 @@ BUMPED = Judged((4.0,), -1.0, (-1.0, -1.0), 3)
 def test_wrong_usage_ends_before_anything_runs(
     words: list[str], why: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(command_line, "Pool", None)
+    monkeypatch.setattr(tune, "Pool", None)
     with pytest.raises(SystemExit) as ended:
-        command_line.run(words)
+        tune.run(words)
     assert ended.value.code == 2
     assert why in capsys.readouterr().err
 
@@ -65,7 +65,7 @@ def test_the_best_is_saved_as_a_profile_with_the_comments_of_the_one_that_was_tu
 ) -> None:
     monkeypatch.setenv("BOT_CONSOLE_USER_DIR", str(tmp_path))
     progress = Progress((NOW, BEST), 9, 9, 3.0, 9, (NOW, BEST), True)
-    assert command_line._told(QUESTION, progress, Namespace(json=False, save=name)) == code
+    assert tune._told(QUESTION, progress, Namespace(json=False, save=name)) == code
     said = capsys.readouterr().err
     if code:
         assert "is no name for a profile" in said
@@ -78,4 +78,4 @@ def test_the_best_is_saved_as_a_profile_with_the_comments_of_the_one_that_was_tu
 
 @pytest.mark.parametrize("progress", [Progress((WORST,), ended=True, problem="every setting failed"), Progress()])
 def test_without_a_result_the_exit_code_says_so(progress: Progress) -> None:
-    assert command_line._told(QUESTION, progress, Namespace(json=True, save="")) == 1
+    assert tune._told(QUESTION, progress, Namespace(json=True, save="")) == 1

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import hashlib
 import math
-import struct
+
+from bot_console_robot.simulation.figures.digest import PoseDigest
 
 MOVING = 0.05
 """A speed in m/s from which the robot drives."""
 STANDING = 0.02
 """A speed in m/s below which it stands; turning in place is standing."""
-
-_POSE = struct.Struct("<3d")
 
 
 class Metrics:
@@ -19,7 +17,7 @@ class Metrics:
 
     def __init__(self, dt: float) -> None:
         self._dt = dt
-        self._digest = hashlib.blake2b(digest_size=16)
+        self._digest = PoseDigest()
         self._driving = False
         self._standing_since = 0
         self.steps = 0
@@ -31,7 +29,7 @@ class Metrics:
     def update(self, x: float, y: float, heading: float, speed: float, clearance: float) -> None:
         """Take the true state after a step: m, m, rad, m/s, and m from the hull to the nearest thing."""
         self.steps += 1
-        self._digest.update(_POSE.pack(x, y, heading))
+        self._digest.add(x, y, heading)
         speed = abs(speed)
         self.distance += speed * self._dt
         self.min_clearance = min(self.min_clearance, clearance)
@@ -63,7 +61,7 @@ class Metrics:
     @property
     def digest(self) -> str:
         """A hash of every pose of the run, bit by bit."""
-        return self._digest.hexdigest()
+        return self._digest.hex
 
     def report(self) -> dict[str, float | int | str | None]:
         """The figures by name, ready for JSON; `min_clearance` is None while nothing was near."""
