@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
 
-from bot_console.tui.console.model import Profile, SetOutcome
+from bot_console.tui.console.model import Endpoint, Profile, SetOutcome
+from bot_console.tui.console.protocol import Answer
 from bot_console.tui.panes.profiles.pane import ProfilesPane
 from bot_console.tui.panes.profiles.rows import ProfileRows
 from bot_console.tui.screens.confirm import ConfirmScreen
+from fakes.console import done
 from piloting import Session, run
 from samples import differences, empty, live
 
@@ -76,8 +80,6 @@ def test_a_profile_that_cannot_be_read_says_how_to_mend_it() -> None:
 
 def test_an_error_while_applying_is_shown_where_it_was_made() -> None:
     async def play(session: Session) -> None:
-        from concurrent.futures import Future
-
         failed: Future[tuple[object, ...]] = Future()
         failed.set_exception(RuntimeError("the node /robot_navigator does not answer"))
         session.console.differences["competition"] = (HARMLESS,)
@@ -90,8 +92,6 @@ def test_an_error_while_applying_is_shown_where_it_was_made() -> None:
 
 def test_the_list_stays_while_its_values_change() -> None:
     async def play(session: Session) -> None:
-        from concurrent.futures import Future
-
         slow: Future[tuple[object, ...]] = Future()
         session.console.differences["competition"] = (HARMLESS,)
         session.console.apply_profile = lambda name, reset_world=False: slow  # type: ignore[assignment]
@@ -233,3 +233,41 @@ def test_an_address_is_fetched_and_then_seen_before_it_is_applied(tmp_path) -> N
         assert applied(session) == []
 
     run(live(), play)
+
+
+def test_presets_that_a_node_keeps_are_applied_saved_and_deleted() -> None:
+    console, *rest = live()
+    kept = {"careful": "slow and gentle"}
+    offered = [("list", "std_srvs/srv/Trigger")]
+    offered += [(verb, "diagnostic_msgs/srv/AddDiagnostics") for verb in ("apply", "save", "delete")]
+    graph = replace(console.current.graph, services=tuple(Endpoint(f"/presets/{a}", (b,)) for a, b in offered))
+    console.change(graph=graph)
+    said: list[tuple[str, str]] = []
+
+    def call(service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:
+        verb, name = service.rpartition("/")[2], str(fields.get("load_namespace", ""))
+        said.append((verb, name))
+        if verb == "save":
+            kept[name] = ""
+        elif verb == "delete":
+            kept.pop(name)
+        listed = "\n".join(f"{name}: {title}" if title else name for name, title in kept.items())
+        return done(Answer(True, listed if verb == "list" else f"{verb} {name}: all is well"))
+
+    console.call = call  # type: ignore[method-assign]
+
+    async def play(session: Session) -> None:
+        await session.press("7", "p")
+        assert "apply careful" in session.text() and "slow and gentle" in session.text()
+        await session.press("enter")
+        assert "/presets sets the values itself" in session.text() and said == [("list", "")]
+        await session.press("y")
+        assert said[1:] == [("apply", "careful")] and "apply careful: all is well" in session.text()
+        await session.press("p", *"save", "enter", *"brisk", "enter")
+        assert said[3:] == [("save", "brisk")]
+        await session.press(
+            "p", *"delete", "space", *"car", "enter", "n", "p", *"delete", "space", *"car", "enter", "y"
+        )
+        assert said[-1] == ("delete", "careful") and kept == {"brisk": ""}
+
+    run((console, *rest), play, (120, 40))

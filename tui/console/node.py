@@ -189,7 +189,8 @@ class ConsoleNode:
             return Answer(False, f"{type_name} cannot be called so: {error}")
         except NoAnswer as error:
             return Answer(False, str(error))
-        return Answer(bool(getattr(response, "success", True)), str(getattr(response, "message", "")) or repr(response))
+        message = getattr(response, "message", None)
+        return Answer(bool(getattr(response, "success", True)), repr(response) if message is None else str(message))
 
     def set_logger_level(self, node: str, severity: Severity, logger: str) -> Future[Answer]:
         """Set a logger's level through its node's logger service, where it has one."""

@@ -120,6 +120,7 @@ TUNING: Mapping[str, tuple[Key, ...]] = {
             short="Open",
         ),
         Key("profiles.save", "S", "save_profile", "Save what runs as a profile, with a name", shown="S"),
+        Key("profiles.presets", "p", "presets", "Presets that nodes keep as a service: apply, save, delete"),
         Key("profiles.again", "r", "again", "Work the differences out anew", footer=True, short="Refresh"),
         Key("profiles.undo", "u", "undo", "Undo the last change"),
         Key("profiles.scroll_down", "right,l,space", "scroll(1)", "Scroll the differences down"),

@@ -15,6 +15,7 @@ from bot_console.tui.console.query import Query, parse
 from bot_console.tui.format import counted, value_text
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.pane import answer_of
+from bot_console.tui.panes.profiles.presets import PresetMenu
 from bot_console.tui.panes.profiles.replacement import Replacement
 from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, entries, outcome_text
 from bot_console.tui.widgets.prompt.common import wrong_path
@@ -37,7 +38,7 @@ class ProfilesPane(ListPane):
         "A profile is a ROS parameter file with the settings for one environment. Below the list stands what it would\n"
         "change, and what would be refused. a sets the values live, all or nothing over all nodes; w also resets the\n"
         "simulator into the profile's world. o opens any parameter file the same way, S saves what runs as a profile.\n"
-        "A launch profile takes the place of the running system, after a question."
+        "A launch profile takes the place of the running system, after a question. p shows the presets that nodes keep."
     )
     BINDINGS = keymap.bindings("profiles")
 
@@ -241,6 +242,14 @@ class ProfilesPane(ListPane):
 
     def _save_profile(self, name: str, description: str) -> None:
         self.tell(self.console.save_profile(name.strip(), description))
+
+    def action_presets(self) -> None:
+        """Show the presets that nodes keep as a service."""
+        PresetMenu(self.console, self.host.call_later, self.ask, self._preset_done).open(self._snapshot.graph)
+
+    def _preset_done(self, answer: Answer) -> None:
+        self.tell(answer)
+        self.action_again()
 
     def _ask_launch(self, profile: Profile) -> None:
         """A launch profile takes the place of all that runs."""

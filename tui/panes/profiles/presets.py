@@ -1,0 +1,118 @@
+"""Presets that nodes keep as a service: who keeps some, and what can be asked of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Future
+from dataclasses import dataclass, field
+from functools import partial
+
+from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.console.protocol import Answer, Console
+from bot_console.tui.format import harmless
+from bot_console.tui.panes.pane import answer_of
+from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Line, Option, Question
+
+LIST, CHANGE = "std_srvs/srv/Trigger", "diagnostic_msgs/srv/AddDiagnostics"
+"""The types of `list`, and of `apply`, `save` and `delete`."""
+NOBODY = "No node here keeps presets. One that does: ros2 run bot_console_robot preset_node"
+UNSEEN = (
+    "{keeper} sets the values itself, all or none. Which they are, and whether they take from the robot's safety, "
+    "is not seen here before; they stand in the history, where each can be taken back."
+)
+
+
+def keepers(graph: GraphInfo) -> tuple[str, ...]:
+    """What the services of presets begin with, such as `/presets`, for each node that offers all of them."""
+    offered = {each.name: each.types for each in graph.services}
+    lists = [name.removesuffix("/list") for name, types in offered.items() if name.endswith("/list") and LIST in types]
+    verbs = ("apply", "save", "delete")
+    return tuple(sorted(each for each in lists if all(CHANGE in offered.get(f"{each}/{verb}", ()) for verb in verbs)))
+
+
+@dataclass
+class PresetMenu:
+    """Asks those that keep presets which they have, and offers what can be done with them.
+
+    `later` runs something in the thread of the panes, `ask` asks the person, `tell` says what came of it.
+    """
+
+    console: Console
+    later: Callable[..., object]
+    ask: Callable[[Question[str] | Question[None]], object]
+    tell: Callable[[Answer], object]
+    _lists: dict[str, Answer] = field(default_factory=dict[str, Answer])
+
+    def open(self, graph: GraphInfo) -> None:
+        """Ask all of them; the menu opens when the last one has answered."""
+        asked = keepers(graph)
+        if not asked:
+            self.tell(Answer(False, NOBODY))
+        for each in asked:
+            answer = self.console.call(f"{each}/list", LIST, {})
+            answer.add_done_callback(partial(self._heard, asked, each))
+
+    def _heard(self, asked: Sequence[str], keeper: str, done: Future[Answer]) -> None:
+        self.later(self._listed, asked, keeper, answer_of(done))
+
+    def _listed(self, asked: Sequence[str], keeper: str, answer: Answer) -> None:
+        self._lists[keeper] = answer
+        if len(self._lists) < len(asked):
+            return
+        for each, listed in self._lists.items():
+            if not listed.ok:
+                self.tell(Answer(False, f"{each}: {listed.text}"))
+        offers = self._offers()
+        if offers:
+            self.ask(
+                Choice("Presets", lambda chosen: offers[chosen][1](), find=partial(_narrowed, offers), hint="words")
+            )
+
+    def _offers(self) -> dict[str, tuple[Option, Callable[[], object]]]:
+        """What can be chosen, by its value."""
+        kept = [
+            (keeper, *line.partition(": ")[::2])
+            for keeper, answer in self._lists.items()
+            if answer.ok
+            for line in answer.text.splitlines()
+        ]
+        offers: dict[str, tuple[Option, Callable[[], object]]] = {}
+
+        def offer(title: str, about: str, then: Callable[[], object]) -> None:
+            key = str(len(offers))
+            offers[key] = Option(harmless(title), harmless(about), key), then
+
+        for keeper, name, title in kept:
+            offer(f"apply {name}", f"{title}  {keeper}".strip(), partial(self._ask_apply, keeper, name))
+        for keeper, answer in self._lists.items():
+            if answer.ok:
+                offer("save what runs as a preset", keeper, partial(self._ask_save, keeper))
+        for keeper, name, _ in kept:
+            offer(f"delete {name}", keeper, partial(self._ask_delete, keeper, name))
+        return offers
+
+    def _ask_apply(self, keeper: str, name: str) -> None:
+        then = partial(self._change, keeper, "apply", name)
+        self.ask(Confirmation(f"Apply {name}?", lambda _: then(), reasons=UNSEEN.format(keeper=keeper)))
+
+    def _ask_delete(self, keeper: str, name: str) -> None:
+        then = partial(self._change, keeper, "delete", name)
+        self.ask(Confirmation(f"Delete the preset {name} of {keeper}?", lambda _: then()))
+
+    def _ask_save(self, keeper: str) -> None:
+        self.ask(Line(f"save what runs as a preset of {keeper}", partial(self._change, keeper, "save"), check=_unnamed))
+
+    def _change(self, keeper: str, verb: str, name: str) -> None:
+        answer = self.console.call(f"{keeper}/{verb}", CHANGE, {"load_namespace": name.strip()})
+        answer.add_done_callback(lambda done: self.later(self.tell, answer_of(done)))
+
+
+def _unnamed(text: str) -> str:
+    return "" if text.strip() else "a preset needs a name"
+
+
+def _narrowed(offers: Mapping[str, tuple[Option, object]], typed: str) -> Sequence[Option]:
+    """Those in which each word occurs."""
+    words = typed.lower().split()
+    options = [option for option, _ in offers.values()]
+    return [each for each in options if all(word in f"{each.title} {each.about}".lower() for word in words)]
