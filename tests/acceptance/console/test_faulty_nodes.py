@@ -11,7 +11,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -47,13 +47,14 @@ class System:
     printed: list[tuple[str, str]]
     folder: Path
 
-    def start(self, name: str, text: str) -> ProcessInfo:
-        """Run a program as a node; its process, once it has said that it is up."""
-        file = self.folder / f"{name}.py"
-        file.write_text(text)
-        assert self.launcher.launch(str(PROGRAM_LAUNCH), {"program": str(file)}).result(PATIENCE).ok
-        self.until(lambda: self.heard(name, "up"), f"{name} is up")
-        return self.named(name)
+    def start(self, programs: Mapping[str, str]) -> None:
+        """Run programs, by name and text, as nodes, until each has said that it is up."""
+        for name, text in programs.items():
+            file = self.folder / f"{name}.py"
+            file.write_text(text)
+            assert self.launcher.launch(str(PROGRAM_LAUNCH), {"program": str(file)}).result(PATIENCE).ok
+        for name in programs:
+            self.until(lambda name=name: self.heard(name, "up"), f"{name} is up")
 
     def named(self, name: str) -> ProcessInfo:
         """The process of a name."""
@@ -98,7 +99,7 @@ def system(tmp_path_factory: pytest.TempPathFactory) -> Iterator[System]:
         )
         made = System(launcher, printed, folder)
         assert launcher.launch(SYSTEM_LAUNCH, {"seed": "1"}).result(PATIENCE).ok
-        made.start("good", WAITS)
+        made.start({"good": WAITS})
         yield made
         launcher.close()
         host.end()
@@ -110,35 +111,33 @@ def same_folder(system: System, monkeypatch: pytest.MonkeyPatch, socket_folder: 
     monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", f"/tmp/bcf-{os.getpid()}")
 
 
-@pytest.mark.parametrize(
-    ("name", "fault", "state", "code", "problem"),
-    [
-        ("raises", "raise ValueError('broken')", ProcessState.CRASHED, 1, "ValueError: broken (raises.py:7)"),
-        ("exits", "os._exit(3)", ProcessState.CRASHED, 3, "exit code 3"),
-        ("aborts", "os.abort()", ProcessState.CRASHED, -6, "SIGABRT"),
-        ("faults", "ctypes.string_at(0)", ProcessState.CRASHED, -11, "SIGSEGV"),
-        ("leaves", "sys.exit(0)", ProcessState.EXITED, 0, ""),
-        (
-            "fills",
-            "import resource; resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30)); held = bytearray(2 << 30)",
-            ProcessState.CRASHED,
-            1,
-            "MemoryError",
-        ),
-    ],
-)
-def test_one_that_ends_ends_alone(
-    system: System, name: str, fault: str, state: ProcessState, code: int, problem: str
-) -> None:
-    system.start(name, HEAD + fault + "\n")
-    system.until(lambda: system.named(name).state is state, "its end")
-    ended = system.named(name)
-    assert ended.exit_code == code and problem in ended.problem
+ENDS: Mapping[str, tuple[str, ProcessState, int, str]] = {
+    "raises": ("raise ValueError('broken')", ProcessState.CRASHED, 1, "ValueError: broken (raises.py:7)"),
+    "exits": ("os._exit(3)", ProcessState.CRASHED, 3, "exit code 3"),
+    "aborts": ("os.abort()", ProcessState.CRASHED, -6, "SIGABRT"),
+    "faults": ("ctypes.string_at(0)", ProcessState.CRASHED, -11, "SIGSEGV"),
+    "leaves": ("sys.exit(0)", ProcessState.EXITED, 0, ""),
+    "fills": (
+        "import resource; resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30)); held = bytearray(2 << 30)",
+        ProcessState.CRASHED,
+        1,
+        "MemoryError",
+    ),
+}
+"""What a node does to itself, and what is shown of it then: its state, its exit code and words of its problem."""
+
+
+def test_those_that_end_end_alone(system: System) -> None:
+    system.start({name: HEAD + fault + "\n" for name, (fault, *_) in ENDS.items()})
+    for name, (_, state, code, problem) in ENDS.items():
+        system.until(lambda name=name, state=state: system.named(name).state is state, f"the end of {name}")
+        ended = system.named(name)
+        assert (ended.exit_code, problem in ended.problem) == (code, True), ended
     system.all_others_go_on()
 
 
 def test_one_that_is_frozen_is_shown_as_such_until_it_goes_on(system: System) -> None:
-    system.start("sleeps", HEAD + "time.sleep(1000)\n")
+    system.start({"sleeps": HEAD + "time.sleep(1000)\n"})
     process = system.named("sleeps")
     assert process.pid
     os.kill(process.pid, signal.SIGSTOP)
@@ -149,16 +148,20 @@ def test_one_that_is_frozen_is_shown_as_such_until_it_goes_on(system: System) ->
     assert system.launcher.kill(process.key).result(PATIENCE).ok
 
 
+BUSY = {"loops": "while True:\n    pass\n", "computes": "sum(iter(int, 1))\n"}
+ENDLESS = {
+    "floods": "while True:\n    print('flood ' * 20)\n",
+    "holds": "held = bytearray(b'x' * 300_000_000)\ntime.sleep(1000)\n",
+    "closes": "os.closerange(0, 256)\ntime.sleep(1000)\n",
+    "deaf": "import signal\nfor each in (2, 15):\n    signal.signal(each, signal.SIG_IGN)\ntime.sleep(1000)\n",
+}
+"""What a node does that never ends by itself; the busy ones compute, and are named for it."""
+
+
 def test_those_that_never_end_are_named_with_their_figures_and_the_robot_can_be_stopped(system: System) -> None:
-    system.start("loops", HEAD + "while True:\n    pass\n")
-    system.start("computes", HEAD + "sum(iter(int, 1))\n")
-    system.start("floods", HEAD + "while True:\n    print('flood ' * 20)\n")
-    system.start("holds", HEAD + "held = bytearray(b'x' * 300_000_000)\ntime.sleep(1000)\n")
-    system.start("closes", HEAD + "os.closerange(0, 256)\ntime.sleep(1000)\n")
-    deaf = "import signal\nfor each in (2, 15):\n    signal.signal(each, signal.SIG_IGN)\ntime.sleep(1000)\n"
-    system.start("deaf", HEAD + deaf)
+    system.start({name: HEAD + fault for name, fault in (BUSY | ENDLESS).items()})
     timeline = lambda: " ".join(each.text for each in system.launcher.info().timeline)  # noqa: E731
-    for name in ("loops", "computes"):
+    for name in BUSY:
         system.until(lambda name=name: f"{name}.py-1 has computed for 6 s without waiting" in timeline(), "a busy one")
     system.until(lambda: system.heard("loops", "without waiting, in"), "the line in which it computes")
     system.until(lambda: (system.named("holds").memory or 0) > 300, "its memory")
@@ -167,7 +170,7 @@ def test_those_that_never_end_are_named_with_their_figures_and_the_robot_can_be_
     assert typed("param", "get", "/waiter", "use_sim_time").stdout == "Boolean value is: False\n"
     assert typed("stop", "a test").returncode == 0
     assert typed("release").returncode == 0
-    for name in ("loops", "computes", "floods", "holds", "closes", "deaf"):
+    for name in BUSY | ENDLESS:
         assert system.launcher.kill(system.named(name).key).result(PATIENCE).ok
         assert system.named(name).exit_code == -9
     system.all_others_go_on()
