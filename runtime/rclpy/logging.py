@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from rclpy.impl.log_state import forget_rosout, logging_directory, state
-from rclpy.impl.log_state import reset as _reset
+from rclpy.impl.log_routing import forget_rosout, logging_directory, state
+from rclpy.impl.log_routing import reset as _reset
 from rclpy.impl.logging_severity import LoggingSeverity as LoggingSeverity
 from rclpy.impl.rcutils_logger import RcutilsLogger
 

@@ -17,6 +17,7 @@ from bot_console.tui.format import harmless, value_text
 from bot_console.tui.opening import RQT_PANES, Opening, is_rqt, rqt_opening
 from bot_console.tui.safety.line_risk import risk_of
 from bot_console.tui.screens.output import OutputScreen
+from bot_console.tui.text.refusals import of_one
 
 STAMP = "%Y_%m_%d-%H_%M_%S"
 """Of the folder of a bag, as `ros2 bag record` names it."""
@@ -196,9 +197,10 @@ class LineRunner:
     def _tell_set(self, done: Future[tuple[SetOutcome, ...]]) -> None:
         error = done.exception()
         for each in () if error else done.result():
-            what = f"{each.node} {each.name} = {value_text(each.value)}"
-            refused = f"{what} was refused: {each.reason}"
-            self._host.notify(what if each.accepted else refused, severity="information" if each.accepted else "error")
+            if each.accepted:
+                self._host.notify(f"{each.node} {each.name} = {value_text(each.value)}")
+            else:
+                self._host.notify(of_one(each), severity="error")
         if error:
             self._host.notify(harmless(str(error)), severity="error")
 

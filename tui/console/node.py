@@ -15,8 +15,9 @@ from bot_console.tui.console.calls import Calls, NoAnswer
 from bot_console.tui.console.graph.findings import mend
 from bot_console.tui.console.graph.told_types import TypeSource
 from bot_console.tui.console.graph.watch import FrozenNodes, GraphEvents, GraphWatch
-from bot_console.tui.console.launch.output import Add
+from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.console.logs.levels import LoggerLevels
+from bot_console.tui.console.logs.rosout import RosoutWatch
 from bot_console.tui.console.model import (
     ChangeSource,
     GraphInfo,
@@ -27,7 +28,6 @@ from bot_console.tui.console.model import (
     Severity,
     Value,
 )
-from bot_console.tui.console.offered import OfferedSubscription
 from bot_console.tui.console.parameters.file.saving import save
 from bot_console.tui.console.parameters.history import History
 from bot_console.tui.console.parameters.journal import Journal
@@ -43,24 +43,10 @@ from bot_console.tui.console.robot.world_watch import WorldWatch
 from bot_console.tui.console.sights.room import NodeSights
 from bot_console.tui.console.topics.room import NodeTraffic
 from bot_console.tui.files.save_file import NotSaved, typed_path
-from rcl_interfaces.msg import Log
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
-from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 
 NAME = "_bot_console"
-ROSOUT = QoSProfile(
-    history=HistoryPolicy.KEEP_ALL,
-    reliability=ReliabilityPolicy.RELIABLE,
-    durability=DurabilityPolicy.TRANSIENT_LOCAL,
-)
-"""All is kept until the log has it: a node that logs faster than the console reads loses no line."""
-ROSOUT_OF_OTHERS = QoSProfile(
-    depth=10_000,
-    reliability=ReliabilityPolicy.RELIABLE,
-    durability=DurabilityPolicy.TRANSIENT_LOCAL,
-)
-"""In a system that is not ours what waits is bounded, to some 10 MB: its nodes may log faster than any link carries."""
 
 
 class ConsoleNode:
@@ -91,7 +77,8 @@ class ConsoleNode:
         self.executor.add_node(self.node)
         self._log = log
         self._frozen: Sequence[tuple[str, int]] = ()
-        self.loggers: set[str] = set()
+        self._rosout = RosoutWatch(self.node, log, foreign=foreign)
+        self.loggers = self._rosout.loggers
         """Names of the loggers that `/rosout` has brought lines of."""
         self.journal = Journal(history=history)
         self.calls = Calls(self.node, self.executor)
@@ -106,15 +93,6 @@ class ConsoleNode:
         self.setter = ParameterSetter(self.calls, self.parameters, self.journal)
         self.traffic = NodeTraffic(self.node, self.calls, lambda: self.graph.info, types)
         self.sights = NodeSights(self.node, self.calls, lambda: self.graph)
-        self._rosout = OfferedSubscription(
-            self.node,
-            Log,
-            "/rosout",
-            self._on_log,
-            ROSOUT_OF_OTHERS if foreign else ROSOUT,
-            eager=not foreign,
-            once_weak=True,
-        )
         self.graph = GraphWatch(self.node, self._graph_changed, graph_events, frozen)
 
     def spin(self) -> None:
@@ -165,12 +143,6 @@ class ConsoleNode:
         node = self.provenance.learn(kind, facts)
         if node in self.parameters.trees:
             self.calls.run(self.parameters.refresh(node), lambda why: None)
-
-    def _on_log(self, message: Log) -> None:
-        stamp = message.stamp.sec * 1_000_000_000 + message.stamp.nanosec
-        site = message.file, message.function, message.line
-        self.loggers.add(message.name)
-        self._log(stamp, _number(message.level), message.name, message.msg, site)
 
     def call(self, service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:
         """Call a service of any type."""
@@ -271,8 +243,3 @@ def _count(profile: Profile | None, trees: Mapping[str, ParameterTree]) -> int:
 
 def _not_done(why: str) -> Answer:
     return Answer(False, why)
-
-
-def _number(level: Any) -> int:
-    """A severity as a number; before Jazzy it came as a byte."""
-    return level[0] if isinstance(level, bytes) else int(level)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from bot_console.runtime.rmw import arguments
 from bot_console.runtime.rmw.arguments import Arguments, ArgumentsError
 from rclpy._rclpy_pybind11 import RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
-from rclpy.impl.log_state import state
+from rclpy.impl.log_routing import state
 from rclpy.impl.rcutils_logger import RcutilsLogger
 
 DEPRECATED = "Found remap rule '{0}'. This syntax is deprecated. Use '--ros-args --remap {0}' instead."

@@ -7,7 +7,7 @@ from typing import Any
 
 from bot_console.runtime.process import current
 from rclpy.impl.log_filters import Site, detect
-from rclpy.impl.log_state import state
+from rclpy.impl.log_routing import state
 from rclpy.impl.logging_severity import LoggingSeverity
 
 DEBUG, INFO, WARN, ERROR, FATAL = 10, 20, 30, 40, 50

@@ -18,7 +18,7 @@ from pathlib import Path
 from bot_console.tui.cli.live.launch_lines import launch_variables
 from bot_console.tui.cli.live.system_vitals import SystemVitals
 from bot_console.tui.console.launch.launcher import RosLauncher
-from bot_console.tui.console.launch.output import Add
+from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.console.launch_host.host import LaunchHost, Printed
 
 SWITCH = "bot_console.tui.cli.attach.launch_host"

@@ -14,7 +14,7 @@ from bot_console.tui.cli.attach.launch_host import start_host
 from bot_console.tui.cli.live.launch_lines import teller
 from bot_console.tui.console.connection.no_console import done
 from bot_console.tui.console.launch.asked import AskedForProcesses
-from bot_console.tui.console.launch.output import Add
+from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.console.launch.timeline import KEPT
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.model import LaunchArgument, LaunchEvent, LaunchInfo, ProcessInfo

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 
-from bot_console.tui.console.launch.output import marking
+from bot_console.tui.console.launch.process_output import marking
 from bot_console.tui.console.model import Severity
 
 OVERRIDE = {"OVERRIDE_LAUNCH_PROCESS_OUTPUT": "own_log"}

@@ -12,7 +12,7 @@ from bot_console.tui.cli.live.vitals import find_vitals
 from bot_console.tui.cli.system.domain import domain
 from bot_console.tui.cli.system.workspaces import launch_environment, launch_files
 from bot_console.tui.console.launch.launcher import RosLauncher
-from bot_console.tui.console.launch.output import Add
+from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.console.launch_host.door import doors, knock
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.launch_host.several import SeveralLaunchers

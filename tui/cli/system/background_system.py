@@ -43,7 +43,7 @@ def _run(options: Options, file: Path) -> int:
     from bot_console.tui.cli.system.system_log import SystemLog
     from bot_console.tui.cli.system.workspaces import SYSTEM_LAUNCH
     from bot_console.tui.console.launch.launcher import RosLauncher
-    from bot_console.tui.console.launch.output import Add
+    from bot_console.tui.console.launch.process_output import Add
     from bot_console.tui.console.launch_host.host import LaunchHost
     from bot_console.tui.console.model import Severity
 

@@ -41,7 +41,7 @@ from bot_console.tui.console.traffic import Traffic
 if TYPE_CHECKING:
     from bot_console.tui.console.graph.told_types import TypeSource
     from bot_console.tui.console.graph.watch import FrozenNodes, GraphEvents
-    from bot_console.tui.console.launch.output import Add
+    from bot_console.tui.console.launch.process_output import Add
     from bot_console.tui.console.logs.view import LogViews
     from bot_console.tui.console.node import ConsoleNode
     from bot_console.tui.console.parameters.history import History

@@ -12,8 +12,8 @@ from typing import Any, Protocol
 from bot_console.tui.console.connection.no_console import done
 from bot_console.tui.console.launch.arguments import read_arguments
 from bot_console.tui.console.launch.asked import AskedForProcesses
-from bot_console.tui.console.launch.output import Add, ProcessOutput
 from bot_console.tui.console.launch.process import ENDED, KILLED, LaunchedProcess, Order
+from bot_console.tui.console.launch.process_output import Add, ProcessOutput
 from bot_console.tui.console.launch.restart import Recipe, recipe
 from bot_console.tui.console.launch.run import LaunchRun, Listener
 from bot_console.tui.console.launch.timeline import LaunchTimeline

@@ -13,8 +13,8 @@ from typing import Any
 
 from bot_console.tui.console.launch.asked import AskedForProcesses
 from bot_console.tui.console.launch.launcher import CLOSED
-from bot_console.tui.console.launch.output import Add
 from bot_console.tui.console.launch.process import ENDED
+from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.console.launch.timeline import KEPT
 from bot_console.tui.console.launch_host.channel import Channel, Message
 from bot_console.tui.console.launch_host.plain import to_arguments, to_info

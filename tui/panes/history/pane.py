@@ -17,6 +17,7 @@ from bot_console.tui.panes.history.back import Return, returns, values_at
 from bot_console.tui.panes.history.export import FORMS, export
 from bot_console.tui.panes.history.rows import ChangeRows, command, day_text, details, words
 from bot_console.tui.panes.list_pane import ListPane
+from bot_console.tui.text.refusals import of_many
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Confirmation
 from bot_console.tui.widgets.row_list import RowList
@@ -181,14 +182,9 @@ class HistoryPane(ListPane):
         if error is not None:
             self.notify(str(error), severity="error")
             return
-        refused = [each for each in done.result() if not each.accepted and each.refused_by != "console"]
-        refused = refused or [each for each in done.result() if not each.accepted]
+        refused = of_many(done.result())
         if refused:
-            first = refused[0]
-            self.notify(
-                f"Nothing was set: {first.node} refused {first.name} = {value_text(first.value)}: {first.reason}",
-                severity="error",
-            )
+            self.notify(refused, severity="error")
         else:
             self.notify(f"{counted(len(done.result()), 'value')} put back; u in the Parameters pane undoes it.")
 

@@ -8,9 +8,8 @@ from bot_console.tui.console.model import ParameterInfo, SetOutcome, Value
 from bot_console.tui.console.parameters.lint import faults
 from bot_console.tui.console.parameters.safety import foretold
 from bot_console.tui.format import command_of, harmless, range_text, value_text
+from bot_console.tui.text.refusals import in_detail
 from rich.text import Text
-
-REFUSED_BY = {"descriptor": "by its descriptor", "callback": "by the node", "console": "here"}
 
 
 def details(
@@ -22,9 +21,7 @@ def details(
     """
     text = Text(no_wrap=False, overflow="fold")
     if refused is not None:
-        by = REFUSED_BY.get(refused.refused_by, "")
-        head = f"✗ {harmless(value_text(refused.value))} refused{f' {by}' if by else ''}: "
-        text.append(f"{head}{harmless(refused.reason)}\n", "bold")
+        text.append(f"{in_detail(refused)}\n", "bold")
     if staged is not None:
         text.append(f"→ {harmless(value_text(staged))} is marked; a applies, x drops the mark\n", "bold")
     text.append(harmless(parameter.description) or "(nobody says what it is for)")

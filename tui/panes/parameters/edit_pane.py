@@ -14,6 +14,7 @@ from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.parameters import editing, tuning
 from bot_console.tui.panes.parameters.staging import SETS, Key, Staging, by_node
 from bot_console.tui.panes.parameters.table import ParameterRows
+from bot_console.tui.text.refusals import of_many
 from bot_console.tui.tuning.dial import Dial, Setting, find_dials
 from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Elements, Line
 
@@ -211,11 +212,9 @@ class EditPane(ListPane):
             self._tell_refusal(done)
 
     def _tell_refusal(self, done: Future[tuple[SetOutcome, ...]]) -> None:
-        refused = [] if done.exception() else [each for each in done.result() if not each.accepted]
-        why = next((each for each in refused if each.refused_by != "console"), refused[0] if refused else None)
-        if why is not None:
-            value = value_text(why.value)
-            self.notify(f"Nothing was set: {why.node} {why.name} = {value}: {why.reason}", severity="error")
+        refused = "" if done.exception() else of_many(done.result())
+        if refused:
+            self.notify(refused, severity="error")
 
     def action_tune(self) -> None:
         """Ask for ranges, score and runs, then have settings of what is marked, else of this parameter, tried."""

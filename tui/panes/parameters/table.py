@@ -10,6 +10,7 @@ from bot_console.tui.console.query import Query
 from bot_console.tui.format import cut, harmless, value_text
 from bot_console.tui.panes.parameters.columns import BAR, GAP, MARKS, Measures, columns, measured, shown_value
 from bot_console.tui.panes.parameters.rows import Row, matches
+from bot_console.tui.text.refusals import beside_row
 from bot_console.tui.widgets.item_list import ItemList
 from rich.segment import Segment
 from rich.style import Style
@@ -103,9 +104,9 @@ class ParameterRows(ItemList[Row]):
         refused = self.refused.get(key)
         if refused:
             value = cut(value, min(own.value, left), pad=True)
-            why = f"✗ {harmless(value_text(refused.value))}: {harmless(refused.reason)}"
             room = max(0, left - own.value - GAP)
-            return [*segments, Segment(value + " " * GAP), Segment(cut(why, room), self._style("error"))]
+            why = cut(beside_row(refused), room)
+            return [*segments, Segment(value + " " * GAP), Segment(why, self._style("error"))]
         if key in self.staged:
             unit = f" {parameter.unit}" if parameter.unit else ""
             text = f"{harmless(value_text(parameter.value))} → {harmless(value_text(self.staged[key]))}{unit}"

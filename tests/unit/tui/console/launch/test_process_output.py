@@ -1,7 +1,7 @@
 """Output of processes: what a logger wrote is told from a print by its mark, taken only where `/rosout` lacks it."""
 
 import pytest
-from bot_console.tui.console.launch.output import (
+from bot_console.tui.console.launch.process_output import (
     ENVELOPE,
     ENVELOPE_VARIABLE,
     FORMAT_VARIABLE,

@@ -1,0 +1,52 @@
+"""Log lines that come by `/rosout`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from bot_console.tui.console.launch.process_output import Add
+from bot_console.tui.console.offered import OfferedSubscription
+from rcl_interfaces.msg import Log
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
+
+OURS = QoSProfile(
+    history=HistoryPolicy.KEEP_ALL,
+    reliability=ReliabilityPolicy.RELIABLE,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+)
+"""All is kept until the log has it: a node that logs faster than the console reads loses no line."""
+OTHERS = QoSProfile(
+    depth=10_000,
+    reliability=ReliabilityPolicy.RELIABLE,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+)
+"""In a system that is not ours what waits is bounded, to some 10 MB: its nodes may log faster than any link carries."""
+
+
+class RosoutWatch:
+    """Hands each line to the log; in a `foreign` system it subscribes when somebody offers the topic."""
+
+    def __init__(self, node: Node, log: Add, *, foreign: bool) -> None:
+        self._log = log
+        self.loggers: set[str] = set()
+        """Names of the loggers of which lines came."""
+        profile = OTHERS if foreign else OURS
+        self._subscription = OfferedSubscription(
+            node, Log, "/rosout", self._take, profile, eager=not foreign, once_weak=True
+        )
+
+    def follow(self) -> None:
+        """The graph is another: the topic may be offered with another QoS."""
+        self._subscription.follow()
+
+    def _take(self, message: Log) -> None:
+        stamp = message.stamp.sec * 1_000_000_000 + message.stamp.nanosec
+        site = message.file, message.function, message.line
+        self.loggers.add(message.name)
+        self._log(stamp, _number(message.level), message.name, message.msg, site)
+
+
+def _number(level: Any) -> int:
+    """A severity as a number; before Jazzy it came as a byte."""
+    return level[0] if isinstance(level, bytes) else int(level)

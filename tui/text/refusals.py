@@ -1,0 +1,37 @@
+"""How a refusal is shown: beside its row, in the detail of its parameter, and as a message."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from bot_console.tui.console.model import SetOutcome
+from bot_console.tui.format import harmless, value_text
+
+BY = {"descriptor": "by its descriptor", "callback": "by the node", "console": "here"}
+"""Who refused, in the words of the detail."""
+
+
+def beside_row(refused: SetOutcome) -> str:
+    """The value that was wanted, and why it was not taken."""
+    return f"✗ {harmless(value_text(refused.value))}: {harmless(refused.reason)}"
+
+
+def in_detail(refused: SetOutcome) -> str:
+    """The same, with who refused it."""
+    by = BY.get(refused.refused_by, "")
+    return f"✗ {harmless(value_text(refused.value))} refused{f' {by}' if by else ''}: {harmless(refused.reason)}"
+
+
+def of_one(refused: SetOutcome) -> str:
+    """A message of one value that was not taken."""
+    return f"{refused.node} {refused.name} = {value_text(refused.value)} was refused: {refused.reason}"
+
+
+def of_many(outcomes: Sequence[SetOutcome]) -> str:
+    """A message of values of which none was set because one was refused; empty where all were taken.
+
+    The one that a node refused is told before those that the console then held back.
+    """
+    refused = [each for each in outcomes if not each.accepted]
+    why = next((each for each in refused if each.refused_by != "console"), refused[0] if refused else None)
+    return f"Nothing was set: {of_one(why)}" if why is not None else ""
