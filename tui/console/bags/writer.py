@@ -37,7 +37,7 @@ class BagWriter:
         self._channels: dict[str, int] = {}
         self._schemas: dict[str, int] = {}
         self._numbers: dict[int, int] = {}
-        self._flushed = time.monotonic()
+        self.flush()  # killed before its first message it is an empty bag, not a broken file
         self.metadata.save(folder)
 
     def topic(self, name: str, kind: Any, qos: list[dict[str, Any]], type_hash: str = "") -> None:
