@@ -41,8 +41,8 @@ def become(birth: Birth) -> Callable[[], object]:
     MAIN.notices.clear()
     _name(job.name)
     random.seed()
-    if "numpy" in sys.modules:
-        sys.modules["numpy"].random.seed()
+    if "numpy.random" in sys.modules:  # else it seeds itself when it is imported, which takes as long as all of this
+        sys.modules["numpy.random"].seed()
     sys.excepthook = _uncaught
     on_notice(lambda process, text: data_pipe.tell("notice", text=text))
     MainWatch(lambda text: notify(MAIN, text)).begin()

@@ -177,6 +177,23 @@ def test_random_numbers_are_its_own(fork: Any) -> None:
     assert len({each.out for each in numbers}) == 3
 
 
+@pytest.mark.parametrize("warm_up", ["numpy:get_include", "numpy.random:seed"])
+def test_numbers_of_numpy_are_its_own_and_it_imports_no_more_than_the_server(fork: Any, warm_up: str) -> None:
+    has_random = "import sys\nprint('numpy.random' in sys.modules)\n"
+    module = warm_up.partition(":")[0]
+    alone = subprocess.run([sys.executable, "-c", f"import {module}\n{has_random}"], capture_output=True, check=True)
+    server = ForkServer(warm_up)
+    try:
+        text = f"{has_random}import numpy\nprint(numpy.random.random())\n"
+        children = [fork(text, on=server) for _ in range(3)]
+        for each in children:
+            each.end()
+    finally:
+        server.close()
+    assert {each.out.splitlines()[0] for each in children} == {alone.stdout.decode().strip()}
+    assert len({each.out for each in children}) == 3
+
+
 def test_a_folder_that_is_not_there(fork: Any) -> None:
     with pytest.raises(FileNotFoundError, match="/nowhere"):
         fork("", cwd="/nowhere")
