@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Any
 
 from geometry_msgs.msg import TransformStamped
@@ -11,7 +12,7 @@ from rclpy.logging import get_logger
 from rclpy.time import Time
 from tf2_py import descriptions
 from tf2_py.exceptions import InvalidArgumentException, LookupException, TransformException
-from tf2_py.frame_history import NANO, FrameHistory, stamp_of
+from tf2_py.frame_history import DIGEST_AFTER, NANO, Entry, FrameHistory, Unread
 from tf2_py.frame_tree import latest_common_time, transform
 from tf2_py.rigid import IDENTITY, Rigid, compose
 
@@ -45,36 +46,48 @@ class BufferCore:
         self._insert(transform, authority, is_static=True)
 
     def _take_later(self, messages: list[TransformStamped]) -> None:
-        """Keep messages that nobody else holds; each is read when its frame is asked for."""
+        """Keep what messages tell; it is looked at when their frame is asked for."""
         histories = self._histories
         for each in messages:
             history = histories.get(each.child_frame_id)
             if history is None or history.is_static:
-                self._read(each)
+                self._insert(each, "default_authority", is_static=False)
                 continue
-            history.wait(each)
-
-    def _read(self, message: TransformStamped) -> None:
-        self._insert(message, "default_authority", is_static=False)
+            header, transform = each._header, each._transform  # past the properties: half the time
+            stamp, move, turn = header._stamp, transform._translation, transform._rotation
+            when = stamp._sec * NANO + stamp._nanosec
+            waiting = history.waiting
+            waiting.append((when, header._frame_id, move._x, move._y, move._z, turn._x, turn._y, turn._z, turn._w))
+            if not len(waiting) % DIGEST_AFTER:
+                history.drop_old()
 
     def _insert(self, message: TransformStamped, authority: str, *, is_static: bool) -> None:
-        child = message.child_frame_id.removeprefix("/")
-        parent = message.header.frame_id.removeprefix("/")
-        stamp = stamp_of(message)
+        stamp = message.header.stamp
         move, turn = message.transform.translation, message.transform.rotation
         place = (move.x, move.y, move.z, turn.x, turn.y, turn.z, turn.w)
+        entry = stamp.sec * NANO + stamp.nanosec, message.header.frame_id.removeprefix("/"), place, authority
+        self._keep_entry(message.child_frame_id.removeprefix("/"), entry, is_static)
+
+    def _keep_entry(self, child: str, entry: Entry, is_static: bool) -> None:
+        """Keep a transform that makes sense; else the log says why not."""
+        stamp, parent, place, authority = entry
         problem = _problem(child, parent, place, authority)
         if problem is None:
             history = self._histories.get(child)
             if history is None or history.is_static != is_static:
-                history = self._histories[child] = FrameHistory(self._keep, is_static, self._read)
+                read = partial(self._read, child)
+                history = self._histories[child] = FrameHistory(self._keep, is_static, read)
             self._parents.add(parent)
-            problem = history.insert((stamp, parent, place, authority))
+            problem = history.insert(entry)
             if problem:
                 when = f"at time {stamp / NANO:.6f} according to authority {authority}"
                 problem += f" for frame {child} (parent {parent}) {when}"
         if problem:
             get_logger("tf2_buffer").warning(problem)
+
+    def _read(self, child: str, unread: Unread) -> None:
+        entry = unread[0], unread[1].removeprefix("/"), unread[2:], "default_authority"
+        self._keep_entry(child, entry, is_static=False)
 
     def lookup_transform_core(self, target_frame: str, source_frame: str, time: Time) -> TransformStamped:
         """What takes points of `source_frame` to `target_frame` at a time."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable
-from typing import Any
+from operator import itemgetter
 
 from tf2_py.rigid import Rigid, interpolate
 
@@ -14,40 +14,35 @@ DIGEST_AFTER = 256
 
 Entry = tuple[int, str, Rigid, str]
 """Time (ns), parent, place in it, and who said so."""
+Unread = tuple[int, str, float, float, float, float, float, float, float]
+"""Time (ns), parent, translation (m) and rotation quaternion of a message; the garbage collector passes it over."""
 
 
 class FrameHistory:
-    """Transforms of one frame by time; messages wait unread until somebody asks, as most of them never matter."""
+    """Transforms of one frame by time; most wait unread until somebody asks, as they never matter."""
 
-    __slots__ = ("_keep", "_read", "_stamps", "_waiting", "entries", "is_static")
+    __slots__ = ("_keep", "_read", "_stamps", "entries", "is_static", "waiting")
 
-    def __init__(self, keep: int, is_static: bool, read: Callable[[Any], None]) -> None:
-        """Keep transforms for `keep` (ns); `read` is what inserts a message that has waited."""
+    def __init__(self, keep: int, is_static: bool, read: Callable[[Unread], None]) -> None:
+        """Keep transforms for `keep` (ns); `read` is what inserts one that has waited."""
         self._keep = keep
         self.is_static = is_static
         self._read = read
         self._stamps: list[int] = []
-        self._waiting: list[Any] = []
+        self.waiting: list[Unread] = []
         self.entries: list[Entry] = []
 
-    def wait(self, message: Any) -> None:
-        """Keep a message unread."""
-        waiting = self._waiting
-        waiting.append(message)
-        if len(waiting) % DIGEST_AFTER == 0:
-            self._drop_old_messages()
-
-    def _drop_old_messages(self) -> None:
-        """Let go of unread messages that are too old, where they came in order; nobody has asked for them."""
-        waiting = self._waiting
-        limit = stamp_of(waiting[-1]) - self._keep
-        old = bisect_left(waiting, limit, key=stamp_of)
-        if all(stamp_of(each) < limit for each in waiting[:old]):
+    def drop_old(self) -> None:
+        """Let go of unread transforms that are too old, where they came in order; nobody has asked for them."""
+        waiting = self.waiting
+        limit = waiting[-1][0] - self._keep
+        old = bisect_left(waiting, limit, key=itemgetter(0))
+        if all(each[0] < limit for each in waiting[:old]):
             del waiting[:old]
 
     def digest(self) -> None:
-        """Read the messages that wait."""
-        waiting, self._waiting = self._waiting, []
+        """Read what waits."""
+        waiting, self.waiting = self.waiting, []
         for each in waiting:
             self._read(each)
 
@@ -89,7 +84,7 @@ class FrameHistory:
 
     def latest(self) -> tuple[int, str] | None:
         """The newest time (ns; 0 of a static frame) and the parent then; None where nothing is known."""
-        if self._waiting:
+        if self.waiting:
             self.digest()
         if not self.entries:
             return None
@@ -97,7 +92,7 @@ class FrameHistory:
 
     def at(self, time: int) -> tuple[str, Rigid]:
         """Parent and place at a time (ns; 0 is the newest); raises `LookupError` with the words of upstream."""
-        if self._waiting:
+        if self.waiting:
             self.digest()
         entries, stamps = self.entries, self._stamps
         if not entries:
@@ -131,12 +126,6 @@ class FrameHistory:
             f"Lookup would require extrapolation into the past.  Requested time {seconds(time)} but the earliest data "
             f"is at time {seconds(oldest)}"
         )
-
-
-def stamp_of(message: Any) -> int:
-    """The time (ns) of a message with a header."""
-    stamp = message.header.stamp
-    return stamp.sec * NANO + stamp.nanosec
 
 
 def seconds(time: int) -> str:
