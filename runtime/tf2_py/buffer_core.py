@@ -66,7 +66,10 @@ class BufferCore:
         move, turn = message.transform.translation, message.transform.rotation
         place = (move.x, move.y, move.z, turn.x, turn.y, turn.z, turn.w)
         entry = stamp.sec * NANO + stamp.nanosec, message.header.frame_id.removeprefix("/"), place, authority
-        self._keep_entry(message.child_frame_id.removeprefix("/"), entry, is_static)
+        child = message.child_frame_id.removeprefix("/")
+        if child in self._histories:
+            self._histories[child].digest()  # what came before: of two of one time the first holds
+        self._keep_entry(child, entry, is_static)
 
     def _keep_entry(self, child: str, entry: Entry, is_static: bool) -> None:
         """Keep a transform that makes sense; else the log says why not."""
