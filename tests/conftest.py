@@ -30,6 +30,10 @@ _folders = itertools.count(1)
 os.environ["BOT_CONSOLE_SOCKET_DIR"] = os.path.join(_sockets, "0")
 atexit.register(shutil.rmtree, _sockets, ignore_errors=True)
 
+# A test's programs compile what they import once, also where the environment says that no files are to be left behind.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+os.environ.setdefault("PYTHONPYCACHEPREFIX", os.path.join(_sockets, "compiled"))
+
 # The default run tries the same examples each time, so that red means a change: HYPOTHESIS_PROFILE=explore tries more.
 settings.register_profile("repeatable", derandomize=True, deadline=None, database=None)
 settings.register_profile("explore", deadline=None, max_examples=1000)

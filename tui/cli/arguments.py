@@ -158,11 +158,14 @@ def _profile_and_pairs(parser: argparse.ArgumentParser, given: argparse.Namespac
             pairs[name] = value
         else:
             profiles.append(word)
+    known = profile_names()
+    if len(profiles) == 2 and not {*profiles} & {*known}:
+        how = "--headless" if given.headless else "--watch"
+        parser.error(f"a node of a package runs with `bot-console run {how} {' '.join(profiles)}`")
     if len(profiles) > 1:
         parser.error(f"one profile at a time, not {', '.join(profiles)}")
     if profiles and given.launch:
         parser.error("a launch file brings its own settings: give either a profile or --launch")
-    known = profile_names()
     if profiles and profiles[0] not in known:
         parser.error(f"there is no profile and no command '{profiles[0]}'; profiles: {', '.join(known)}")
     return (profiles[0] if profiles else "indoor"), pairs

@@ -99,6 +99,7 @@ def test_a_launch_that_ends_itself_is_reported_until_then(tmp_path):
     ("words", "code", "text"),
     [
         (["--headless", "nowhere"], 2, "there is no profile and no command 'nowhere'"),
+        (["--headless", "pkg", "node"], 2, "runs with `bot-console run --headless pkg node`"),
         (["--headless", "--launch", "missing.launch.py"], 1, "there is no launch file missing.launch.py"),
         (["--fast"], 2, "--fast goes with --headless"),
         (["--headless", "--duration", "-1"], 2, "--duration must be positive"),
