@@ -19,6 +19,8 @@ ON_ROS = os.environ.get("BOT_CONSOLE_TESTS_ON") == "ros"
 
 if not ON_ROS:
     install()
+    for variable in ("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE"):
+        os.environ.pop(variable, None)
 
 # Who starts the tests in the background lets them ignore these, and with them every program that a test starts.
 for number in (signal.SIGINT, *(getattr(signal, name) for name in ("SIGQUIT", "SIGHUP") if hasattr(signal, name))):

@@ -18,10 +18,8 @@ pytestmark = [
 ]
 
 
-@pytest.mark.parametrize(
-    "world",
-    ["indoor", *(pytest.param(each, marks=pytest.mark.soak) for each in ("outdoor", "warehouse", "competition"))],
-)
+@pytest.mark.soak
+@pytest.mark.parametrize("world", ["indoor", "outdoor", "warehouse", "competition"])
 def test_ten_minutes_in_our_system(tmp_path, world):
     report = headless(tmp_path, "--profile", world, "--duration", "600", f"navigator:={NODE}")
     assert report["longest_standstill"] < 20.0
