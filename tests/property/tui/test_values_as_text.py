@@ -103,7 +103,7 @@ def test_the_copied_command_sets_the_value(parameter: ParameterInfo) -> None:
         (Kind.DOUBLE, "fast", "is no number"),
         (Kind.BOOL, "maybe", "neither true nor false"),
         (Kind.BYTE_ARRAY, "[256]", "is no byte"),
-        (Kind.BYTE_ARRAY, "[0a]", "is no integer"),
+        (Kind.BYTE_ARRAY, "[0a]", "is no byte"),
         (Kind.INTEGER_ARRAY, "[1, 2", r"begins with \[ and ends with \]"),
         (Kind.INTEGER_ARRAY, "", r"an empty one is \[\]"),
         (Kind.INTEGER_ARRAY, "[1,, 2]", "an element is missing"),

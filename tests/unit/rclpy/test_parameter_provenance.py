@@ -36,6 +36,7 @@ def test_default_line_and_the_override_that_counts(told: Told, tmp_path: Path) -
     node = rclpy.create_node("n", context=context, parameter_overrides=[Parameter("c", value=4)])
     node.declare_parameters("", [("a", 1), ("b", 1), ("c", 1), ("d", 1)])
     node.declare_parameter("e", [1.0, 2.0])
+    node.destroy_node()
     context.shutdown()
     sources = {name: told[name][2] for name in "abcde"}
     assert sources == {"a": str(file), "b": "-p", "c": "parameter_overrides of its program", "d": "", "e": ""}
@@ -55,7 +56,8 @@ def test_a_later_file_and_a_later_word_count(told: Told, tmp_path: Path) -> None
     context = Context()
     words = ["--ros-args", "-p", "a:=1", "--params-file", str(first), "--params-file", str(second)]
     rclpy.init(args=words, context=context)
-    rclpy.create_node("n", context=context).declare_parameter("a", 0)
+    with rclpy.create_node("n", context=context) as node:
+        node.declare_parameter("a", 0)
     context.shutdown()
     # A plain -p stands under /**, which came first; a node's own key comes behind it.
     assert told["a"][2] == str(second)
