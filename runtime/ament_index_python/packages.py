@@ -48,7 +48,9 @@ def get_package_prefix(package_name: str) -> str:
     if found is None and (package := workspace().find(package_name)):
         found = str(package.folder)
     if found is None:
-        raise PackageNotFoundError(f"package '{package_name}' not found, searching: {get_search_paths()}")
+        # Without prefixes the folders with source packages are all that was searched.
+        searched = get_search_paths() or [str(each) for each in workspace().folders]
+        raise PackageNotFoundError(f"package '{package_name}' not found, searching: {searched}")
     return found
 
 

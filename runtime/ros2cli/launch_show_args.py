@@ -14,11 +14,13 @@ def show_args(path: str) -> int:
 
     try:
         description = get_launch_description_from_any_launch_file(path)
-        print(HEADER)
-        arguments = description.get_launch_arguments()
     except Exception as error:  # a launch file is a program: what it raises is told without a traceback
-        print(f"{type(error).__name__}: {error}", file=sys.stderr)
-        return 1
+        return _failed(error)
+    print(HEADER)
+    try:
+        arguments = description.get_launch_arguments()
+    except Exception as error:
+        return _failed(error)
     if not arguments:
         print("\n  No arguments.")
     for each in arguments:
@@ -26,6 +28,11 @@ def show_args(path: str) -> int:
     if any(each._conditionally_included for each in arguments):
         print("\n* argument(s) which are only used if specific conditions occur")
     return 0
+
+
+def _failed(error: Exception) -> int:
+    print(f"{type(error).__name__}: {error}", file=sys.stderr)
+    return 1
 
 
 def _text(argument: Any) -> str:

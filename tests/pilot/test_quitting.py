@@ -37,7 +37,7 @@ def test_what_would_be_lost_is_named_and_the_robot_stands_until_no_is_said() -> 
         await session.press("q")
         assert isinstance(session.app.screen, ConfirmScreen) and not ended(session)
         assert f"{NODE} turn_rate = 1.5" in session.text()
-        assert stops(session) == [True]
+        assert "held meanwhile" in session.text() and stops(session) == [True]
         await session.press("n")
         assert stops(session) == [True, False]
         assert not ended(session) and not session.console.current.drive.stopped

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
+from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.panes.steering.pane import SteeringPane
 from piloting import Clock, Session, run
 from samples import driving, empty, live
@@ -152,6 +153,9 @@ def test_a_stop_that_is_not_acknowledged_is_not_called_held() -> None:
         assert "STOP SENT, NOT CONFIRMED" in session.text() and "held" not in session.text()
         await session.press("exclamation_mark")
         assert session.console.asked[-1] == ("all_stop", True), "it is sent again, not released"
+        session.console.change(drive=DriveInfo(stopped=True, stopped_here=True))
+        await session.settle()
+        assert "nothing is here to stop" in session.text() and "NOT CONFIRMED" not in session.text()
         session.console.change(drive=replace(sent, stop_confirmed=True, stop_holder="anna@pc", stop_reason="the arm"))
         await session.settle()
         assert "ALL STOP held by anna@pc: the arm (! holds it too, once more releases)" in session.text()

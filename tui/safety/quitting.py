@@ -34,13 +34,14 @@ class Quitting:
         if not snapshot.drive.stopped_here:
             self._holding = True
             self._console.all_stop(True, REASON)
+        held = "" if snapshot.drive.nothing_to_stop else "The robot is held meanwhile. "
         self._app.push_screen(
             screen_for(
                 Confirmation(
                     "Quit without saving?",
                     lambda _: self._app.exit(),
                     given_up=self._go_on,
-                    reasons=f"{lost(snapshot)}\n\nThe robot is held meanwhile. s in the Parameters pane saves.",
+                    reasons=f"{lost(snapshot)}\n\n{held}s in the Parameters pane saves.",
                 )
             )
         )

@@ -14,6 +14,8 @@ MOST = 5
 
 def stop_text(drive: DriveInfo) -> str:
     """What is known of a stop: held is said only when the robot has acknowledged it."""
+    if drive.nothing_to_stop:
+        return "STOP: nothing is here to stop, no robot listens for commands (! ends it)"
     if not drive.lockable:
         return "STOP SENT, NOT CONFIRMED: zeros only, this robot has no emergency stop (! ends them)"
     if not drive.stop_confirmed:

@@ -96,6 +96,19 @@ def test_a_launch_that_ends_itself_is_reported_until_then(tmp_path):
 
 
 @pytest.mark.parametrize(
+    ("content", "code"), [("simulator:\n  ros__parameters:\n    world: 5\n", 1), ("a: [\n", 0)], ids=["value", "YAML"]
+)
+def test_parameters_that_end_the_simulator_end_the_run_at_once(tmp_path, content, code):
+    (tmp_path / "bad.yaml").write_text(content)
+    words = ["--headless", "--fast", "--duration", "1000", "config_file:=bad.yaml"]
+    line = [sys.executable, "-m", "bot_console.tui", *words]
+    done = subprocess.run(line, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert f"the simulator has ended with exit code {code}, before its report" in done.stderr.splitlines()[-1]
+    assert "[1700000001." not in done.stderr, "no second was simulated after that"
+
+
+@pytest.mark.parametrize(
     ("words", "code", "text"),
     [
         (["--headless", "nowhere"], 2, "there is no profile and no command 'nowhere'"),

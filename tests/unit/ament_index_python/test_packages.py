@@ -21,6 +21,7 @@ from ament_index_python.packages import (
     get_package_share_path,
     get_packages_with_prefixes,
 )
+from bot_console.runtime.workspace import discover
 
 
 @pytest.fixture
@@ -59,6 +60,16 @@ def test_an_unknown_package(prefixes: list[Path]) -> None:
         get_package_prefix("nopkg")
     assert isinstance(caught.value, KeyError)
     assert str(caught.value) == f"\"package 'nopkg' not found, searching: {[str(each) for each in prefixes]}\""
+
+
+def test_without_prefixes_the_folders_of_source_packages_are_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
+    monkeypatch.setattr(discover, "_current", [discover.Workspace([tmp_path])])
+    with pytest.raises(PackageNotFoundError) as caught:
+        get_package_prefix("nopkg")
+    assert str(caught.value) == f"\"package 'nopkg' not found, searching: ['{tmp_path}']\""
 
 
 @pytest.mark.parametrize("name", ["./x.launch.py", "a/b", "", "a b"])

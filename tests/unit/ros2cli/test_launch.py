@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import io
 import os
 import signal
 from collections.abc import Iterator
@@ -9,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from ros2cli.command_line import main
+from ros2cli.launch_show_args import show_args
 
 LISTED = """
 from launch import LaunchDescription
@@ -173,6 +176,18 @@ def test_usage(capsys: pytest.CaptureFixture[str]) -> None:
         code, _, err = launched(capsys, *words)
         assert code == 2
         assert said in err
+
+
+def test_shown_arguments_that_cannot_be_written_are_no_fault_of_the_launch_file(
+    monkeypatch: pytest.MonkeyPatch, folder: Path
+) -> None:
+    class Full(io.StringIO):
+        def write(self, _: str) -> int:
+            raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("sys.stdout", Full())
+    with pytest.raises(OSError):
+        show_args("says.launch.py")
 
 
 def test_a_filter_needs_a_prefix(capsys: pytest.CaptureFixture[str]) -> None:

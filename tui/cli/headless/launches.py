@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any
 
 from bot_console.runtime.process import NodeProcess
+from bot_console.runtime.workspace.own import NAME
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.live import robot_beside
 from bot_console.tui.cli.system.workspaces import SYSTEM_LAUNCH, launch_environment
 from bot_console.tui.console.launch.delayed import delayed_starts
+
+SIMULATOR = (NAME, "simulator_node")
+"""The last two parts of our simulator's path."""
 
 
 class Launches:
@@ -28,6 +33,9 @@ class Launches:
         self._running = 0
         self._services: list[Any] = []
         self._ending = False
+        self._at_end: Callable[[], None] | None = None
+        self.simulator_code: int | None = None
+        """The exit code of the simulator, where it ended before its time; nobody can give a report then."""
         self.died = ""
         """The first process that ended with a fault before its time, and how; empty where none did."""
 
@@ -52,7 +60,10 @@ class Launches:
         self._looking = robot_beside.begin(options, system, self._clock)
 
     def on_end(self, call: Callable[[], None]) -> None:
-        """Call when the launch ends before a robot was started, for then there is nothing to report."""
+        """Call when the launch ends before a robot was started, or the simulator: then there is nothing to report."""
+        self._at_end = call
+        if self.simulator_code is not None:
+            call()
         self._launch.on_exit(lambda _: None if self._robot else call())
 
     def stop(self, patience: float) -> None:
@@ -78,6 +89,11 @@ class Launches:
             stderr=_to_stderr,
         )
 
+    def _lose_simulator(self, code: int) -> None:
+        self.simulator_code = code
+        if self._at_end is not None:
+            self._at_end()
+
     def _run(self, file: str, arguments: Mapping[str, str]) -> int:
         """Run a launch file; in its own node process."""
         from launch.actions import IncludeLaunchDescription, RegisterEventHandler
@@ -91,8 +107,12 @@ class Launches:
 
         def ended(event: Any, context: Any) -> None:
             self._running -= 1
-            if event.returncode and not self._ending and not context.is_shutdown and not self.died:
+            if self._ending or context.is_shutdown:
+                return
+            if event.returncode and not self.died:
                 self.died = f"{event.process_name} ended with exit code {event.returncode}"
+            if self.has_robot and Path(event.cmd[0]).parts[-2:] == SIMULATOR:
+                self._lose_simulator(event.returncode)
 
         def ending(_event: Any, _context: Any) -> None:
             if self._running and not self._ending:

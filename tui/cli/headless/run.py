@@ -90,6 +90,10 @@ def _meet_others(options: Options) -> None:
 
 
 def _no_report(launches: Launches) -> int:
+    if launches.simulator_code is not None:
+        ended = f"the simulator has ended with exit code {launches.simulator_code}, before its report"
+        print(f"{ended}; the log above says more", file=sys.stderr)
+        return 1
     code = launches.exit_code
     ended = f"; the launch had ended with exit code {code}" if code is not None else ""
     unwanted = "" if launches.has_robot else "; no simulator was started beside it, --simulator starts one"

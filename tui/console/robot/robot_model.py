@@ -131,3 +131,8 @@ class DriveInfo:
     """Whether the robot has an emergency stop that acknowledges."""
     steered_by: str = ""
     """Who holds the steering, as the robot says."""
+
+    @property
+    def nothing_to_stop(self) -> bool:
+        """Whether no robot is known, so that nobody could have heard of a stop."""
+        return not (self.lockable or self.topic or self.robots)

@@ -34,6 +34,8 @@ def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
     topic = harmless(drive.topic) or "no robot listens for commands"
     if len(drive.robots) > 1 and drive.robot in drive.robots:
         topic += f"  {drive.robots.index(drive.robot) + 1} of {len(drive.robots)}, r steers another"
+    if drive.stopped and drive.nothing_to_stop:
+        return ((" STOP ", "warn"), (f" nothing is here to stop: {topic}", ""))
     if drive.stopped and not drive.stop_confirmed:
         return ((" STOP SENT, NOT CONFIRMED ", "error"), (_unconfirmed(drive), ""))
     if drive.stopped and stands_after_steering(drive):

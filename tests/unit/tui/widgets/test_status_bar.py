@@ -5,6 +5,7 @@ from __future__ import annotations
 from types import MappingProxyType
 
 from bot_console.tui.console.model import ConsoleSnapshot, LaunchInfo, LogState, Severity
+from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.widgets.status_bar import reason_first, status_text
 
 
@@ -21,3 +22,10 @@ def test_only_errors_that_were_not_acknowledged_are_counted() -> None:
     assert "3 errors" in status_text(snapshot)
     assert "1 new error" in status_text(snapshot, acknowledged=2) and "errors" not in status_text(snapshot, 0, 2)
     assert "error" not in status_text(snapshot, acknowledged=3)
+
+
+def test_a_stop_where_no_robot_is_says_that_nothing_is_there_to_stop() -> None:
+    nobody = DriveInfo(stopped=True, stopped_here=True)
+    assert "nothing is here to stop" in status_text(ConsoleSnapshot(drive=nobody))
+    for robot in (DriveInfo(stopped=True, topic="/cmd_vel"), DriveInfo(stopped=True, lockable=True)):
+        assert "STOP SENT, NOT CONFIRMED" in status_text(ConsoleSnapshot(drive=robot))
