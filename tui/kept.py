@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import Protocol
 
+LAST_FILE = "parameter-file"
+"""The name of the parameter file that was saved or opened last; its path is kept whole."""
+
 
 class Kept(Protocol):
     """Plain data (texts, numbers, lists, mappings) by name."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.look import Look
 from bot_console.tui.panes.alarms.pane import AlarmsPane
 from bot_console.tui.panes.diagnostics.pane import DiagnosticsPane
 from bot_console.tui.panes.images.pane import ImagesPane
@@ -40,6 +41,20 @@ class Session:
         """Type a text into the field that has the keyboard."""
         await self.pilot.press(*(NAMES.get(letter, letter) for letter in text))
         await self.settle()
+
+    async def click(self, text: str, *, times: int = 1, last: bool = False) -> None:
+        """Click on the beginning of a text that is on the screen, at its first place or its last."""
+        lines = self.lines()
+        found = [(line.rindex(text) if last else line.index(text), y) for y, line in enumerate(lines) if text in line]
+        assert found, f"{text!r} is not on the screen:\n{self.text()}"
+        await self.pilot.click(offset=found[-1 if last else 0], times=times)
+        await self.settle()
+
+    async def click_tab(self, digit: str) -> None:
+        """Click on the tab of a pane."""
+        words = self.lines()[0].split()
+        at = next(at for at, each in enumerate(words) if each.lstrip("[") == digit)
+        await self.click(f"{digit} {words[at + 1].rstrip(']')}")
 
     async def settle(self) -> None:
         """Let everything happen that is about to."""
@@ -88,12 +103,13 @@ def run(
     size: tuple[int, int] = (80, 24),
     *,
     faults_wanted: bool = False,
+    look: Look | None = None,
 ) -> None:
     """Run the app at a size and play a scene in it; a fault in a pane fails the test unless it is wanted."""
 
     async def main() -> None:
         console, launcher = system
-        app = BotConsoleApp(console, launcher, FakeCommandLine(console.asked), refresh_hz=0)
+        app = BotConsoleApp(console, launcher, FakeCommandLine(console.asked), refresh_hz=0, look=look)
         with at_rest():
             async with app.run_test(size=size, notifications=True) as pilot:
                 session = Session(app, pilot, console, launcher)

@@ -15,25 +15,10 @@ from samples import live
 NAVIGATOR = "/robot_navigator"
 
 
-async def click(session: Session, text: str, *, times: int = 1, last: bool = False) -> None:
-    """Click on a text that is on the screen."""
-    lines = session.lines()
-    found = [(line.rindex(text) if last else line.index(text), y) for y, line in enumerate(lines) if text in line]
-    x, y = found[-1 if last else 0]
-    await session.pilot.click(offset=(x, y), times=times)
-    await session.settle()
-
-
-async def go(session: Session, digit: str) -> None:
-    """Click on the tab of a pane."""
-    at = next(at for at, each in enumerate(session.lines()[0].split()) if each.lstrip("[") == digit)
-    await click(session, f"{digit} {session.lines()[0].split()[at + 1].rstrip(']')}")
-
-
 @pytest.mark.parametrize("entry", PANES, ids=[each.id for each in PANES])
 def test_every_pane_is_reached_by_its_tab_and_its_rows_are_chosen(entry) -> None:
     async def play(session: Session) -> None:
-        await go(session, entry.digit)
+        await session.click_tab(entry.digit)
         [pane] = session.app.visible_panes()
         assert pane.id == entry.id
         lists = [each for each in pane.query(RowList) if each.display and each.row_count() > 1]
@@ -47,14 +32,14 @@ def test_every_pane_is_reached_by_its_tab_and_its_rows_are_chosen(entry) -> None
 
 def test_a_double_click_opens_a_row_and_a_click_beside_the_box_closes_it() -> None:
     async def play(session: Session) -> None:
-        await go(session, "2")
+        await session.click_tab("2")
         await session.pilot.click(session.pane(LogsPane).query(RowList).first(), offset=(40, 1), times=2)
         await session.settle()
         assert len(session.app.screen_stack) == 2
         await session.pilot.click(offset=(1, 1))
         await session.settle()
         assert len(session.app.screen_stack) == 1
-        await go(session, "9")
+        await session.click_tab("9")
         await session.pilot.click(TopicRows, offset=(10, 5), times=2)
         await session.settle()
         assert session.console.traffic.listening, "the message of the topic is open"
@@ -65,11 +50,11 @@ def test_a_double_click_opens_a_row_and_a_click_beside_the_box_closes_it() -> No
 @pytest.mark.parametrize(("answer", "set_"), [("y yes", True), ("n no", False)])
 def test_a_question_is_answered_by_mouse(answer: str, set_: bool) -> None:
     async def play(session: Session) -> None:
-        await go(session, "7")
-        await click(session, "competition")
-        await click(session, "a Apply")
+        await session.click_tab("7")
+        await session.click("competition")
+        await session.click("a Apply")
         assert isinstance(session.app.screen, ConfirmScreen)
-        await click(session, answer, last=True)
+        await session.click(answer, last=True)
         assert len(session.app.screen_stack) == 1
         assert any(each[0] == "apply" for each in session.console.asked) is set_
 
@@ -78,8 +63,8 @@ def test_a_question_is_answered_by_mouse(answer: str, set_: bool) -> None:
 
 def test_one_of_several_is_chosen_and_the_robot_is_stopped_from_the_key_bar() -> None:
     async def play(session: Session) -> None:
-        await go(session, "8")
-        await click(session, "o Open", last=True)
+        await session.click_tab("8")
+        await session.click("o Open", last=True)
         assert isinstance(session.app.screen, PickerScreen)
         options = session.app.screen.query_one(RowList)
         await session.pilot.click(options, offset=(6, 1))
@@ -89,7 +74,21 @@ def test_one_of_several_is_chosen_and_the_robot_is_stopped_from_the_key_bar() ->
         await session.settle()
         assert not isinstance(session.app.screen, PickerScreen)
         await session.press("escape")
-        await click(session, "! Stop", last=True)
+        await session.click("! Stop", last=True)
         assert ("all_stop", True) in session.console.asked
 
     run(live(), play, (200, 40))
+
+
+def test_a_line_of_the_help_does_what_its_key_does() -> None:
+    async def play(session: Session) -> None:
+        await session.click_tab("1")
+        await session.click("? Help")
+        await session.click("Only what differs")
+        assert len(session.app.screen_stack) == 1 and "turn_rate" not in session.text()
+        await session.click("? Help")
+        await session.pilot.click(offset=(1, 1))
+        await session.settle()
+        assert len(session.app.screen_stack) == 1
+
+    run(live(), play, (120, 60))

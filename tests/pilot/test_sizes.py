@@ -8,7 +8,7 @@ from piloting import Session, run
 from samples import empty, faulty, live
 from textual.scroll_view import ScrollView
 
-SIZES = [(60, 20), (80, 24), (100, 30), (120, 40), (170, 45), (250, 80)]
+SIZES = [(60, 20), (80, 24), (100, 30), (120, 40), (170, 45), (200, 50), (250, 80)]
 
 
 def check(session: Session, size: tuple[int, int]) -> None:
@@ -38,6 +38,22 @@ def test_every_pane_and_the_overview_fit(size, system) -> None:
             check(session, size)
 
     run(system(), play, size)
+
+
+def test_below_the_minimum_only_a_word_about_it_is_seen_and_nothing_overflows() -> None:
+    async def play(session: Session) -> None:
+        for digit in ("0", *(each.digit for each in PANES)):
+            await session.pilot.resize_terminal(80, 24)
+            await session.press(digit)
+            for size in ((59, 20), (60, 19), (40, 10)):
+                await session.pilot.resize_terminal(*size)
+                await session.settle()
+                assert len(session.lines()) == size[1]
+                assert {strip.cell_length for strip in session.app.screen._compositor.render_strips()} == {size[0]}
+                assert f"{size[0]}x{size[1]} is too small" in session.text()
+                assert all(word in session.text() for word in ("60x20", "! stops it", "q quits"))
+
+    run(live(), play)
 
 
 def test_a_resize_lays_everything_out_anew() -> None:

@@ -1,4 +1,4 @@
-"""From finding a parameter among thousands to loading what was saved, by keys alone."""
+"""From finding a parameter among thousands to loading what was saved, by keys alone and by mouse alone."""
 
 from __future__ import annotations
 
@@ -6,7 +6,9 @@ from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
 
+import pytest
 from bot_console.tui.console.model import ParameterTree
+from bot_console.tui.look import Look
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.panes.plot.pane import PlotPane
 from fakes.console import FakeConsole
@@ -94,3 +96,80 @@ def test_find_refuse_set_plot_stage_apply_swap_undo_save_restart_load(tmp_path: 
 
     run(crowd(), tune, (120, 40))
     run(crowd(), load, (120, 40))
+
+
+async def help_line(session: Session, words: str) -> None:
+    """Click on Help in the key bar, then on a line of it."""
+    await session.click("? Help")
+    await session.click(words)
+
+
+async def slide(session: Session, name: str, share: float) -> None:
+    """Click into the slider of a parameter of the navigator, at a share of its length."""
+    y, line = next((y, line) for y, line in enumerate(session.lines()) if f" {name} " in line and "●" in line)
+    begin, end = line.index("─"), line.rindex("─")
+    await session.pilot.click(offset=(begin + round(share * (end - begin)), y))
+    await session.settle()
+
+
+def test_the_same_by_mouse_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    left: list[object] = []
+    names = ("max_speed", "turn_rate", "safety_distance")
+
+    async def tune(session: Session) -> None:
+        nonlocal left
+        session.console.folder = tmp_path
+        await session.click_tab("1")
+        await session.click("▾ /crowd")
+        await session.click("max_speed")
+        assert session.pane(ParameterRows).current.parameter.name == "max_speed"
+        session.console.refusals[NAVIGATOR, "max_speed"] = "not while it drives"
+        await slide(session, "max_speed", 0.2)
+        assert value(session, "max_speed") == 1.0 and "not while it drives" in session.text()
+        session.console.refusals.clear()
+        await session.click("- Less")
+        assert value(session, "max_speed") < 1.0
+        await slide(session, "max_speed", 0.1)
+        await help_line(session, "Plot this parameter")
+        assert f"{NAVIGATOR}:max_speed" in session.pane(PlotPane).paths
+        await session.click_tab("1")
+        await help_line(session, "Mark edits instead")
+        before = [value(session, name) for name in names]
+        await slide(session, "turn_rate", 0.2)
+        await slide(session, "safety_distance", 0.9)
+        assert [value(session, name) for name in names] == before, "marked, not sent"
+        await help_line(session, "Apply what is marked")
+        assert value(session, "turn_rate") < before[1] and value(session, "safety_distance") > before[2]
+        await help_line(session, "Mark edits instead")
+        await slide(session, "turn_rate", 0.4)
+        set_a = value(session, "turn_rate")
+        await help_line(session, "Send what is marked as set B")
+        if len(session.app.screen_stack) > 1:
+            await session.click("y yes", last=True)
+        assert value(session, "turn_rate") != set_a
+        await help_line(session, "Send what is marked as set B")
+        assert value(session, "turn_rate") == set_a
+        await session.click_tab("H")
+        await session.click(f"→ {before[0]} ")
+        await session.click("u Back to here")
+        await session.click("y yes", last=True)
+        left = [value(session, name) for name in names]
+        assert left == before
+        await session.click_tab("1")
+        await help_line(session, "Save to a ROS parameter file")
+        await session.click(f"this node: {NAVIGATOR}", times=2)
+        await session.click("enter take it")
+        assert f"turn_rate: {left[1]}" in (tmp_path / "parameters.yaml").read_text()
+
+    async def load(session: Session) -> None:
+        assert [value(session, name) for name in names] != left
+        await session.click_tab("7")
+        await session.click("o Open")
+        await session.click("enter take it")
+        await session.click("a Apply")
+        assert [value(session, name) for name in names] == left
+
+    look = Look()
+    run(crowd(), tune, (120, 60), look=look)
+    run(live(), load, (120, 60), look=look)

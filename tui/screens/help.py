@@ -10,13 +10,18 @@ from bot_console.tui.keymap import TABLE
 from bot_console.tui.keys.key import Key, key_text
 from bot_console.tui.screens.overlay import Overlay
 from rich.console import RenderableType
+from rich.style import Style
 from rich.table import Table
 from rich.text import Text
 from textual.binding import BindingType
+from textual.events import Click
+
+KEY = "pressed_key"
+"""Under which name a line of the help carries its key."""
 
 
 class HelpScreen(Overlay):
-    """What a pane is for, and its keys, then those that work everywhere."""
+    """What a pane is for, and its keys, then those that work everywhere. A click on a line presses its key."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("help")]
 
@@ -35,11 +40,19 @@ class HelpScreen(Overlay):
         yield Text("\nEverywhere", "bold")
         yield _keys((*TABLE["app"], *(key for keys in shared for key in keys)))
 
+    def on_click(self, event: Click) -> None:
+        """A click on a line closes the help and does what its key does."""
+        key = event.style.meta.get(KEY)
+        if isinstance(key, str):
+            self.dismiss()
+            self.app.call_later(self.app.simulate_key, key)  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic, and its type is not told
+
 
 def _keys(rows: tuple[Key, ...]) -> Table:
     table = Table.grid(padding=(0, 2))
     table.add_column(style="bold", justify="right", min_width=12)
     table.add_column()
     for key in rows:
-        table.add_row(Text(key_text(key)), Text(key.text))
+        pressed = Style(meta={KEY: key.keys.split(",")[0]})
+        table.add_row(Text(key_text(key), pressed), Text(key.text, pressed))
     return table

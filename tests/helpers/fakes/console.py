@@ -362,13 +362,14 @@ class FakeConsole(FakeProfiles, FakeSeries):
             return Answer(False, CLOSED)
         self._steps.saved(nodes)
         self._tell_journal()
-        if not Path(path).is_absolute():
+        place = self.folder / path if self.folder else Path(path)
+        if not place.is_absolute():
             return Answer(True, f"saved to {path}")
         try:
-            saved = save(Path(path), self.current.parameters, tuple(nodes), only_changed=only_changed)
+            saved = save(place, self.current.parameters, tuple(nodes), only_changed=only_changed)
         except (OSError, ValueError) as error:
             return Answer(False, f"not saved: {error}")
-        return Answer(True, saved.text(Path(path)))
+        return Answer(True, saved.text(place))
 
     def close(self) -> None:
         self.asked.append(("close",))

@@ -20,6 +20,8 @@ class FakeProfiles:
     asked: list[tuple[Any, ...]]
     closed: bool
     fetching: Future[Answer]
+    folder: Path | None = None
+    """Where files with relative names are saved; None: they are not written."""
 
     def choose_robot(self, robot: str) -> None:
         self.asked.append(("choose_robot", robot))

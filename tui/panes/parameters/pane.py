@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -13,6 +14,7 @@ from bot_console.tui.console.model import ConsoleSnapshot, Value
 from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.query import parse
 from bot_console.tui.format import command_of, harmless
+from bot_console.tui.kept import LAST_FILE
 from bot_console.tui.panes.parameters.details import details
 from bot_console.tui.panes.parameters.edit_pane import EditPane
 from bot_console.tui.panes.parameters.memory import At, Left, left_of
@@ -309,7 +311,10 @@ class ParametersPane(EditPane):
 
     def _save_what(self, nodes: tuple[str, ...], only_changed: bool) -> None:
         def save(path: Path) -> Answer:
-            return self.console.save_parameters(str(path), nodes, only_changed=only_changed)
+            answer = self.console.save_parameters(str(path), nodes, only_changed=only_changed)
+            if answer.ok:
+                self.kept.put(LAST_FILE, os.path.abspath(path))
+            return answer
 
         self.host.call_later(partial(self.ask_file, "save to", "parameters.yaml", save, replaces=False))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from concurrent.futures import Future
 from functools import partial
@@ -12,7 +13,9 @@ from bot_console.tui.console.model import ConsoleSnapshot, ProcessState, Profile
 from bot_console.tui.console.parameters.file.node_keys import means
 from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.query import Query, parse
+from bot_console.tui.files.save_file import typed_path
 from bot_console.tui.format import counted, value_text
+from bot_console.tui.kept import LAST_FILE
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.pane import answer_of
 from bot_console.tui.panes.profiles.presets import PresetMenu
@@ -208,8 +211,10 @@ class ProfilesPane(ListPane):
         self._compare()
 
     def action_open_file(self) -> None:
-        """Ask for a parameter file and show what it would change."""
-        self.ask(Line("parameter file, or https://", self._open, check=wrong_path))
+        """Ask for a parameter file, the one saved or opened last at first, and show what it would change."""
+        last = self.kept.get(LAST_FILE)
+        text = last if isinstance(last, str) else ""
+        self.ask(Line("parameter file, or https://", self._open, text=text, check=wrong_path))
 
     def _open(self, place: str) -> None:
         if place.strip().lower().startswith(ADDRESSES):
@@ -218,7 +223,10 @@ class ProfilesPane(ListPane):
             answer = self.console.fetch_profile(place.strip())
             answer.add_done_callback(lambda done: self.host.call_later(self._opened, answer_of(done)))
         else:
-            self._opened(self.console.open_profile(place))
+            answer = self.console.open_profile(place)
+            if answer.ok:
+                self.kept.put(LAST_FILE, os.path.abspath(typed_path(place)))
+            self._opened(answer)
 
     def _opened(self, answer: Answer) -> None:
         """Go to a profile that was taken in."""
