@@ -62,6 +62,7 @@ P = TypeVar("P", bound=Pane)
 
 AT_ONCE = frozenset(next(key.keys for key in keymap.TABLE["app"] if key.id == "app.quit_now").split(","))
 """Keys that never wait for those typed before."""
+STOPS = frozenset(next(key.keys for key in keymap.TABLE["app"] if key.id == "app.stop").split(","))
 
 
 class BotConsoleApp(RecordingApp, TuningDoor):
@@ -111,14 +112,22 @@ class BotConsoleApp(RecordingApp, TuningDoor):
         self._safety_news = SafetyNews(console)
         self._plugins = plugins
         self.faults = Faults(self, self, self._panes_changed)
-        self._keyboard = Keyboard(self, super().on_event)
+        self._keyboard = Keyboard(self, self._deal)
 
     async def on_event(self, event: events.Event) -> None:
         """Keys are dealt with one after the other; those that quit from anywhere wait for nothing."""
-        typed = isinstance(event, (events.Key, events.Paste)) and not event.is_forwarded
-        if isinstance(event, (events.Key, events.Paste)) and typed and getattr(event, "key", "") not in AT_ONCE:
-            await self._keyboard.typed(event)
+        if not isinstance(event, (events.Key, events.Paste)) or event.is_forwarded:
+            await self._deal(event)
+        elif isinstance(event, events.Key) and event.key in AT_ONCE:
+            self._keyboard.overtake(event)
+            await self._deal(event)
         else:
+            await self._keyboard.typed(event)
+
+    async def _deal(self, event: events.Event) -> None:
+        # The question whether to quit is not answered by what was typed before the key that asked it.
+        early = isinstance(event, events.Key) and event.key not in STOPS and self._keyboard.was_overtaken(event)
+        if not (early and self._quitting.asking):
             await super().on_event(event)
 
     def compose(self) -> ComposeResult:

@@ -6,6 +6,7 @@ from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.screens.confirm import ConfirmScreen
 from piloting import Session, run
 from samples import live
+from textual import events
 
 NODE = "/robot_navigator"
 
@@ -62,6 +63,22 @@ def test_ctrl_q_twice_never_asks() -> None:
         assert not ended(session) and stops(session) == [True]
         await session.pilot.press("ctrl+q")
         assert ended(session)
+
+    run(live(), play)
+
+
+def test_keys_that_ctrl_q_has_overtaken_do_not_answer_its_question() -> None:
+    async def play(session: Session) -> None:
+        await edited(session)
+        early = [events.Key("q", "q"), events.Key("n", "n")]
+        await session.press("ctrl+q")
+        for each in early:
+            session.app.post_message(each)
+            await session.settle()
+        assert isinstance(session.app.screen, ConfirmScreen) and stops(session) == [True]
+        session.app.post_message(events.Key("n", "n"))
+        await session.settle()
+        assert stops(session) == [True, False] and not ended(session)
 
     run(live(), play)
 

@@ -34,6 +34,16 @@ class Keyboard:
         self._under_way = 0
         """Which key is being dealt with; 0 when none is."""
         self._count = 0
+        self._overtaken = 0.0
+        """When the last key was typed that waited for nothing, by the clock of Textual's events."""
+
+    def overtake(self, event: events.Key) -> None:
+        """Note a key that does not wait for those before it."""
+        self._overtaken = event.time
+
+    def was_overtaken(self, event: events.Key) -> bool:
+        """Whether a key was typed before one that did not wait for it."""
+        return event.time < self._overtaken
 
     async def typed(self, event: Typed) -> None:
         """Deal with a key now, or when those before it are done."""

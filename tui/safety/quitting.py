@@ -20,17 +20,18 @@ class Quitting:
     def __init__(self, app: App[None], console: Console) -> None:
         self._app = app
         self._console = console
-        self._asking = False
+        self.asking = False
+        """Whether the question is open."""
         self._holding = False
         """Whether the robot is held for the question alone, and may move again when the answer is no."""
 
     def wanted(self) -> None:
         """End, or ask first; asked for once more while the question is open: end."""
         snapshot = self._console.snapshot()
-        if self._asking or not snapshot.journal.unsaved:
+        if self.asking or not snapshot.journal.unsaved:
             self._app.exit()
             return
-        self._asking = True
+        self.asking = True
         if not snapshot.drive.stopped_here:
             self._holding = True
             self._console.all_stop(True, REASON)
@@ -52,7 +53,7 @@ class Quitting:
         return held
 
     def _go_on(self) -> None:
-        self._asking = False
+        self.asking = False
         if self.keep_held():
             self._console.all_stop(False)  # which takes back no stop but this console's
 
