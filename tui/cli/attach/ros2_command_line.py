@@ -11,6 +11,7 @@ import threading
 from collections.abc import Sequence
 from concurrent.futures import Future
 
+from bot_console.tui.cli.beside import beside
 from bot_console.tui.console.connection.no_console import done
 from bot_console.tui.console.lines import RunningLine, goes_on
 from bot_console.tui.console.model import ConsoleSnapshot
@@ -26,29 +27,20 @@ GRACE = 3.0
 """Seconds that it then has to end."""
 
 
-class _Streamed:
+class _Streamed(RunningLine):
     """A line in a process, and the last of what it has printed."""
 
     def __init__(self, words: Sequence[str]) -> None:
-        self._printed = RunningLine()
+        super().__init__()
         self._process = _start(words)
         threading.Thread(target=self._read, name="ros2", daemon=True).start()
 
     def _read(self) -> None:
         with self._process.stdout or open(os.devnull, "rb") as printed:
             for line in printed:
-                self._printed.append(line.decode("utf-8", "replace"))
+                self.append(line.decode("utf-8", "replace"))
         self._process.wait()
-        self._printed.end()
-
-    def lines(self) -> Sequence[str]:
-        """The last lines; the same object until there are more."""
-        return self._printed.lines()
-
-    @property
-    def ended(self) -> bool:
-        """Whether nothing more comes."""
-        return self._printed.ended
+        self.end()
 
     def stop(self) -> None:
         """Interrupt it, as Ctrl-C does."""
@@ -84,16 +76,7 @@ class MachineCommandLine:
 
     def run(self, line: str) -> Future[str]:
         """Run a line beside the caller; what it printed, or the `ValueError` of a quotation mark without its twin."""
-        outcome: Future[str] = Future()
-
-        def work() -> None:
-            try:
-                outcome.set_result(printed_by(line))
-            except Exception as error:  # the border of the thread
-                outcome.set_exception(error)
-
-        threading.Thread(target=work, name="ros2", daemon=True).start()
-        return outcome
+        return beside(lambda: printed_by(line), "ros2")
 
 
 def printed_by(line: str, limit: float = LINE_LIMIT) -> str:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import shlex
 import sys
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import Future
-from typing import TypeVar
 
 from bot_console.runtime.process import NodeProcess
+from bot_console.tui.cli.beside import beside
 from bot_console.tui.cli.completion import candidates
 from bot_console.tui.cli.started_lines import launched_by
 from bot_console.tui.cli.verbs.colcon import answers
@@ -18,7 +18,6 @@ from bot_console.tui.console.lines import RunningLine, goes_on
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Launcher, Stream
 
-T = TypeVar("T")
 LINE_LIMIT = 15.0
 """Seconds after which a line that does not end by itself, and was not expected to go on, is interrupted."""
 STARTING = 30.0
@@ -36,7 +35,7 @@ class Ros2CommandLine:
 
     def run(self, line: str) -> Future[str]:
         """Run a line beside the caller; what it printed, or the `ValueError` of what cannot be run or started."""
-        return _beside(lambda: self._done(line))
+        return beside(lambda: self._done(line), "ros2")
 
     def stream(self, line: str) -> Stream | None:
         """Begin a line that goes on by itself; None for any other."""
@@ -55,7 +54,7 @@ class Ros2CommandLine:
     def complete(self, words: Sequence[str], snapshot: ConsoleSnapshot) -> Future[Sequence[str]]:
         """What the last of the words may become, found beside the caller."""
         names = _Names(snapshot, self._known)
-        return _beside(lambda: candidates(words, names))
+        return beside(lambda: candidates(words, names), "ros2")
 
     def _done(self, line: str) -> str:
         words = _words(line)
@@ -91,36 +90,13 @@ class _Names:
         return found if found is not None else [each.strip() for each in _printed_by(words).splitlines()]
 
 
-def _beside(work: Callable[[], T]) -> Future[T]:
-    """Do some work in a thread of its own."""
-    outcome: Future[T] = Future()
-
-    def do() -> None:
-        try:
-            outcome.set_result(work())
-        except Exception as error:  # the border of the thread
-            outcome.set_exception(error)
-
-    threading.Thread(target=do, name="ros2", daemon=True).start()
-    return outcome
-
-
-class _Streamed:
+class _Streamed(RunningLine):
     """A line in a node process, and the last of what it has printed."""
 
     def __init__(self, words: Sequence[str]) -> None:
-        self._printed = RunningLine()
-        self._process = _start(words, self._printed)
-        self._process.on_exit(lambda process: self._printed.end())
-
-    def lines(self) -> Sequence[str]:
-        """The last lines; the same object until there are more."""
-        return self._printed.lines()
-
-    @property
-    def ended(self) -> bool:
-        """Whether nothing more comes."""
-        return self._printed.ended
+        super().__init__()
+        self._process = _start(words, self)
+        self._process.on_exit(lambda process: self.end())
 
     def stop(self) -> None:
         """Interrupt it, as Ctrl-C does."""

@@ -1,0 +1,24 @@
+"""Work beside the caller."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from concurrent.futures import Future
+from typing import TypeVar
+
+T = TypeVar("T")
+
+
+def beside(work: Callable[[], T], name: str) -> Future[T]:
+    """Do some work in a thread of its own, which has that name; its result, or what it raises."""
+    outcome: Future[T] = Future()
+
+    def do() -> None:
+        try:
+            outcome.set_result(work())
+        except Exception as error:  # the border of the thread
+            outcome.set_exception(error)
+
+    threading.Thread(target=do, name=name, daemon=True).start()
+    return outcome
