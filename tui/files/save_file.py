@@ -66,7 +66,10 @@ def _save(path: Path, content: bytes, check: Callable[[bytes], None] | None) -> 
     # The rename is to replace what a link leads to, not the link.
     target = Path(os.path.realpath(path))
     old = _replaceable(path, target)
-    target.parent.mkdir(parents=True, exist_ok=True)
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise NotSaved(f"{path}: its folder cannot be made: {_reason(target, error)}") from error
     _clear_left_overs(target.parent)
     temporary = target.parent / f"{PREFIX}{secrets.token_hex(4)}{SUFFIX}"
     try:
