@@ -283,6 +283,12 @@ class BotConsoleApp(RecordingApp, TuningDoor):
         """Ask for a line: a verb of the console, or one of `ros2`."""
         self.desk.ask_line()
 
+    def on_pane_alarms_hold(self, event: Pane.AlarmsHold) -> None:
+        """Name the alarms that hold in the status bar."""
+        bar = self.screen_stack[0].query_one(StatusBar)
+        bar.alarms = event.names
+        bar.show(self._snapshot, self.gate.held_back)
+
     def action_acknowledge(self) -> None:
         """Count only the errors that come from now on."""
         bar = self.screen_stack[0].query_one(StatusBar)

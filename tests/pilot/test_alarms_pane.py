@@ -44,10 +44,12 @@ def test_it_is_told_once_for_each_crossing_also_while_the_pane_is_hidden() -> No
         assert told(session) == 1 and "too fast: 2.5" in session.text()
         await later(session, 2.7)
         assert told(session) == 1, "it goes on holding"
+        assert "⚠ too fast" in session.lines()[-2], "the status bar names it in every pane"
         await session.press("B")
         assert "✗ holds" in session.text() and "1 time" in session.text() and "1 of 1 hold" in session.text()
         await later(session, 1.0, 3.0, 1.0)
         assert told(session) == 2 and "○ quiet" in session.text() and "2 times" in session.text()
+        assert "⚠" not in session.lines()[-2]
 
     run(live(), play, (120, 30))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from pathlib import Path
 from typing import Any, ClassVar
@@ -71,6 +71,13 @@ class Pane(Container):
             super().__init__()
             self.pane = pane
             self.name = name
+
+    class AlarmsHold(Message):
+        """Alarms of these names hold now, and no others."""
+
+        def __init__(self, names: Sequence[str]) -> None:
+            super().__init__()
+            self.names = names
 
     class TuningWanted(Message):
         """Somebody wants settings tried in simulated runs; `take` is for the one that the person chooses."""

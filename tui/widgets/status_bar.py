@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from bot_console.tui.console.model import ConsoleSnapshot, LinkInfo, ProcessState, Severity
 from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.format import counted, harmless, profile_text
@@ -18,11 +20,13 @@ class StatusBar(Words):
     """
 
     _acknowledged = 0
+    alarms: Sequence[str] = ()
+    """The names of the alarms that hold."""
 
     def show(self, snapshot: ConsoleSnapshot, held_back: int = 0) -> None:
         """Say how things are."""
         self._acknowledged = min(self._acknowledged, errors_of(snapshot))  # a log that was emptied counts anew
-        self.say(status_text(snapshot, held_back, self._acknowledged))
+        self.say(status_text(snapshot, held_back, self._acknowledged, self.alarms))
         self.set_class(snapshot.drive.stopped or bool(snapshot.link.silent_s), "stopped")
 
     def acknowledge(self, snapshot: ConsoleSnapshot) -> None:
@@ -35,12 +39,16 @@ def errors_of(snapshot: ConsoleSnapshot) -> int:
     return sum(snapshot.logs.counts.get(each, 0) for each in (Severity.ERROR, Severity.FATAL))
 
 
-def status_text(snapshot: ConsoleSnapshot, held_back: int = 0, acknowledged: int = 0) -> str:
-    """The line; `acknowledged` errors are not told any more."""
+def status_text(
+    snapshot: ConsoleSnapshot, held_back: int = 0, acknowledged: int = 0, alarms: Sequence[str] = ()
+) -> str:
+    """The line; `acknowledged` errors are not told any more, `alarms` are the names of those that hold."""
     if snapshot.problem:
         return harmless(snapshot.problem)
     parts = [link_text(snapshot.link)] if snapshot.link.silent_s else []
     parts += [stop_text(snapshot.drive)] if snapshot.drive.stopped else []
+    if alarms:
+        parts.append(f"⚠ {harmless(', '.join(alarms))}")
     dead = [each.label for each in snapshot.launch.processes if each.state is ProcessState.CRASHED]
     if dead:
         parts.append(f"✗ ended: {harmless(', '.join(dead))}")

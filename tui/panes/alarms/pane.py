@@ -50,6 +50,8 @@ class AlarmsPane(ListPane):
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
         self._alarms: list[Alarm] = []
+        self._holding: list[str] = []
+        """The names of those that hold, as they were told last."""
         self._query = Query()
         self._waiting: dict[str, str] = {}
         """Paths that cannot be watched now, and why."""
@@ -87,6 +89,10 @@ class AlarmsPane(ListPane):
                 began = alarm.look(self.console)
                 if began:
                     self._tell(alarm, began[-1], len(began))
+        holding = [each.text.name for each in self._alarms if each.holds]
+        if holding != self._holding:
+            self._holding = holding
+            self.post_message(self.AlarmsHold(holding))
         if self.display and now - self._drawn >= SHOWN:
             self._arrange()
 
