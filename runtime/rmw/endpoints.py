@@ -115,6 +115,11 @@ class NodeId(NamedTuple):
     number: int = 0
 
     @property
+    def full_name(self) -> str:
+        """The name with its namespace before it."""
+        return f"{self.namespace.rstrip('/')}/{self.name}"
+
+    @property
     def owner(self) -> Owner:
         """Name and namespace."""
         return self.name, self.namespace

@@ -95,7 +95,7 @@ def robot_there() -> list[str]:
     found = [end for each in tables for topic in SOURCES for end in each.publishers.on(topic)]
     found += [end for each in tables for end in each.subscriptions.on(VELOCITY)]
     robots = (each.node for each in found if not each.node.name.startswith("_"))
-    return sorted({f"{each.namespace.rstrip('/')}/{each.name}" for each in robots})
+    return sorted({each.full_name for each in robots})
 
 
 def _lives(pid: int) -> bool:

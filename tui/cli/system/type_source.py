@@ -14,9 +14,7 @@ class DomainTypes:
         from bot_console.runtime.rmw.middleware import bus_of
 
         servers = [each for tables in bus_of(domain).tables() for each in tables.servers.on(service)]
-        return {
-            f"{each.node.namespace.rstrip('/')}/{each.node.name}": each.type_hash for each in servers if each.type_hash
-        }
+        return {each.node.full_name: each.type_hash for each in servers if each.type_hash}
 
     def learn(self, type_name: str, type_hash: str, told: Any) -> str:
         """Take a response of `get_type_description`; why that cannot be, as said of the node, else empty."""

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any, Protocol
 
 from bot_console.tui.console.calls import Calls, NoAnswer
+from bot_console.tui.console.graph.pairs import name_of
 from bot_console.tui.console.model import GraphInfo
 from rclpy.node import Node
 
@@ -104,11 +105,7 @@ class ToldTypes:
             return self._source.service_hashes(self._node.context.get_domain_id(), name)
         node = self._node
         found = [*node.get_subscriptions_info_by_topic(name), *node.get_publishers_info_by_topic(name)]
-        return {
-            f"{each.node_namespace.rstrip('/')}/{each.node_name}": str(each.topic_type_hash)
-            for each in found
-            if each.topic_type == type_name
-        }
+        return {name_of(each): str(each.topic_type_hash) for each in found if each.topic_type == type_name}
 
     async def _ask(self, node: str, type_name: str, type_hash: str) -> str:
         """Ask a node; why it is no use, else empty."""
