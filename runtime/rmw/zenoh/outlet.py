@@ -99,8 +99,9 @@ class Outlet(deque[Any]):
 
 def mismatch(topic: str, type_name: str, token: Token) -> str:
     """What is said where two processes have different definitions of a type: they do not hear each other."""
+    node = f"{token.node.namespace.rstrip('/')}/{token.node.name}"
     return (
-        f"'{topic}': {type_name} is defined otherwise in node {token.node.full_name} (hash {token.type_hash}), "
+        f"'{topic}': {type_name} is defined otherwise in node {node} (hash {token.type_hash}), "
         "so no messages pass: build both from the same definition"
     )
 
