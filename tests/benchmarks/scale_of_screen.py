@@ -1,0 +1,229 @@
+"""What grows on the screen, and how: `python tests/benchmarks/scale_of_screen.py [CURVE ...]`, JSON out.
+
+Processor time, the least of some runs. `stock` curves are widgets of Textual with as many rows: what a screen that is
+written the first way has to pay. Robots are simulators side by side in one process.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import sys
+import time
+from collections.abc import Awaitable, Callable
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+from bot_console.runtime.importer import install
+
+install()
+sys.path[:0] = [str(Path(__file__).parents[1] / "helpers"), str(Path(__file__).parent)]
+
+import numpy as np
+from bench_logs import filled
+from bench_simulation import WORLDS
+from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.console.logs.search import matching
+from bot_console.tui.console.model import (
+    Endpoint,
+    GraphInfo,
+    Kind,
+    LogFilter,
+    NodeInfo,
+    ParameterInfo,
+    ParameterTree,
+    Severity,
+)
+from bot_console.tui.opening import Opening
+from bot_console.tui.panes.plot.curves import Curve
+from bot_console.tui.panes.plot.view import Axes, framed
+from bot_console.tui.panes.topics.rows import Kind as Listed
+from bot_console.tui.panes.topics.rows import rows
+from bot_console_robot.simulation.simulation import Simulation
+from bot_console_robot.simulation.world_file import load_world
+from fakes.console import FakeConsole
+from fakes.launcher import FakeLauncher
+from textual.app import App, ComposeResult
+from textual.widgets import DataTable, RichLog
+
+RUNS = 3
+MILLI = 1e3
+EACH = 25
+"""Parameters of a node."""
+SAMPLES = 10_000
+"""Of each plotted curve."""
+Measure = Callable[[int], float]
+
+
+def least(action: Callable[[], Any]) -> float:
+    """Milliseconds of processor time of an action, the least of some runs."""
+    found: list[float] = []
+    for _ in range(RUNS):
+        start = time.process_time()
+        action()
+        found.append(time.process_time() - start)
+    return min(found) * MILLI
+
+
+async def shown(app: App[None], work: Callable[[], object]) -> float:
+    """Milliseconds of processor time from a change until the screen of 120x40 shows it."""
+    async with app.run_test(size=(120, 40)) as pilot:
+        await pilot.pause()
+        start = time.process_time()
+        work()
+        await pilot.pause()
+        return (time.process_time() - start) * MILLI
+
+
+def once_or_more(measured: Callable[[], Awaitable[float]]) -> float:
+    """The least of some runs of a screen."""
+
+    async def run() -> float:
+        return await measured()
+
+    return min(asyncio.run(run()) for _ in range(RUNS))
+
+
+def parameter_tree(count: int) -> float:
+    """Milliseconds until the parameter pane shows so many parameters that came at once."""
+    trees: dict[str, ParameterTree] = {}
+    for number in range(count // EACH):
+        node = f"/robot{number // 20}/n{number}"
+        infos = (ParameterInfo(node, f"group{at // 5}.gain{at}", Kind.DOUBLE, 1.0, default=1.0) for at in range(EACH))
+        trees[node] = ParameterTree(node, tuple(infos))
+    console = FakeConsole()
+
+    async def measured() -> float:
+        app = BotConsoleApp(console, FakeLauncher((), ()), refresh_hz=0, opening=Opening("parameters"))
+
+        def show() -> None:
+            console.change(parameters=MappingProxyType(trees))
+            app.pull()
+
+        console.change(parameters=MappingProxyType({}))
+        return await shown(app, show)
+
+    return once_or_more(measured)
+
+
+class StockTable(App[None]):
+    """A table of Textual's."""
+
+    def compose(self) -> ComposeResult:
+        """One table."""
+        yield DataTable[str]()
+
+    def fill(self, count: int) -> None:
+        """Add so many rows, as one does it first."""
+        table = self.query_one(DataTable)
+        table.add_columns("parameter", "value")
+        for number in range(count):
+            table.add_row(f"group{number}.gain", "1.0")
+
+
+class StockLog(App[None]):
+    """A log of Textual's."""
+
+    def compose(self) -> ComposeResult:
+        """One log."""
+        yield RichLog()
+
+    def fill(self, count: int) -> None:
+        """Write so many lines."""
+        log = self.query_one(RichLog)
+        for number in range(count):
+            log.write(f"[INFO] [robot_navigator]: scan of {number % 997 / 100:.2f} m, cycle {number}")
+
+
+def stock_table(count: int) -> float:
+    """Milliseconds until a stock table shows so many rows."""
+
+    async def measured() -> float:
+        app = StockTable()
+        return await shown(app, lambda: app.fill(count))
+
+    return once_or_more(measured)
+
+
+def stock_log(count: int) -> float:
+    """Milliseconds to write so many lines to a stock log: it has no filter, so those that pass are written again."""
+
+    async def measured() -> float:
+        app = StockLog()
+        return await shown(app, lambda: app.fill(count))
+
+    return once_or_more(measured)
+
+
+def severity_filter(count: int) -> float:
+    """Milliseconds to find the errors among so many records."""
+    store = filled(count)
+    return least(lambda: matching(store, LogFilter(minimum=Severity.ERROR)))
+
+
+def rare_word(count: int) -> float:
+    """Milliseconds to find a rare word among so many records."""
+    store = filled(count)
+    return least(lambda: matching(store, LogFilter(words="zebra")))
+
+
+def plotted(count: int) -> float:
+    """Milliseconds to draw so many curves, of 10,000 samples each, into 120x40 cells."""
+    times = np.linspace(0.0, 100.0, SAMPLES)
+    curves = [Curve(f"/topic{at}/data", at, times, np.sin(times * (1 + at / 7))) for at in range(count)]
+    return least(lambda: framed(curves, (), Axes(0.0, 100.0), 120, 40))
+
+
+def topic_rows(count: int) -> float:
+    """Milliseconds to make the rows of so many topics, anew after a change."""
+    nodes = tuple(
+        NodeInfo(
+            f"/node{at}",
+            publishers=tuple(Endpoint(f"/topic{at * 10 + each}", ("std_msgs/msg/Float64",)) for each in range(10)),
+            subscriptions=tuple(Endpoint(f"/topic{each}", ("std_msgs/msg/Float64",)) for each in range(10)),
+        )
+        for at in range(count // 10)
+    )
+    graph = GraphInfo(nodes)
+    return least(lambda: rows(graph, Listed.TOPICS, hidden=False))
+
+
+def robots(count: int) -> float:
+    """Milliseconds for a simulated second of so many robots, each in a world of its own, with scans at 10 Hz."""
+    driven = [Simulation(load_world(WORLDS / "indoor.yaml"), seed) for seed in range(count)]
+
+    def second() -> None:
+        for step in range(100):
+            for each in driven:
+                each.command(0.3, 0.4)
+                each.step()
+                if step % 10 == 0:
+                    each.scan()
+
+    return least(second)
+
+
+CURVES: dict[str, tuple[Measure, tuple[int, ...]]] = {
+    "parameter_tree_ms": (parameter_tree, (100, 1_000, 5_000)),
+    "parameter_tree_ms stock": (stock_table, (100, 1_000, 5_000)),
+    "log_severity_ms": (severity_filter, (10_000, 100_000, 1_000_000)),
+    "log_word_ms": (rare_word, (10_000, 100_000, 1_000_000)),
+    "log_word_ms stock": (stock_log, (1_000, 10_000)),
+    "plot_ms": (plotted, (1, 4, 16, 64)),
+    "topic_rows_ms": (topic_rows, (30, 100, 300, 1_000)),
+    "robots_ms": (robots, (1, 3, 10, 30)),
+}
+
+
+def main(wanted: list[str]) -> None:
+    """Measure the curves that were named, else all."""
+    table: dict[str, dict[str, float]] = {}
+    for name in wanted or CURVES:
+        measure, sizes = CURVES[name]
+        table[name] = {str(size): round(measure(size), 3) for size in sizes}
+    print(json.dumps(table, indent=1))
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,144 @@
+"""Whether a long run stays flat: memory, threads and descriptors of all its processes, sampled; JSON.
+
+    python tests/soak/steady.py --simulated 24    hours of the default robot without a screen, as fast as it goes
+    python tests/soak/steady.py --live 30         minutes of a console with its robot in a terminal of 120x40
+
+A line is fitted to the samples of each, the first fifth left out: what a program reads, compiles and fills once is
+start-up. `slope` is in MB, threads or descriptors for each simulated hour or live minute; `first` and `last` are the
+means of a tenth of the samples at either end. Linux.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "acceptance" / "console"))
+from terminal import Terminal
+
+PAGE = os.sysconf("SC_PAGE_SIZE")
+NAMES = ("memory_mb", "threads", "descriptors")
+Sample = tuple[float, int, int]
+
+
+def descendants(pid: int) -> list[int]:
+    """A process and all that have come from it."""
+    found = [pid]
+    for each in found:
+        with contextlib.suppress(OSError):
+            for task in Path(f"/proc/{each}/task").iterdir():
+                found += map(int, (task / "children").read_text().split())
+    return found
+
+
+def sample(pid: int) -> Sample:
+    """Memory that the processes share with none (MB), threads and open descriptors of a process and what it started."""
+    memory, threads, descriptors = 0.0, 0, 0
+    for each in descendants(pid):
+        with contextlib.suppress(OSError):
+            _, resident, shared, *_ = Path(f"/proc/{each}/statm").read_text().split()
+            memory += (int(resident) - int(shared)) * PAGE / 1e6
+            threads += len(os.listdir(f"/proc/{each}/task"))
+            descriptors += len(os.listdir(f"/proc/{each}/fd"))
+    return memory, threads, descriptors
+
+
+def fitted(samples: list[Sample], length: float) -> dict[str, Any]:
+    """The line through the samples of a run of some length (hours, minutes), for each thing that was sampled."""
+    rows = np.array(samples, dtype=float)
+    start, tenth = len(rows) // 5, max(1, len(rows) // 10)
+    moments = np.linspace(0.0, length, len(rows))
+    return {
+        name: {
+            "slope": round(float(np.polyfit(moments[start:], rows[start:, column], 1)[0]), 5),
+            "first": round(float(rows[start : start + tenth, column].mean()), 2),
+            "last": round(float(rows[-tenth:, column].mean()), 2),
+            "most": round(float(rows[:, column].max()), 2),
+        }
+        for column, name in enumerate(NAMES)
+    }
+
+
+def simulated(hours: float, folder: Path) -> dict[str, Any]:
+    """Run the default robot headless, stepped, for so many simulated hours."""
+    words = ["-m", "bot_console.tui", "--headless", "--fast", "--seed", "1", "--duration", str(hours * 3600)]
+    with (folder / "log").open("wb") as log, (folder / "report.json").open("wb") as report:
+        process = subprocess.Popen([sys.executable, *words], cwd=folder, stdout=report, stderr=log)
+        samples = _until(lambda: process.poll() is not None, process.pid)
+    (folder / "log").unlink()
+    return {"hours": hours, "exit_code": process.returncode, "samples": len(samples), **fitted(samples, hours)}
+
+
+def live(minutes: float, folder: Path) -> dict[str, Any]:
+    """Run a console with its robot, read from as a terminal is, for so many minutes; a key goes through its panes."""
+    terminal = Terminal(["-m", "bot_console.tui", "--seed", "1"], folder)
+    try:
+        terminal.read_until(lambda: b"robot_navigator" in terminal.output, "the robot")
+        end, pane = time.monotonic() + minutes * 60, 0
+
+        def over() -> bool:
+            nonlocal pane
+            terminal.drain(0.5)
+            terminal.output = terminal.output[-10_000:]
+            pane = pane % 8 + 1
+            terminal.type(str(pane))
+            return time.monotonic() > end or terminal.process.poll() is not None
+
+        samples = _until(over, terminal.process.pid)
+        terminal.type("q")
+        code = terminal.wait()
+    finally:
+        terminal.close()
+    return {"minutes": minutes, "exit_code": code, "samples": len(samples), **fitted(samples, minutes)}
+
+
+def _until(over: Callable[[], bool], pid: int) -> list[Sample]:
+    """Samples of a process and what it started, about two a second, until it is over."""
+    samples: list[Sample] = []
+    while not over():
+        samples.append(sample(pid))
+        if len(samples) % 120 == 0:
+            print(f"{len(samples)} samples, now {samples[-1]}", file=sys.stderr, flush=True)
+        time.sleep(0.5)
+    return samples
+
+
+def main() -> None:
+    """Run as the words of the command say."""
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--simulated", type=float, metavar="HOURS")
+    parser.add_argument("--live", type=float, metavar="MINUTES")
+    options = parser.parse_args()
+    folder, sockets = Path(tempfile.mkdtemp(prefix="steady")), Path(tempfile.mkdtemp(prefix="bcs"))
+    os.environ |= {
+        "BOT_CONSOLE_SOCKET_DIR": str(sockets),
+        "XDG_STATE_HOME": str(folder),
+        "XDG_CONFIG_HOME": str(folder),
+    }
+    report: dict[str, Any] = {}
+    try:
+        if options.simulated:
+            report["simulated"] = simulated(options.simulated, folder)
+        if options.live:
+            report["live"] = live(options.live, folder)
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+        shutil.rmtree(sockets, ignore_errors=True)
+    print(json.dumps(report, indent=2))
+    sys.exit(any(each["exit_code"] for each in report.values()))
+
+
+if __name__ == "__main__":
+    main()
