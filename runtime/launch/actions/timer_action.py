@@ -82,7 +82,8 @@ class TimerAction(Action):
         self.__locals = dict(context.get_locals_as_dict())
         period = perform_typed_substitution(context, self.__period, float)
         self._completed_future = create_future(context.asyncio_loop)
-        if self.__canceled:
+        cancel_on_shutdown = perform_typed_substitution(context, self.__cancel_on_shutdown, bool)
+        if self.__canceled or (cancel_on_shutdown and context.is_shutdown):  # upstream waits for the latter
             self._completed_future.set_result(None)
             return
         self._handler = EventHandler(
@@ -92,7 +93,7 @@ class TimerAction(Action):
         self._handler.kind_of_events = TimerEvent
         self._handler.handle = self._handle_fired  # type: ignore[method-assign] -- this handler alone, as upstream
         context.register_event_handler(self._handler)
-        if perform_typed_substitution(context, self.__cancel_on_shutdown, bool):
+        if cancel_on_shutdown:
             context.register_event_handler(OnShutdown(on_shutdown=self._launch_ends))
         self._wait(context, max(0.0, period))
 

@@ -294,8 +294,17 @@ def test_a_period_that_is_no_number_is_an_error(run: Launch) -> None:
     assert (outcome.code, outcome.caught) == (1, "could not convert string to float: 'soon'")
 
 
-def test_shutdown_cancels_timers(run: Launch) -> None:
-    assert run([TimerAction(period=60.0, actions=[LogInfo(msg="never")]), Shutdown()]).said == []
+class Own(Event):
+    name = "own"
+
+
+def test_shutdown_cancels_timers_and_lets_none_begin(run: Launch) -> None:
+    timer = TimerAction(period=60.0, actions=[LogInfo(msg="never")])
+    assert run([timer, Shutdown()]).said == []
+    late = TimerAction(period=60.0, actions=[LogInfo(msg="never")])
+    after = EventHandler(matcher=lambda event: isinstance(event, Own), entities=[late])
+    during = OnShutdown(on_shutdown=[EmitEvent(event=Own())])
+    assert run([RegisterEventHandler(after), RegisterEventHandler(during), Shutdown()]).said == []
 
 
 def test_shutdown_handlers_and_reasons(run: Launch) -> None:
@@ -314,9 +323,6 @@ def test_completion_needs_a_handler_that_is_there_before(run: Launch) -> None:
 
 
 def test_handlers_of_own_events(run: Launch) -> None:
-    class Own(Event):
-        name = "own"
-
     once = EventHandler(matcher=lambda event: isinstance(event, Own), entities=[LogInfo(msg="once")], handle_once=True)
     gone = EventHandler(matcher=lambda event: isinstance(event, Own), entities=[LogInfo(msg="gone")])
     entities = [RegisterEventHandler(once), RegisterEventHandler(gone), UnregisterEventHandler(gone)]
