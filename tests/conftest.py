@@ -9,10 +9,13 @@ import signal
 import sys
 import tempfile
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from bot_console.runtime.importer import install
 from hypothesis import settings
+
+TESTS = Path(__file__).absolute().parent
 
 ON_ROS = os.environ.get("BOT_CONSOLE_TESTS_ON") == "ros"
 """Whether the ROS names are to mean what the machine has: for `-m ros`."""
@@ -32,9 +35,10 @@ _folders = itertools.count(1)
 os.environ["BOT_CONSOLE_SOCKET_DIR"] = os.path.join(_sockets, "0")
 atexit.register(shutil.rmtree, _sockets, ignore_errors=True)
 
-# A test's programs compile what they import once, also where the environment says that no files are to be left behind.
-os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
-os.environ.setdefault("PYTHONPYCACHEPREFIX", os.path.join(_sockets, "compiled"))
+# Workers and a test's programs compile what they import once, also where the environment says that no files are to be
+# left behind.
+if os.environ.pop("PYTHONDONTWRITEBYTECODE", None):
+    os.environ.setdefault("PYTHONPYCACHEPREFIX", os.path.join(_sockets, "compiled"))
 
 # The default run tries the same examples each time, so that red means a change: HYPOTHESIS_PROFILE=explore tries more.
 settings.register_profile("repeatable", derandomize=True, deadline=None, database=None)
@@ -77,6 +81,15 @@ def _takes_part() -> bool:
     return chosen is not None and shared is not None and chosen.is_chosen(shared.shared_bus)
 
 
+def pytest_configure(config: pytest.Config) -> None:
+    """Each of several workers begins to read the tests at another file: what it compiles, the others find compiled."""
+    worker = getattr(config, "workerinput", None)
+    if worker is not None and [Path(each).absolute() for each in config.args] == [TESTS]:
+        files = sorted(TESTS.rglob("test_*.py"))
+        first = len(files) * int(worker["workerid"].removeprefix("gw")) // worker["workercount"]
+        config.args = [str(each) for each in (*files[first:], *files[:first])]
+
+
 def pytest_collection_finish() -> None:
     """What was imported and collected stays: to look it through took a quarter of the time of a screen's test."""
     gc.collect()
@@ -104,10 +117,12 @@ BESIDE_OTHERS = (
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Tests over processes, terminals and screens are tried twice: beside others one of the parts may come too late.
+    """One order, however they were read; and tests over processes, terminals and screens are tried twice.
 
-    The summary counts what needed its second try (`rerun`); a fault fails both.
+    Beside others one of the parts may come too late. The summary counts what needed its second try (`rerun`); a fault
+    fails both.
     """
+    items.sort(key=lambda each: each.path)
     for item in items:
         if item.nodeid.startswith(BESIDE_OTHERS):
             item.add_marker(pytest.mark.flaky(reruns=1))
