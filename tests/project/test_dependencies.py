@@ -3,6 +3,7 @@
 import ast
 import re
 import sys
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -34,6 +35,7 @@ def import_names(requirements):
     return {IMPORT_NAMES.get(each, each) for each in distributions}
 
 
+@cache
 def imported():
     """Top-level names that any file imports, late imports and optional ones included."""
     names = set()
@@ -45,9 +47,14 @@ def imported():
                 names |= {alias.name.split(".")[0] for alias in node.names}
             elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
                 names.add(node.module.split(".")[0])
-            elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith("import_module") and node.args:
+            elif isinstance(node, ast.Call) and called(node.func) == "import_module" and node.args:
                 names |= {str(each.value).split(".")[0] for each in node.args[:1] if isinstance(each, ast.Constant)}
     return names
+
+
+def called(function):
+    """The last word of what is called."""
+    return function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
 
 
 def ros_names():

@@ -11,7 +11,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -71,6 +71,12 @@ class System:
             assert time.monotonic() < deadline, (what, self.launcher.info().processes, self.printed[-5:])
             threading.Event().wait(0.02)
         return found
+
+    def kill(self, names: Iterable[str]) -> None:
+        """Kill those of these names."""
+        for name in names:
+            assert self.launcher.kill(self.named(name).key).result(PATIENCE).ok
+            assert self.named(name).exit_code == -9
 
     def all_others_go_on(self) -> None:
         """The robot gives its odometry, nothing had to be started again, and the good node runs."""
@@ -149,28 +155,33 @@ def test_one_that_is_frozen_is_shown_as_such_until_it_goes_on(system: System) ->
 
 
 BUSY = {"loops": "while True:\n    pass\n", "computes": "sum(iter(int, 1))\n"}
+"""What a node does that computes without ever waiting: in Python, and in C with the interpreter's lock held."""
 ENDLESS = {
     "floods": "while True:\n    print('flood ' * 20)\n",
     "holds": "held = bytearray(b'x' * 300_000_000)\ntime.sleep(1000)\n",
     "closes": "os.closerange(0, 256)\ntime.sleep(1000)\n",
     "deaf": "import signal\nfor each in (2, 15):\n    signal.signal(each, signal.SIG_IGN)\ntime.sleep(1000)\n",
 }
-"""What a node does that never ends by itself; the busy ones compute, and are named for it."""
+"""What else a node does that never ends by itself."""
 
 
-def test_those_that_never_end_are_named_with_their_figures_and_the_robot_can_be_stopped(system: System) -> None:
-    system.start({name: HEAD + fault for name, fault in (BUSY | ENDLESS).items()})
+@pytest.mark.parametrize("name", ["loops", pytest.param("computes", marks=pytest.mark.soak)])
+def test_one_that_computes_is_named_with_its_figures(system: System, name: str) -> None:
+    system.start({name: HEAD + BUSY[name]})
     timeline = lambda: " ".join(each.text for each in system.launcher.info().timeline)  # noqa: E731
-    for name in BUSY:
-        system.until(lambda name=name: f"{name}.py-1 has computed for 6 s without waiting" in timeline(), "a busy one")
-    system.until(lambda: system.heard("loops", "without waiting, in"), "the line in which it computes")
-    system.until(lambda: (system.named("holds").memory or 0) > 300, "its memory")
-    assert (system.named("loops").cpu or 0.0) > 0.0
+    system.until(lambda: f"{name}.py-1 has computed for 6 s without waiting" in timeline(), "a busy one")
+    if name == "loops":
+        system.until(lambda: system.heard(name, "without waiting, in"), "the line in which it computes")
+    assert (system.named(name).cpu or 0.0) > 0.0
     system.all_others_go_on()
+    system.kill([name])
+
+
+def test_the_robot_is_stopped_beside_those_that_never_end(system: System) -> None:
+    system.start({name: HEAD + fault for name, fault in ENDLESS.items()})
+    system.until(lambda: (system.named("holds").memory or 0) > 300, "its memory")
     assert typed("param", "get", "/waiter", "use_sim_time").stdout == "Boolean value is: False\n"
     assert typed("stop", "a test").returncode == 0
     assert typed("release").returncode == 0
-    for name in BUSY | ENDLESS:
-        assert system.launcher.kill(system.named(name).key).result(PATIENCE).ok
-        assert system.named(name).exit_code == -9
+    system.kill(ENDLESS)
     system.all_others_go_on()

@@ -15,9 +15,12 @@ COMMAND = (
     f"{sys.executable} -c 'import sys; from bot_console.runtime.importer import install; install(); "
     'from ros2cli.command_line import main; sys.exit(main(["launch", *sys.argv[1:]]))\''
 )
-QUICK = ("command_line", "conditions", "course")
-LONG = ("arguments", "events", "front_ends", "parameters", "ros_names", "substitutions")
-AREAS = (*QUICK, *(pytest.param(each, marks=[pytest.mark.soak, pytest.mark.timeout(600)]) for each in LONG))
+OFTEN = ("course",)
+"""It has launches of each kind that is compared: what is resolved, a whole run, and the command line."""
+LONG = (
+    "arguments", "command_line", "conditions", "events", "front_ends", "parameters", "ros_names", "substitutions"
+)  # fmt: skip
+AREAS = (*OFTEN, *(pytest.param(each, marks=[pytest.mark.soak, pytest.mark.timeout(600)]) for each in LONG))
 
 
 @pytest.mark.skipif(not os.environ.get("BOT_CONSOLE_ORACLE"), reason="BOT_CONSOLE_ORACLE names no records")
