@@ -30,6 +30,7 @@ from bot_console.tui.console.plot.series import parse_path, reader
 from bot_console.tui.console.protocol import Answer, LogSource, LogView, Samples
 from bot_console.tui.console.robot.robot_model import Pose
 from bot_console.tui.console.traffic import Traffic
+from bot_console.tui.text.expression.tree import is_parameter
 
 WHY = "this is a recording: it can be looked at, and nothing can be changed in it"
 
@@ -84,7 +85,7 @@ class PastReading:
         """Read a series; says why it cannot be plotted."""
         if path not in self._series:
             try:
-                self._series[path] = self._parameter(path) if ":" in path else self._field(path)
+                self._series[path] = self._parameter(path) if is_parameter(path) else self._field(path)
             except (NotPlottable, ImportError, AttributeError, ValueError) as error:
                 return Answer(False, str(error))
         return Answer(True, path)

@@ -13,6 +13,7 @@ from bot_console.tui.console.plot.arrays import NotPlottable
 from bot_console.tui.console.plot.paths import example, message_class, number_paths
 from bot_console.tui.console.plot.series import Series, parse_path, reader
 from bot_console.tui.console.protocol import Answer, Samples
+from bot_console.tui.text.expression.tree import is_parameter
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 
@@ -57,7 +58,7 @@ class PlotWatch:
             self._watched[path].askers.add(asker)
             return Answer(True, f"{path} is plotted already")
         try:
-            if ":" in path:
+            if is_parameter(path):
                 self._watch_parameter(path, trees)
             else:
                 self._watch_topic(path, graph)

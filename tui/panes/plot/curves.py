@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.panes.plot.thresholds import Threshold
+from bot_console.tui.text.expression.tree import is_parameter
 
 Array = npt.NDArray[np.float64]
 MOST = 20_000
@@ -39,7 +40,7 @@ class Curve:
     @property
     def steps(self) -> bool:
         """Whether the value holds until the next sample, as a parameter's does."""
-        return ":" in self.path
+        return is_parameter(self.path)
 
     @property
     def latest(self) -> float | None:

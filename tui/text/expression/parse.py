@@ -114,8 +114,11 @@ class _Reader:
     def _number(self, text: str) -> Tree:
         try:
             value = float(text) if re.search(r"[.eE]", text) and text[:2] not in ("0x", "0X") else int(text, 0)
+            float(value)
         except ValueError:
             raise ValueError(f"'{cut(text, 20)}' is no number") from None
+        except OverflowError:
+            raise ValueError(f"'{cut(text, 20)}' is too large") from None
         begin = self._at
         unit = self._take(NAME) if self._paths else ""
         if unit in SECONDS:

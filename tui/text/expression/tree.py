@@ -65,6 +65,11 @@ class Call:
 Tree: TypeAlias = "Number | Span | Name | Path | Minus | Two | Call"
 
 
+def is_parameter(path: str) -> bool:
+    """Whether a path names a parameter, `/node:name`; the colon of a slice, `/scan/ranges[80:100]`, is none of that."""
+    return ":" in path.partition("[")[0]
+
+
 def children(tree: Tree) -> tuple[Tree, ...]:
     """The parts of a tree."""
     if isinstance(tree, Minus):

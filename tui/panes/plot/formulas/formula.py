@@ -23,6 +23,7 @@ from bot_console.tui.text.expression.tree import (
     Tree,
     Two,
     children,
+    is_parameter,
     paths_of,
     walk,
 )
@@ -51,7 +52,7 @@ class Formula:
     @property
     def lead(self) -> str:
         """The path at whose samples values are told: the first topic; empty where there are parameters alone."""
-        return next((each for each in self.paths if ":" not in each), "")
+        return next((each for each in self.paths if not is_parameter(each)), "")
 
     def values(self, known: Mapping[str, Held], start: float = -np.inf, end: float = np.inf) -> tuple[Array, Array]:
         """Times (s) and values from `start` to `end`, and one more on either side."""

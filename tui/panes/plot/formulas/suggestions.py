@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 
 from bot_console.tui.panes.plot.formulas.formula import Formula, read
+from bot_console.tui.text.expression.tree import is_parameter
 from bot_console.tui.widgets.prompt.question import Option
 from textual.fuzzy import Matcher
 
@@ -63,6 +64,6 @@ def _rank(path: str) -> int:
 
 
 def _about(path: str) -> str:
-    if ":" in path:
+    if is_parameter(path):
         return "parameter"
     return ("", "another element by its number", "of the whole array")[_rank(path)]

@@ -102,6 +102,7 @@ def test_numbers_over_the_time_of_the_bag(console: OpenedBag) -> None:
     assert len(console.samples(path, samples.cursor).times) == 0, "nothing more comes"
     changed = console.samples("/nav:max_speed")
     assert list(zip(changed.times, changed.values, strict=True)) == [(0.0, 1.0), (4.0, 2.5)]
+    assert console.watch("/odom/pose.covariance[0:2].max()").ok, "the colon of a slice names no parameter"
     assert console.plot_time() == 10.0 and console.plot_time((BEGIN + 2) * SECOND) == 2.0
     for wrong in ("/odom/no.such", "/nothing/data", "/nav:none", "/odom"):
         assert not console.watch(wrong).ok and console.watch(wrong).text

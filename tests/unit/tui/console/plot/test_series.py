@@ -1,11 +1,15 @@
 """Series and paths into messages."""
 
 import math
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
+from bot_console.tui.console.model import Endpoint, GraphInfo
 from bot_console.tui.console.plot.arrays import NotPlottable
 from bot_console.tui.console.plot.paths import number_paths
 from bot_console.tui.console.plot.series import Series, parse_path, parse_steps, reader
+from bot_console.tui.console.plot.watch import PlotWatch
 
 
 def test_samples_are_read_by_cursor_and_the_oldest_fall_out() -> None:
@@ -84,3 +88,11 @@ def test_suggested_paths_name_fields_then_elements_then_what_is_made_of_arrays()
     assert paths[-3:] == ("intensities.min()", "intensities.max()", "intensities.mean()")
     assert "pose.pose.orientation.yaw()" in number_paths("nav_msgs/msg/Odometry")
     assert number_paths("no_such/msg/Thing") == ()
+
+
+def test_the_colon_of_a_slice_names_no_parameter() -> None:
+    made: list[str] = []
+    node: Any = SimpleNamespace(create_subscription=lambda kind, topic, take, qos: made.append(topic))
+    graph = GraphInfo(topics=(Endpoint("/scan", ("sensor_msgs/msg/LaserScan",)),))
+    answer = PlotWatch(node).watch("/scan/ranges[80:100].min()", graph, {})
+    assert answer.ok and made == ["/scan"], answer.text

@@ -64,12 +64,17 @@ def test_what_is_made_of_each_message_is_a_path(text: str, path: str) -> None:
         ("mean(/a/x, 0 s)", "more than 0"), ("__import__('os')", "at ''os'"), ("/a/x.__class__()", "operator"),
         ("(" * 50 + "/a/x", "within each other"), ("/a/x+" * 90 + "1", "400 letters"), ("", "nothing was typed"),
         ("/a/x ^ 2", "operator"), ("lambda: /a/x", "operator"), ("hypot(/a/x,", "at the end"),
-        ("/a/x + abs()", "takes 1"),
+        ("/a/x + abs()", "takes 1"), (f"/a/x + 0x{'f' * 300}", "too large"),
     ],
 )  # fmt: skip
 def test_what_is_refused_in_words(text: str, why: str) -> None:
     with pytest.raises(ValueError, match=why):
         read(text)
+
+
+def test_the_colon_of_a_slice_leads_as_a_topic_does() -> None:
+    formula = read("min(/scan/ranges[80:100]) * /n:gain.k")
+    assert isinstance(formula, Formula) and formula.lead == "/scan/ranges[80:100].min()"
 
 
 def test_commas_in_brackets_part_nothing() -> None:
