@@ -59,6 +59,11 @@ EXPRESSIONS = (
     "min(/scan/ranges) + max(/a, /b, pi)",
     "0x1f + 1_000e-3 * wrap(atan2(/a, /b))",
 )
+CONDITIONS = (
+    "/battery/percentage < 0.2 and /odom/twist.twist.linear.x > 1 or /n:a.b == true",
+    "0.1 < min(/scan/ranges[80:100]) <= hypot(/a/x, 2) ** 0.5",
+    "(/a/x)/2 != -/b/y // 3 or abs(/a/and/b) >= 0x1f",
+)
 LINES = (
     "ros2 topic echo /odom --once",
     "rqt_plot /odom/twist/x:y /a/b",

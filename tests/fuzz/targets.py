@@ -85,6 +85,7 @@ def targets() -> list[Target]:
             (NotPlottable,),
         ),
         Target("expression", seeds.texts(*seeds.EXPRESSIONS), typed.expression, (ValueError,)),
+        Target("condition", seeds.texts(*seeds.CONDITIONS), typed.condition, (ValueError,)),
         Target(
             "definition msg",
             seeds.files(

@@ -122,8 +122,20 @@ def expression(text: str) -> None:
     found = read(text)
     if not isinstance(found, str):
         held = Held(np.arange(50.0), np.linspace(-1.0, 1.0, 50))
-        times, values = found.values(dict.fromkeys(found.paths, held))
+        try:
+            times, values = found.values(dict.fromkeys(found.paths, held))
+        except ValueError as error:
+            raise AssertionError(f"read, but not worked out: {error}") from error
         assert len(times) == len(values) == 50
+
+
+def condition(text: str) -> None:
+    from bot_console.tui.panes.alarms.condition import read
+
+    found = read(text)
+    for value in (-1.5, 0.0, 1e300):
+        with contextlib.suppress(ValueError):
+            assert found.holds(dict.fromkeys(found.paths, value)) in (True, False)
 
 
 def typed_value(text: str) -> None:

@@ -66,7 +66,7 @@ class Alarm:
     @property
     def paths(self) -> tuple[str, ...]:
         """What it looks at."""
-        return tuple(self.condition.paths.values())
+        return self.condition.paths
 
     def look(self, console: ConsoleReading) -> list[float]:
         """Take in new samples, one after the other; gives the values of the first path at which it began to hold."""

@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 
 from bot_console.tui.format import cut
 from bot_console.tui.text.expression.parse import parse
-from bot_console.tui.text.expression.tree import Call, Minus, Name, Tree, Two
+from bot_console.tui.text.expression.tree import Call, Minus, Name, Path, Tree, Two
 from bot_console.tui.text.expression.tree import Number as Typed
 
 Number: TypeAlias = "int | float"
@@ -40,18 +40,23 @@ def evaluate(text: str, names: Mapping[str, Number] | None = None) -> Number:
         tree = parse(text)
     except ValueError as error:
         raise ValueError(f"'{cut(text, 24)}' is no number and no expression such as 0.5*2: {error}") from None
+    return value_of(tree, names or {}, cut(text, 24))
+
+
+def value_of(tree: Tree, names: Mapping[str, Number], text: str = "it") -> Number:
+    """The value of an expression that was read, with values of names and paths; raises `ValueError` as `evaluate`."""
     try:
-        return _value(tree, {**CONSTANTS, **(names or {})})
+        return _value(tree, {**CONSTANTS, **names})
     except ZeroDivisionError:
         raise ValueError("a division by zero") from None
     except (OverflowError, TypeError) as error:
-        raise ValueError(f"'{cut(text, 24)}' cannot be worked out: {error}") from None
+        raise ValueError(f"'{text}' cannot be worked out: {error}") from None
 
 
 def _value(tree: Tree, known: Mapping[str, Number]) -> Number:
     if isinstance(tree, Typed):
         return _small(tree.value)
-    if isinstance(tree, Name):
+    if isinstance(tree, (Name, Path)):
         if tree.text not in known:
             raise ValueError(f"'{tree.text}' is none of {', '.join(sorted(known))}")
         return known[tree.text]

@@ -31,10 +31,12 @@ def parse(text: str, *, paths: bool = False) -> Tree:
     """The tree of an expression; raises `ValueError` with what is wrong and where. Paths are read where asked for."""
     if len(text) > LONGEST:
         raise ValueError(f"an expression of more than {LONGEST} letters")
-    return _Reader(text, paths).whole()
+    return Reader(text, paths).whole()
 
 
-class _Reader:
+class Reader:
+    """Takes an expression in from left to right; a subclass can read what stands around expressions."""
+
     def __init__(self, text: str, paths: bool) -> None:
         self._text = text
         self._paths = paths
@@ -42,45 +44,49 @@ class _Reader:
         self._depth = 0
 
     def whole(self) -> Tree:
-        tree = self._sum(1)
-        if self._rest():
-            self._fail("an operator is expected")
+        """The tree of all that is there."""
+        tree = self.sum(1)
+        if self.rest():
+            self.fail("an operator is expected")
         return tree
 
-    def _rest(self) -> str:
+    def rest(self) -> str:
+        """What has not been taken yet, from the next letter on."""
         while self._text[self._at : self._at + 1] in (" ", "\t"):
             self._at += 1
         return self._text[self._at :]
 
-    def _take(self, pattern: re.Pattern[str]) -> str:
-        self._rest()
+    def take(self, pattern: re.Pattern[str]) -> str:
+        """What fits a pattern here, which is gone then; empty where nothing does."""
+        self.rest()
         found = pattern.match(self._text, self._at)
         if found is None:
             return ""
         self._at = found.end()
         return found[0]
 
-    def _fail(self, why: str) -> NoReturn:
-        rest = self._rest()
+    def fail(self, why: str) -> NoReturn:
+        """Raise `ValueError` with the place and why."""
+        rest = self.rest()
         where = f"at '{cut(rest, 20)}'" if rest else "at the end"
         raise ValueError(f"{where} {why}" if self._text.strip() else "nothing was typed where a number should be")
 
-    def _sum(self, least: int) -> Tree:
+    def sum(self, least: int = 1) -> Tree:
         """What binds at least as closely as `+` (1) or `*` (2)."""
         left = self._sign()
         while True:
             begin = self._at
-            operator = self._take(OPERATOR)
+            operator = self.take(OPERATOR)
             if _RANKS.get(operator, 0) < least:
                 self._at = begin
                 return left
-            left = Two(operator, left, self._sum(_RANKS[operator] + 1))
+            left = Two(operator, left, self.sum(_RANKS[operator] + 1))
 
     def _sign(self) -> Tree:
         self._depth += 1
         if self._depth > DEEPEST:
             raise ValueError(f"more than {DEEPEST} brackets or signs within each other")
-        sign = self._rest()[:1]
+        sign = self.rest()[:1]
         if sign in ("+", "-"):
             self._at += 1
             tree: Tree = self._sign()
@@ -92,24 +98,24 @@ class _Reader:
 
     def _power(self) -> Tree:
         base = self._atom()
-        if self._rest().startswith("**"):
+        if self.rest().startswith("**"):
             self._at += 2
             return Two("**", base, self._sign())
         return base
 
     def _atom(self) -> Tree:
-        if self._rest().startswith("("):
+        if self.rest().startswith("("):
             self._at += 1
-            tree = self._sum(1)
+            tree = self.sum(1)
             self._close()
             return tree
-        if self._paths and (path := self._take(PATH)):
+        if self._paths and (path := self.take(PATH)):
             return Path(path)
-        if number := self._take(NUMBER):
+        if number := self.take(NUMBER):
             return self._number(number)
-        if name := self._take(NAME):
-            return self._call(name) if self._rest().startswith("(") else Name(name)
-        self._fail("a number, a name or a path is expected" if self._paths else "no number and no name stands")
+        if name := self.take(NAME):
+            return self._call(name) if self.rest().startswith("(") else Name(name)
+        self.fail("a number, a name or a path is expected" if self._paths else "no number and no name stands")
 
     def _number(self, text: str) -> Tree:
         try:
@@ -120,7 +126,7 @@ class _Reader:
         except OverflowError:
             raise ValueError(f"'{cut(text, 20)}' is too large") from None
         begin = self._at
-        unit = self._take(NAME) if self._paths else ""
+        unit = self.take(NAME) if self._paths else ""
         if unit in SECONDS:
             return Span(float(value) * SECONDS[unit])
         self._at = begin
@@ -129,21 +135,21 @@ class _Reader:
     def _call(self, function: str) -> Tree:
         self._at += 1
         arguments: list[Tree] = []
-        while not self._rest().startswith(")"):
+        while not self.rest().startswith(")"):
             if arguments and not self._comma():
-                self._fail("a comma or a bracket is expected")
-            arguments.append(self._sum(1))
+                self.fail("a comma or a bracket is expected")
+            arguments.append(self.sum(1))
         self._close()
         if function in OF_ARRAYS and len(arguments) == 1 and isinstance(one := arguments[0], Path):
             return Path(f"{one.text}.{function}()")
         return Call(function, tuple(arguments))
 
     def _comma(self) -> bool:
-        found = self._rest().startswith(",")
+        found = self.rest().startswith(",")
         self._at += found
         return found
 
     def _close(self) -> None:
-        if not self._rest().startswith(")"):
-            self._fail("a closing bracket is missing")
+        if not self.rest().startswith(")"):
+            self.fail("a closing bracket is missing")
         self._at += 1

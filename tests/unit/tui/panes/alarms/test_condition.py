@@ -26,11 +26,14 @@ BATTERY, SPEED = "/battery/percentage", "/odom/twist.twist.linear.x"
         ("/navigator:enable_safety != true", {"/navigator:enable_safety": 0.0}, True),
         ("/robot/navigator:lidar.front.noise > 0.5", {"/robot/navigator:lidar.front.noise": 0.6}, True),
         ("/order/x > 1", {"/order/x": 2.0}, True),
+        ("/a/and/b > 1 and /a/or > 1", {"/a/and/b": 2.0, "/a/or": 2.0}, True),
+        ("min(/scan/ranges[80:100]) < 1", {"/scan/ranges[80:100].min()": 0.5}, True),
+        ("min(/a/x, /b/y) < 1", {"/a/x": 2.0, "/b/y": 0.5}, True),
     ],
 )
 def test_it_holds_or_not(text: str, values: dict[str, float], holds: bool) -> None:
     condition = read(text)
-    assert set(condition.paths.values()) == set(values)
+    assert set(condition.paths) == set(values)
     assert condition.holds(values) is holds
 
 
@@ -43,6 +46,9 @@ def test_it_holds_or_not(text: str, values: dict[str, float], holds: bool) -> No
         ("/a/b <", "side of a comparison"),
         ("/a/b < 1 and", "a comparison is missing"),
         ("/a/b < nonsense", "nonsense"),
+        ("min(/a/b", "at the end a comma or a bracket"),
+        ("mean(/a/b, 1 s) > 2", "length of time"),
+        ("/a/b or", "compares nothing"),
         ("/a/b < __import__('os')", ""),
         ("/a/b < (1).__class__", ""),
         ("/a/b < 9**9**9", ""),
