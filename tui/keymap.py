@@ -123,7 +123,7 @@ TABLE: dict[str, tuple[Key, ...]] = {
         Key("graph.unfold", "plus,equals_sign", "fold(False)", "Unfold the selected box", shown="+"),
         Key("graph.fold_all", "F", "fold_all", "Fold all namespaces, or unfold them", shown="F"),
         Key("graph.turn", "o", "turn_picture", "Arrows to the right, down, or as it fits"),
-        Key("graph.export", "e", "export", "Export as text, Mermaid or DOT"),
+        Key("graph.export", "e", "export", "Export as Mermaid, DOT, SVG or text"),
     ),
     "steering": (
         Key("steering.arm", "enter", "arm", "Arm, or disarm", footer=True, short="Arm"),

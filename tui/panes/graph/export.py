@@ -1,16 +1,42 @@
-"""A drawn graph as text to paste elsewhere: the picture itself, Mermaid or DOT. Pure."""
+"""A drawn graph for a file: Mermaid or DOT to paste elsewhere, or the picture itself as SVG or text. Pure."""
 
 from __future__ import annotations
 
+from xml.sax.saxutils import escape
+
 from bot_console.tui.widgets.diagram.drawing import Drawing
 from bot_console.tui.widgets.diagram.graph import Digraph
+from rich.cells import cell_len
+
+CELL, LINE = 8, 16
+"""Width and height (px) of a cell of an SVG."""
 
 
 def exported(graph: Digraph, drawing: Drawing, suffix: str) -> str:
-    """The graph as a file name's ending asks: `.mmd` Mermaid, `.dot` or `.gv` DOT, else the picture."""
+    """The graph as a file name's ending asks: `.mmd` Mermaid, `.dot` or `.gv` DOT, `.svg` the picture, else as text."""
     if suffix in (".mmd", ".mermaid"):
         return _mermaid(graph)
+    if suffix == ".svg":
+        return _svg(drawing)
     return _dot(graph) if suffix in (".dot", ".gv") else drawing.text() + "\n"
+
+
+def _svg(drawing: Drawing) -> str:
+    """The picture's letters, each run where it stands in cells, so that lines meet in any font of even width."""
+    width, height = (drawing.width + 2) * CELL, (len(drawing.rows) + 1) * LINE
+    lines = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" '
+        f'font-family="DejaVu Sans Mono, monospace" font-size="13" xml:space="preserve">',
+        '<rect width="100%" height="100%" fill="#ffffff"/>',
+    ]
+    for row, runs in enumerate(drawing.rows, 1):
+        lines += [
+            f'<text x="{(run.x + 1) * CELL}" y="{row * LINE}" textLength="{cell_len(run.text) * CELL}" '
+            f'lengthAdjust="spacingAndGlyphs">{escape(run.text)}</text>'
+            for run in runs
+            if run.text.strip()
+        ]
+    return "\n".join([*lines, "</svg>", ""])
 
 
 def _mermaid(graph: Digraph) -> str:

@@ -365,10 +365,11 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
 
     def action_export(self) -> None:
         """Ask where to export to."""
-        self.ask_file("export to (.txt .mmd .dot)", "graph.mmd", self._save)
+        self.ask_file("export to (.mmd .dot .svg .txt)", "graph.mmd", self._save)
 
     def _save(self, path: Path) -> Answer:
-        save_file(path, exported(self._shown.graph, self._picture.drawing, path.suffix))
+        whole = shown(self._info or GraphInfo(), replace(self._view, short=False, whole=True), self._rates or {})
+        save_file(path, exported(whole.graph, self._picture.drawing, path.suffix))
         return Answer(True, f"graph saved to {path}")
 
 

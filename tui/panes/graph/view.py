@@ -50,6 +50,8 @@ class GraphView:
     focus: Focus = field(default_factory=Focus)
     short: bool = False
     """Whether names are cut to their last token."""
+    whole: bool = False
+    """Whether names are never cut, however long: in a file there is room."""
 
 
 @dataclass(frozen=True)
@@ -135,6 +137,7 @@ class _Labels:
         self._rates = rates
         self._faulty = faulty
         self._short = view.short
+        self._whole = view.whole
         self._tokens = Counter(_last(each) for each in ids)
         self._members = (
             Counter(box_of(each.name, view.folded) for each in info.nodes) if view.folded else Counter[str]()
@@ -154,6 +157,8 @@ class _Labels:
 
     def _name(self, name: str) -> str:
         text = harmless(name)
+        if self._whole:
+            return text
         if self._short and self._tokens[_last(name)] == 1 and "/" in text[1:]:
             text = "…/" + text.rpartition("/")[2]
         longest = SHORT if self._short else LONGEST

@@ -58,11 +58,18 @@ def test_a_topic_with_two_types_is_told() -> None:
 
 
 def test_exports_quote_what_needs_it() -> None:
-    odd = Digraph((Item("a", 'say "hi"'), Item("b\\", "b", False)), (("a", "b\\"),))
+    odd = Digraph((Item("a", 'say "hi" <b>'), Item("b\\", "b", False)), (("a", "b\\"),))
     drawing = draw(odd)
-    assert "#quot;hi#quot;" in exported(odd, drawing, ".mmd")
+    assert "#quot;hi#quot; <b>" in exported(odd, drawing, ".mmd")
     assert '"a" -> "b\\\\";' in exported(odd, drawing, ".dot")
     assert exported(odd, drawing, ".txt").count("▶") == 1
+    assert 'say "hi" &lt;b&gt;' in exported(odd, drawing, ".svg")
+
+
+def test_names_are_whole_in_a_file() -> None:
+    info = GraphInfo((NodeInfo("/fleet/robot_1/a_node_with_a_name_that_no_box_holds"),))
+    (cut,), (whole,) = (shown(info, GraphView(short=True, whole=each)).graph.items for each in (False, True))
+    assert cut.label.startswith("…/") and whole.label == info.nodes[0].name
 
 
 def test_a_node_of_a_stopped_process_is_marked_in_the_line_below():
