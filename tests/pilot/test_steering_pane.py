@@ -264,6 +264,12 @@ def test_the_mouse_moves_sliders_and_the_pad_as_a_stick() -> None:
         await session.press("enter")
         await session.pilot.click(offset=(right, row))
         assert commands(session)[-1] == (1.0, 0.0)
+        zero, left = session.lines()[row].index("[0]") + 1, session.lines()[row + 1].index("[<]") + 1
+        await session.pilot.click(offset=(zero, row))
+        await session.pilot.click(offset=(left, row + 1))
+        assert commands(session)[-1] == (0.0, 0.05), "a step of a button"
+        await session.press("z")
+        assert commands(session)[-1] == (0.0, 0.0)
         top = next(y for y, line in enumerate(session.lines()) if "forward" in line)
         left = session.lines()[top].index("╭─", 2) + 1
         await session.pilot.mouse_down(offset=(left, top + 1))

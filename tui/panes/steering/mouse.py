@@ -1,14 +1,27 @@
-"""What a place on the steering pane means: a velocity on a slider, both of them on the pad. Pure."""
+"""What a place on the steering pane means: a velocity on a slider, both on the pad, a step of a button. Pure."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-from bot_console.tui.panes.steering.view import PAD, WORDS
+from bot_console.tui.panes.steering.view import BUTTONS, PAD, WORDS
 from bot_console.tui.widgets.picture import Line
 
 ENDS = 7
 """Cells of the left end of a slider: its value and the bracket."""
+
+
+def button(lines: Sequence[Line], x: int, y: int) -> tuple[int, int] | None:
+    """The axis (0 linear, 1 angular) and the step (1 faster or to the left, 0 zero, -1) of a button at a cell."""
+    text = "".join(text for text, _ in lines[y]) if 0 <= y < len(lines) else ""
+    for axis, (word, (less, zero, more)) in enumerate(BUTTONS.items()):
+        begin = text.rfind(less)
+        if begin < 0 or not text.startswith(f" {word} ") or not begin <= x < len(text):
+            continue
+        which = (x - begin) // 4
+        step = (-1, 0, 1)[which] if (x - begin) % 4 < len((less, zero, more)[which]) else None
+        return None if step is None else (axis, -step if axis else step)
+    return None
 
 
 def velocities(

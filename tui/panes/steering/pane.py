@@ -9,7 +9,7 @@ from typing import Any
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.panes.pane import Pane
-from bot_console.tui.panes.steering.mouse import velocities
+from bot_console.tui.panes.steering.mouse import button, velocities
 from bot_console.tui.panes.steering.state import (
     DEAD_MAN,
     DEADMAN_TIMES,
@@ -96,10 +96,22 @@ class SteeringPane(Pane):
         self._draw()
 
     def on_mouse_down(self, event: MouseDown) -> None:
-        """Aim at a velocity on a slider, or at both on the pad."""
+        """Aim at a velocity on a slider, or at both on the pad; take a button's step."""
+        picture = self.query_one(Picture)
+        at = event.screen_offset - picture.region.offset
+        pressed = button(picture.lines, at.x, at.y)
+        if pressed is not None:
+            self._press(*pressed)
+            return
         self._dragging = self._aim(event)
         if self._dragging:
             self.capture_mouse()
+
+    def _press(self, axis: int, step: int) -> None:
+        if step:
+            self.action_steer(*((step, 0) if axis == 0 else (0, step)), steps=1)
+        else:
+            self.action_zero_axis(axis)
 
     def on_mouse_move(self, event: MouseMove) -> None:
         """Aim along."""
@@ -232,6 +244,14 @@ class SteeringPane(Pane):
     def action_disarm(self) -> None:
         """Zero velocity; keys rest."""
         self._disarm()
+
+    def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
+        """Let the screen have z, which enlarges a pane, while nobody steers."""
+        return (action != "zero_turn" or self.state.armed) and super().check_action(action, parameters)
+
+    def action_zero_turn(self) -> None:
+        """Zero the angular velocity, by rqt's key."""
+        self.action_zero_axis(1)
 
     def action_steer(self, linear: int, angular: int, steps: int) -> None:
         """Change the command and send it at once."""

@@ -12,6 +12,10 @@ BAR = 10
 PAD = (37, 13)
 """Cells of the plane of both velocities, odd so that it has a middle."""
 WORDS = 9
+BUTTONS = {"linear": ("[-]", "[0]", "[+]"), "angular": ("[<]", "[0]", "[>]")}
+"""For the mouse, behind each slider: less or to the left, zero, more or to the right."""
+FOR_BUTTONS = 60
+"""Cells of width from which on there is room for them."""
 
 
 def lines(state: Steering, drive: DriveInfo, left: float, width: int, height: int) -> list[Line]:
@@ -56,7 +60,8 @@ def _slider(word: str, value: float, greatest: float, unit: str, width: int, *, 
     """A slider with its ends; an angular one shows left turns on the left, as they are felt."""
     shown = -value if turned else value
     ends = ("left", "right") if turned else (f"{-greatest:+.1f}", f"{greatest:+.1f}")
-    room = max(11, min(61, width - WORDS - 2 * 6 - 16)) | 1
+    buttons = "  " + " ".join(BUTTONS[word]) if width >= FOR_BUTTONS else ""
+    room = max(11, min(61, (width - WORDS - 2 * 6 - 17 - len(buttons)) | 1))
     place = round((value / greatest + 1) / 2 * (room - 1)) if greatest > 0 else room // 2
     track = list("─" * room)
     track[room // 2] = "┼"
@@ -65,7 +70,7 @@ def _slider(word: str, value: float, greatest: float, unit: str, width: int, *, 
     style = "accent" if shown else "dim"
     return (
         (f" {word:<{WORDS}}", ""), (f"{ends[0]:>5} ├{before}", "dim"), ("●", style), (f"{after}┤ {ends[1]:<5}", "dim"),
-        (f"{shown:+7.2f} {unit}", "strong" if shown else ""),
+        (f"{shown:+7.2f} {unit:<{5 if buttons else 0}}", "strong" if shown else ""), (buttons, "accent"),
     )  # fmt: skip
 
 
@@ -116,7 +121,7 @@ def _keys(width: int) -> list[Line]:
         ("w s ↑ ↓", "faster, slower"),
         ("a d ← →", "turn left, right"),
         ("Shift", "ten steps at once"),
-        ("x  c", "zero speed, zero turn"),
+        ("x  z c", "zero speed, zero turn"),
         ("space", "stop"),
     )
     return [((f" {keys:<{WORDS}}", "accent"), (text, "dim")) for keys, text in rows] if width >= 30 else []
