@@ -196,7 +196,7 @@ def test_the_journal_is_read_from_a_number_on(rig: Rig) -> None:
 
 def test_a_profile_says_what_it_would_change(rig: Rig) -> None:
     profiles = {each.name: each for each in rig.console.snapshot().profiles}
-    assert list(profiles) == ["broken", "careful", "slow", "wild"]
+    assert list(profiles) == ["broken", "careful", "elsewhere", "slow", "wild"]
     assert "two underscores" in profiles["broken"].problem
     assert profiles["slow"].title == "Slow: for crowded rooms."
     found = {each.name: each for each in rig.console.profile_differences("slow")}
@@ -206,6 +206,9 @@ def test_a_profile_says_what_it_would_change(rig: Rig) -> None:
         "count": False,
     }
     assert not rig.console.profile_differences("nobody")
+    with pytest.raises(ValueError, match="none of its nodes is running"):
+        rig.console.apply_profile("elsewhere").result(PATIENCE)
+    assert rig.console.snapshot().active_profile == "", "what nobody took is not in force"
 
 
 def test_a_profile_is_applied_and_can_be_undone(rig: Rig) -> None:

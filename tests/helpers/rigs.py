@@ -64,6 +64,7 @@ PROFILES: dict[str, tuple[str, dict[str, dict[str, Value]] | None]] = {
     "slow": ("# Slow: for crowded rooms.", {"robot": {"speed": 0.2, "count": 1}}),
     "wild": ("# Wild: faster than this robot is.", {"robot": {"speed": 99.0, "count": 2}}),
     "broken": ("# Broken.", None),
+    "elsewhere": ("# Elsewhere: of another robot.", {"nobody_here": {"speed": 1.0}}),
 }
 
 T = TypeVar("T")

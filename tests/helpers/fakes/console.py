@@ -11,6 +11,7 @@ from types import MappingProxyType
 from typing import Any
 
 from bot_console.tui.commanding.completing import live_names
+from bot_console.tui.console.connection.no_console import refused_profile
 from bot_console.tui.console.logs.file import open_log
 from bot_console.tui.console.logs.search import matching
 from bot_console.tui.console.logs.store import LogStore
@@ -29,7 +30,7 @@ from bot_console.tui.console.model import (
 from bot_console.tui.console.parameters.file.saving import save
 from bot_console.tui.console.parameters.journal import Journal, Move, Step
 from bot_console.tui.console.parameters.origin import origin_text
-from bot_console.tui.console.parameters.profiles import differences
+from bot_console.tui.console.parameters.profiles import cannot_apply, differences
 from bot_console.tui.console.protocol import Answer, LoggerLevel, LogSource, LogView, Stream
 from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.console.values import refusal
@@ -335,11 +336,10 @@ class FakeConsole(FakeProfiles, FakeSeries):
     def apply_profile(self, name: str, *, reset_world: bool = False) -> Future[tuple[SetOutcome, ...]]:
         self.asked.append(("apply", name, reset_world))
         profile = next((each for each in self.current.profiles if each.name == name), None)
-        if self.closed or profile is None or profile.problem:
-            failed: Future[tuple[SetOutcome, ...]] = Future()
-            why = CLOSED if self.closed else profile.problem if profile else f"there is no profile {name}"
-            failed.set_exception(ValueError(why))
-            return failed
+        idle = profile and name not in self.differences and cannot_apply(profile, self.current.parameters)
+        why = CLOSED if self.closed else profile.problem or idle if profile else f"there is no profile {name}"
+        if why:
+            return refused_profile(why)
         found = [each for each in self.profile_differences(name) if not each.unknown]
         outcomes = tuple(SetOutcome(e.node, e.name, e.then, not e.refusal, e.refusal) for e in found)
         moves: tuple[Move, ...] = ()

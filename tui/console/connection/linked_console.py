@@ -26,6 +26,7 @@ from bot_console.tui.console.model import (
     Value,
 )
 from bot_console.tui.console.node import ConsoleNode
+from bot_console.tui.console.parameters.profiles import cannot_apply
 from bot_console.tui.console.parameters.shelf import Shelf
 from bot_console.tui.console.protocol import Answer, LoggerLevel, LogSource, LogView, Samples
 from bot_console.tui.console.recording import Keeper, Recording
@@ -204,7 +205,9 @@ class LinkedConsole:
     def apply_profile(self, name: str, *, reset_world: bool = False) -> Future[tuple[SetOutcome, ...]]:
         """Set a profile's values live."""
         profile = self._profile(name)
-        why_not = profile.problem if profile else f"there is no profile {name}"
+        why_not = f"there is no profile {name}"
+        if profile is not None:
+            why_not = profile.problem or cannot_apply(profile, self._node.parameters.trees)
         if profile is None or why_not:
             return refused_profile(why_not)
         return self._node.apply(profile, reset_world)

@@ -132,6 +132,12 @@ def _given(profile: Profile, node: str) -> dict[str, tuple[str, Value]]:
     return given
 
 
+def cannot_apply(profile: Profile, trees: Mapping[str, ParameterTree]) -> str:
+    """Why a profile has nobody to go to; empty where it has. Without this its name would stand for values it is not."""
+    keys = {key for key, _ in profile.values}
+    return "none of its nodes is running" if len(unmatched(profile, trees)) == len(keys) else ""
+
+
 def unmatched(profile: Profile, trees: Mapping[str, ParameterTree]) -> tuple[str, ...]:
     """The keys of a profile that mean no running node."""
     keys = dict.fromkeys(key for key, _ in profile.values)
