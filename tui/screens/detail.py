@@ -25,7 +25,7 @@ class DetailScreen(Overlay):
         seconds, rest = divmod(record.stamp, 10**9)
         stamp = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(seconds)) + f".{rest:09d}"
         text = Text(f"{record.severity.name}  {harmless(record.node)}\n", "bold")
-        text.append(f"{stamp}\n", "not bold dim")
+        text.append(f"{stamp}  number {record.seq + 1}\n", "not bold dim")
         if record.file:
             text.append(f"{harmless(record.file)}:{record.line} in {harmless(record.function)}\n", "not bold dim")
         text.append("\n" + "\n".join(harmless(line) for line in record.text.splitlines()), "not bold")

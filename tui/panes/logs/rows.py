@@ -14,7 +14,8 @@ from bot_console.tui.widgets.row_list import RowList
 from rich.segment import Segment
 
 STYLES = {Severity.DEBUG: "dim", Severity.WARN: "warn", Severity.ERROR: "error", Severity.FATAL: "error"}
-NODE = 18
+NODE, WIDE_NODE, PLACE = 18, 22, 26
+"""Cells of a node's name, where there is room for it, and of the place in the code."""
 MARK = "▌"
 """Stands before the text of a line that a rule highlights: not every terminal has colours."""
 
@@ -115,13 +116,21 @@ class LogRows(RowList):
 
 
 def line_text(record: LogRecord, node: str, width: int, count: int = 1, *, marked: bool = False) -> str:
-    """A record on one line; the time is left out where there is little room. The end of a node's name says most.
+    """A record on one line: without the time where there is little room, with its place where there is much.
+
+    The end of a node's name says most.
 
     `count` is how many equal records the line stands for, `marked` whether a rule highlights it.
     """
     time = f"{clock_text(record.stamp)} " if width >= 70 else ""
+    room = NODE if width < 110 else WIDE_NODE
     node = harmless(node)
-    node = "…" + node[1 - NODE :] if len(node) > NODE else node
+    node = "…" + node[1 - room :] if len(node) > room else node
+    place = f" {cut(_place(record), PLACE, pad=True)}" if width >= 150 else ""
     times = f"x{count} " if count > 1 else ""
     text = harmless(record.text[: 4 * width])
-    return f"{time}{LETTERS[record.severity]} {cut(node, NODE, pad=True)}{MARK if marked else ' '}{times}{text}"
+    return f"{time}{LETTERS[record.severity]} {cut(node, room, pad=True)}{place}{MARK if marked else ' '}{times}{text}"
+
+
+def _place(record: LogRecord) -> str:
+    return f"{harmless(record.file.replace(chr(92), '/').rpartition('/')[2])}:{record.line}" if record.file else ""

@@ -32,3 +32,9 @@ def test_a_long_name_keeps_its_end_behind_an_ellipsis() -> None:
     record = LogRecord(0, 0, Severity.INFO, "x", "hello")
     assert "…_of_names/talker1 hello" in line_text(record, "/a_long_namespace_of_names/talker1", 60)
     assert "/talker            hello" in line_text(record, "/talker", 60)
+
+
+def test_a_wide_line_has_the_place_in_the_code() -> None:
+    record = LogRecord(0, 0, Severity.INFO, "x", "hello", "/ws/src/nav/nav.py", "turn", 42)
+    assert "nav.py" not in line_text(record, "/talker", 149)
+    assert line_text(record, "/talker", 150, marked=True).split()[-2:] == ["nav.py:42", "▌hello"]
