@@ -50,5 +50,7 @@ class ItemList(RowList, Generic[T]):
 
     def _place(self, item: T) -> int:
         wanted, last = self.key(item), max(0, len(self.rows) - 1)
+        if self.cursor <= last and self.rows and self.key(self.rows[self.cursor]) == wanted:
+            return self.cursor
         places = (index for index, each in enumerate(self.rows) if self.key(each) == wanted)
         return next(places, min(self.cursor, last))

@@ -18,7 +18,7 @@ from bot_console.tui.kept import LAST_FILE
 from bot_console.tui.panes.parameters.details import details
 from bot_console.tui.panes.parameters.edit_pane import EditPane
 from bot_console.tui.panes.parameters.memory import At, Left, left_of
-from bot_console.tui.panes.parameters.rows import Row, TreeRows, View
+from bot_console.tui.panes.parameters.rows import Row, TreeRows, View, namesake
 from bot_console.tui.panes.parameters.staging import Key
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.widgets.prompt.line import Prompt
@@ -181,8 +181,7 @@ class ParametersPane(EditPane):
 
     def _tell_counts(self) -> None:
         every = sum(len(tree.parameters) for tree in self._snapshot.parameters.values())
-        rows = self._list.rows
-        found = sum(row.parameter is not None for row in rows) + sum(row.count for row in rows if row.folded)
+        found = sum(row.count for row in self._list.rows if row.depth == 0)  # each counts all that is below it
         staged = self.staging.caption()
         if self.words or self._view.only_changed:
             self.tell_filter(found, every, *(each for each in ("changed" * self._view.only_changed, staged) if each))
@@ -241,9 +240,12 @@ class ParametersPane(EditPane):
         self.tell_later(self.console.redo())
 
     def filter_is(self, words: str) -> None:
-        """Show the parameters that pass."""
+        """Show the parameters that pass; the cursor goes to one that is called like the last word."""
         self._view = replace(self._view, query=parse(words))
         self._arrange()
+        at = namesake(self._list.rows, words.rpartition(" ")[2], self._list.cursor)
+        if at is not None:
+            self._list.cursor = at
 
     def action_toggle_changed(self) -> None:
         """Only what differs from its default, or all."""

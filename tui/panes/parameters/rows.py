@@ -180,6 +180,18 @@ def _is_built_in(name: str) -> bool:
     return name in BUILT_IN or name.startswith(BUILT_IN_PREFIX)
 
 
+def namesake(found: Sequence[Row], name: str, cursor: int) -> int | None:
+    """The row of a parameter with just this name, or else of one with it as the last level: the cursor's, or the first.
+
+    A filter shows much that only mentions what was typed; who types a whole name means that parameter.
+    """
+    called = [at for at, each in enumerate(found) if each.name.endswith(name) and each.parameter] if name else []
+    full = {at: each.parameter.name for at in called if (each := found[at]).parameter}
+    named = [at for at in called if full[at] == name]
+    named = named or [at for at in called if full[at].endswith((f".{name}", f"/{name}"))]
+    return cursor if cursor in named else next(iter(named), None)
+
+
 def matches(parameter: ParameterInfo, query: Query) -> bool:
     """Whether a parameter passes a filter, by its name, what it is for, and its node."""
     return query.matches(_text(parameter), parameter.node)

@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree
 from bot_console.tui.console.query import parse
-from bot_console.tui.panes.parameters.rows import TreeRows, View, matches, rows
+from bot_console.tui.panes.parameters.rows import TreeRows, View, matches, namesake, rows
 
 
 def tree(node: str, *names: str) -> ParameterTree:
@@ -39,6 +39,20 @@ def test_each_group_folds_by_itself() -> None:
     assert drawn(GROUPED, View(folded=frozenset({"/n:pid.x."})))[6:] == ["  pid.", "    x.", "    y.kp"]
     found = rows(GROUPED, View(folded=frozenset({"/n:pid."})))
     assert (found[-1].name, found[-1].folded, found[-1].count) == ("pid.", True, 3)
+
+
+def test_a_whole_name_means_the_parameter_called_so_and_not_one_that_mentions_it() -> None:
+    crowd = trees(tree("/a", "drive.max_rate", "drive.max_speed"), tree("/b", "max_speed"), tree("/c", "max_speed"))
+    found = rows(crowd, View())
+
+    def named(name: str, cursor: int = 0) -> str:
+        at = namesake(found, name, cursor)
+        return "" if at is None else f"{found[at].node}:{found[at].parameter.name}"
+
+    assert named("max_speed") == "/b:max_speed"
+    assert named("max_speed", len(found) - 1) == "/c:max_speed", "the cursor stays where it is right"
+    assert named("max_rate") == "/a:drive.max_rate"
+    assert named("speed") == named("") == ""
 
 
 FLEET = trees(
