@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from concurrent.futures import Future
 from dataclasses import replace
 
-from bot_console.tui.console.model import ChangeSource
+from bot_console.tui.console.model import ChangeSource, SetOutcome
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
 from fakes.console import START
@@ -72,15 +73,29 @@ def test_what_one_node_refuses_leaves_everything_marked_and_says_why() -> None:
     run(live(), play, (100, 30))
 
 
+def test_marking_again_before_the_answer_has_come_is_marking() -> None:
+    async def play(session: Session) -> None:
+        answer: Future[tuple[SetOutcome, ...]] = Future()
+        session.console.set_all = lambda *given: answer  # type: ignore[method-assign]
+        await mark_two(session)
+        await session.press("a", "m")
+        answer.set_result((SetOutcome(NAVIGATOR, "turn_rate", 0.98, True),))
+        await session.settle()
+        assert session.pane(ParametersPane).staging.marking
+        assert session.pane(ParametersPane).staging.marked == {}
+
+    run(live(), play, (100, 30))
+
+
 def test_two_sets_are_swapped_with_one_key() -> None:
     async def play(session: Session) -> None:
         await mark_two(session)
         await session.press("A")
-        assert "set B is live" in session.text() and value(session, "turn_rate") == 0.98
+        assert "A sends set A" in session.text() and value(session, "turn_rate") == 0.98
         await session.press("A")
         assert "Send set A?" in session.text() and "raises a limit" in session.text()
         await session.press("y")
-        assert "set A is live" in session.text() and value(session, "turn_rate") == 1.0
+        assert "A sends set B" in session.text() and value(session, "turn_rate") == 1.0
         await session.press("A")
         assert value(session, "lidar.beams", "/simulator") == 180
         assert {each.by for each in session.console.journal if each.name == "lidar.beams"} == {"set A", "set B"}
@@ -102,7 +117,9 @@ def test_what_takes_from_safety_is_said_before_in_each_way_to_set_it() -> None:
         assert sent(session) == [] and value(session, "max_speed") == 1.0
         await session.press("A")
         assert "Send set B?" in session.text()
-        await session.press("y")
+        await session.press("n")
+        assert "1 marked" in session.text() and "1.0 → 1.5" in session.text(), "nothing has become of it"
+        await session.press("A", "y")
         assert value(session, "max_speed") == 1.5
         await go_to(session, "enable_safety")
         assert "⚠ false turns a protection off" in session.text()

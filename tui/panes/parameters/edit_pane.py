@@ -178,6 +178,8 @@ class EditPane(ListPane):
         self._asked_first("Apply what is marked?", values, partial(self._apply, values))
 
     def _apply(self, values: dict[Key, Value]) -> None:
+        # Not when the answer comes: who presses m meanwhile means to mark again.
+        self.staging.marking = bool(self.staging.marked.keys() - values.keys())
         answer = self.console.set_all(by_node(values), ChangeSource.EDIT)
         answer.add_done_callback(lambda done: self.host.call_later(self._applied, values, done))
 
@@ -185,20 +187,26 @@ class EditPane(ListPane):
         if self._outcome(done):
             marked = self.staging.marked
             self.staging.marked = {key: value for key, value in marked.items() if values.get(key) != value}
-            self.staging.marking = bool(self.staging.marked)
             self.redraw_marks()
         else:
+            self.staging.marking = bool(self.staging.marked)
             self._tell_refusal(done)
 
     def action_compare(self) -> None:
         """Make set B of what is marked and send it; or swap the two sets."""
         if self.staging.marked:
-            self.staging.begin(self.console.snapshot().parameters)
-        if not self.staging.other:
+            values = dict(self.staging.marked)
+            self._asked_first(f"Send {SETS[1]}?", values, partial(self._begin_sets, values))
+        elif self.staging.other:
+            values = self.staging.other
+            self._asked_first(f"Send {SETS[1 - self.staging.live]}?", values, partial(self._swap, values))
+        else:
             self.notify("Mark values with m first: they become set B, and what is now is set A.")
-            return
-        values = self.staging.other
-        self._asked_first(f"Send {SETS[1 - self.staging.live]}?", values, partial(self._swap, values))
+
+    def _begin_sets(self, values: dict[Key, Value]) -> None:
+        self.staging.begin(values, self.console.snapshot().parameters)
+        self.redraw_marks()
+        self._swap(self.staging.other)
 
     def _swap(self, values: dict[Key, Value]) -> None:
         answer = self.console.set_all(by_node(values), ChangeSource.EDIT, SETS[1 - self.staging.live])

@@ -32,15 +32,15 @@ class Staging:
         else:
             self.marked[key] = value
 
-    def begin(self, trees: Mapping[str, ParameterTree]) -> None:
-        """Make two sets: A is how the marked parameters are now, B what is marked; A is live."""
+    def begin(self, values: Values, trees: Mapping[str, ParameterTree]) -> None:
+        """Make two sets: A is how some marked parameters are now, B what is marked for them; A is live."""
         before: Values = {}
-        for key in self.marked:
+        for key in values:
             tree = trees.get(key[0])
             parameter = tree.get(key[1]) if tree else None
             if parameter is not None:
                 before[key] = parameter.value
-        self.sets = (before, {key: self.marked[key] for key in before})
+        self.sets = (before, {key: values[key] for key in before})
         self.live = 0
         self.marked = {}
         self.marking = False
@@ -56,7 +56,7 @@ class Staging:
         if self.marking or self.marked:
             parts.append(f"{'marking, ' if self.marking else ''}{len(self.marked)} marked: a applies")
         if self.sets:
-            parts.append(f"{SETS[self.live]} is live: A swaps")
+            parts.append(f"A sends {SETS[1 - self.live]}")
         return "  ".join(parts)
 
 
