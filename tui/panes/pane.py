@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Answer, Console, Launcher
@@ -23,8 +23,12 @@ from bot_console.tui.widgets.prompt.question import Confirmation, Line, Question
 from rich.text import Text
 from textual.app import App
 from textual.containers import Container
+from textual.geometry import Region
 from textual.message import Message
 from textual.widget import Widget
+
+if TYPE_CHECKING:
+    from typing_extensions import Self
 
 
 class Pane(Container):
@@ -38,6 +42,8 @@ class Pane(Container):
     TITLE: ClassVar[str] = ""
     HELP: ClassVar[str | None] = ""
     """What the pane is for, in a few lines; the keys are listed from the key table."""
+    _only_edge = False
+    """Whether what is drawn next is the lower edge of the frame alone."""
 
     SCOPES: ClassVar[tuple[str, ...]] = ("list",)
     """Scopes of the key table that act in the pane, beside the one of its own."""
@@ -118,10 +124,23 @@ class Pane(Container):
         return getattr(self.host, "kept", None) or KeptHere()
 
     def caption(self, text: str) -> None:
-        """Write into the lower edge of the frame; setting the same text again would draw the whole pane."""
-        if text != self._caption:
-            self._caption = text
+        """Write into the lower edge of the frame."""
+        if text == self._caption:
+            return
+        self._caption = text
+        self._only_edge = True
+        try:
             self.border_subtitle = Text(harmless(text))
+        finally:
+            self._only_edge = False
+
+    def refresh(self, *regions: Region, repaint: bool = True, layout: bool = False, recompose: bool = False) -> Self:
+        """As of Textual, which draws the whole pane and all in it where a caption changes: there the edge is enough."""
+        size = self.outer_size
+        if self._only_edge and size:
+            left, top = self.content_offset
+            regions = (Region(-left, size.height - 1 - top, size.width, 1),)
+        return super().refresh(*regions, repaint=repaint, layout=layout, recompose=recompose)
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Draw what is new in the snapshot; compare parts by identity and do nothing where they are the same."""

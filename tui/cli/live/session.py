@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import signal
 import sys
 import threading
@@ -110,6 +111,7 @@ class Session:
         from bot_console.runtime.process.virtual.install import reinstall_stdio
 
         self._has_begun()
+        gc.freeze()  # what was imported stays; to look it through again and again would hold the screen up each time
         reinstall_stdio()
         self.console.start()
         threading.Thread(target=self._launch, name="start", daemon=True).start()
