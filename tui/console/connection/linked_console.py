@@ -36,6 +36,8 @@ from bot_console.tui.console.traffic import Traffic
 
 LAST_WORD = 0.15
 """Seconds that the final zero Twist has to reach the robot before anything is shut down."""
+SHELF_PERIOD = 1.0
+"""Seconds between two looks whether a profile has come, gone or changed: editors and nodes write them, too."""
 
 
 class LinkedConsole:
@@ -54,6 +56,7 @@ class LinkedConsole:
         self._logs = logs
         self._views = views
         self._shelf = shelf
+        node.node.create_timer(SHELF_PERIOD, shelf.look_if_changed)
         self._capabilities = capabilities
         self._recordings = Recordings(past)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 import threading
 from collections.abc import Callable, Mapping, Sequence
@@ -37,12 +38,31 @@ class Shelf:
         self._opened: dict[str, Path] = {}
         self._addresses: dict[Path, str] = {}
         """Where the opened files that were fetched come from."""
+        self._seen: frozenset[tuple[str, int, int]] = frozenset()
+        """The files as they were when they were read: path, time of the last change (ns), size (bytes)."""
         self.profiles: tuple[Profile, ...] = ()
         """The same object until something has come, gone or changed."""
         self.look_again()
 
+    def look_if_changed(self) -> None:
+        """Read all of them anew where a file has come, gone or changed, whoever has done that."""
+        if self._stamps() != self._seen:
+            self.look_again()
+
+    def _stamps(self) -> frozenset[tuple[str, int, int]]:
+        own = [self._own] if self._own is not None else []
+        found: set[tuple[str, int, int]] = set()
+        for folder in (*self._folders, *own, *self._mixed):
+            with contextlib.suppress(OSError):
+                found.update(_stamp(each) for each in folder.glob("*.y*ml"))
+        for path in list(self._opened.values()):
+            with contextlib.suppress(OSError):
+                found.add(_stamp(path))
+        return frozenset(found)
+
     def look_again(self) -> None:
         """Read all of them anew."""
+        self._seen = self._stamps()  # before they are read: what changes meanwhile is read again at the next look
         # The names of those that come with the robot stay theirs: launch files and command lines know them.
         own = [self._own] if self._own is not None else []
         found = [*find([*self._folders, *own], mixed=self._mixed)]
@@ -108,6 +128,11 @@ class Shelf:
             return Answer(False, f"not saved: {error}")
         self.look_again()
         return Answer(True, saved.text(path))
+
+
+def _stamp(path: Path) -> tuple[str, int, int]:
+    about = path.stat()
+    return str(path), about.st_mtime_ns, about.st_size
 
 
 def profile_name_problem(name: str) -> str:

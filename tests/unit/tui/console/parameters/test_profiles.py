@@ -178,6 +178,15 @@ def test_profiles_are_found_opened_saved_and_keep_their_comments(tmp_path: Path)
     before = shelf.profiles
     shelf.look_again()
     assert shelf.profiles is before
+    (tmp_path / "own" / "theirs.yaml").write_text("/n: {ros__parameters: {speed: 5.0}}\n")
+    shelf.look_if_changed()
+    assert [each.name for each in shelf.profiles] == ["indoor", "indoor (pkg)", "map", "mine", "theirs"]
+    (tmp_path / "own" / "theirs.yaml").write_text("/n: {ros__parameters: {speed: 50.0}}\n")
+    shelf.look_if_changed()
+    assert dict(shelf.profiles[-1].values) == {("/n", "speed"): 50.0}
+    (tmp_path / "own" / "theirs.yaml").unlink()
+    shelf.look_if_changed()
+    assert shelf.profiles == before
 
 
 def test_only_what_differs_is_saved_on_request(tmp_path: Path) -> None:
