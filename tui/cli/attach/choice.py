@@ -10,7 +10,7 @@ from bot_console.tui.cli.attach.machine_ros import MachineRos, find_machine_ros,
 
 NO_ROS = (
     "no rclpy of a ROS 2 is found by this Python: source it first (`source /opt/ros/jazzy/setup.bash`), and let "
-    "bot-console be installed for the same Python"
+    "bot-console be installed for the same Python (docs/your-robot.md)"
 )
 
 

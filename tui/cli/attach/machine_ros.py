@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 RUNTIME = Path(__file__).resolve().parents[3] / "runtime"
+OLDEST = (3, 10)
+"""The oldest Python that this program runs on."""
 _EXTENSION = re.compile(r"_rclpy_pybind11\.(?:cpython-)?(\d)(\d+)")
 _FOLDER = re.compile(r"python(\d)\.(\d+)$")
 
@@ -46,12 +48,23 @@ def find_machine_ros(path: Iterable[str] | None = None) -> MachineRos | None:
 
 def how_to_install(ros: MachineRos) -> str:
     """One line for whoever has a ROS 2 of another Python."""
+    whose = f"{ros} is sourced, and it is for Python {ros.other_python}, while this bot-console runs on {_running()}"
+    if _is_too_old(ros.other_python):
+        return (
+            f"{whose}, and needs {OLDEST[0]}.{OLDEST[1]} or newer: reach the robot over the network instead, if its "
+            "middleware is Zenoh (`bot-console attach --connect tcp/robot:7447`)"
+        )
     python = f"python{ros.other_python}" if ros.other_python[:1].isdigit() else "python3"
     return (
-        f"{ros} is sourced, and it is for Python {ros.other_python}, while this bot-console runs on {_running()}: "
-        f"install it there, by `{python} -m pip install --user bot-console`, or by `{python} -m venv "
-        "--system-site-packages ~/bot-console && ~/bot-console/bin/pip install bot-console`"
+        f"{whose}: install it there, in its clone, by `{python} -m venv --system-site-packages ~/bot-console && "
+        f"~/bot-console/bin/pip install .`, or by `{python} -m pip install --user .`"
     )
+
+
+def _is_too_old(python: str) -> bool:
+    """Whether bot-console cannot run on a Python that is named so."""
+    major, _, minor = python.partition(".")
+    return major.isdigit() and minor.isdigit() and (int(major), int(minor)) < OLDEST
 
 
 def _importable(path: Iterable[str] | None) -> MachineRos | None:

@@ -12,7 +12,8 @@ from pathlib import Path
 from bot_console.runtime.importer import install
 from bot_console.runtime.rmw.zenoh.network.client import Way
 from bot_console.tui import __version__
-from bot_console.tui.cli.attach.machine_ros import find_machine_ros
+from bot_console.tui.cli.attach.choice import NO_ROS
+from bot_console.tui.cli.attach.machine_ros import find_machine_ros, how_to_install
 from bot_console.tui.cli.attach.options import add_network_options, network_way
 from bot_console.tui.cli.doctor.finding import Finding, Level, as_json, exit_code
 from bot_console.tui.cli.doctor.machine import machine_findings
@@ -77,11 +78,16 @@ def _parser() -> argparse.ArgumentParser:
 def _ros(tell: Callable[[Sequence[Finding]], None]) -> None:
     ros = find_machine_ros()
     if ros is None or not ros.usable:
-        tell([Finding(Level.FAIL, "ros", "no rclpy that this Python can import", "see `bot-console attach --ros`")])
+        mend = NO_ROS if ros is None else how_to_install(ros)
+        tell([Finding(Level.FAIL, "ros", "no rclpy that this Python can import", mend)])
         return
-    from bot_console.tui.cli.doctor.nodes import node_findings
+    try:
+        from bot_console.tui.cli.doctor.nodes import node_findings
 
-    tell(node_findings())
+        tell(node_findings())
+    except (ImportError, RuntimeError) as error:  # a library, or the middleware of RMW_IMPLEMENTATION, is not there
+        mend = "look whether `ros2 node list` works in this shell, and source its setup file again"
+        tell([Finding(Level.FAIL, "ros", f"{ros} does not start: {error}", mend)])
 
 
 def _zenoh(way: Way | None, seconds: float, capture: Path | None, tell: Callable[[Sequence[Finding]], None]) -> None:

@@ -8,10 +8,10 @@ import sys
 from collections.abc import Mapping
 
 from bot_console.tui import __version__
-from bot_console.tui.cli.attach.machine_ros import MachineRos, find_machine_ros, how_to_install
+from bot_console.tui.cli.attach.machine_ros import OLDEST, MachineRos, find_machine_ros, how_to_install
 from bot_console.tui.cli.doctor.finding import Finding, Level
 
-OLDEST, NEWEST = (3, 10), (3, 13)
+NEWEST = (3, 13)
 MOST = 101
 """The greatest domain that every DDS takes on Linux."""
 
@@ -76,7 +76,8 @@ def sockets_findings() -> list[Finding]:
     found = sockets(folder)
     dead = [each for each in found if each.is_dead()]
     stopped = [each for each in found if each not in dead and each.is_stopped()]
-    text = f"{len(found) - len(dead)} programs in {folder}"
+    alive = len(found) - len(dead)
+    text = f"{alive} program{'' if alive == 1 else 's'} in {folder}"
     findings = [Finding(Level.OK, "sockets", text)]
     if dead:
         text = f"{len(dead)} of programs that were killed are left over"

@@ -17,8 +17,8 @@ TIMEOUT = re.compile(r"(cmd|command|vel|twist|input|watchdog).*time_?out|time_?o
 SETTLE, PATIENCE = 1.5, 3.0
 """Seconds for the graph to be seen, and for a node to list its parameters."""
 HOW = (
-    "let the base stop by itself when commands stay away (ros2_controllers: cmd_vel_timeout; twist_mux: timeout; or "
-    "the emergency stop of docs/safety.md): a console that has lost its link cannot stop it"
+    "let the base stop by itself when commands stay away (ros2_controllers: cmd_vel_timeout; or the emergency "
+    "stop of docs/safety.md; the timeout of twist_mux sends no zero): a console that has lost its link cannot stop it"
 )
 
 
@@ -65,7 +65,8 @@ def type_findings(node: Any) -> list[Finding]:
     for topic, types in node.get_topic_names_and_types():
         for kind in types:
             ours = own_hash(kind)
-            theirs = {hash_of(each) for each in node.get_publishers_info_by_topic(topic)} - {""}
+            ends = (*node.get_publishers_info_by_topic(topic), *node.get_subscriptions_info_by_topic(topic))
+            theirs = {hash_of(each) for each in ends if each.topic_type == kind} - {""}
             if ours is None:
                 unknown.add(kind)
             elif ours and theirs - {ours}:
@@ -109,20 +110,40 @@ def base_finding(node: Any) -> Finding:
     locks = [name for name, types in node.get_topic_names_and_types() if STATUS in types and FOLDER in name]
     if locks:
         return Finding(Level.OK, "time-out", f"the robot has an emergency stop that answers ({', '.join(locks[:2])})")
-    named = [(base, name) for base in sorted(bases) for name in _parameters(node, base) if TIMEOUT.search(name)]
-    if named:
-        listed = ", ".join(f"{base} {name}" for base, name in named[:3])
-        return Finding(Level.OK, "time-out", f"{listed}: look that it is short (0.5 s)")
-    return Finding(Level.WARN, "time-out", f"none is seen in {', '.join(sorted(bases))}", HOW)
+    named = [(base, name, value) for base in sorted(bases) for name, value in time_outs(node, base).items()]
+    if not named:
+        return Finding(Level.WARN, "time-out", f"none is seen in {', '.join(sorted(bases))}", HOW)
+    listed = ", ".join(f"{base} {name} {value:g}" for base, name, value in named[:3])
+    if all(value <= 0 for _, _, value in named):
+        return Finding(Level.WARN, "time-out", f"{listed}: it is switched off", HOW)
+    return Finding(Level.OK, "time-out", f"{listed}: look that it is short (0.5 s)")
 
 
-def _parameters(node: Any, base: str) -> list[str]:
-    from rcl_interfaces.srv import ListParameters
+def time_outs(node: Any, base: str) -> dict[str, float]:
+    """The numbers among a node's parameters whose names say that they are time-outs for commands."""
+    from rcl_interfaces.srv import GetParameters, ListParameters
+    from rclpy.parameter import parameter_value_to_python
 
-    client = node.create_client(ListParameters, f"{base}/list_parameters")
-    _spin(node, PATIENCE, client.service_is_ready)
-    if not client.service_is_ready():
-        return []
-    answer = client.call_async(ListParameters.Request())
-    _spin(node, PATIENCE, answer.done)
-    return list(answer.result().result.names) if answer.done() else []
+    listed = _answer(node, ListParameters, f"{base}/list_parameters", ListParameters.Request())
+    names = [each for each in listed.result.names if TIMEOUT.search(each)] if listed else []
+    told = _answer(node, GetParameters, f"{base}/get_parameters", GetParameters.Request(names=names)) if names else None
+    values = [parameter_value_to_python(each) for each in told.values] if told else []
+    return {
+        name: float(value)
+        for name, value in zip(names, values, strict=False)
+        if isinstance(value, (int, float)) and not isinstance(value, bool)
+    }
+
+
+def _answer(node: Any, kind: Any, service: str, request: Any) -> Any:
+    """What a service answers; None where it does not."""
+    client = node.create_client(kind, service)
+    try:
+        _spin(node, PATIENCE, client.service_is_ready)
+        if not client.service_is_ready():
+            return None
+        answer = client.call_async(request)
+        _spin(node, PATIENCE, answer.done)
+        return answer.result() if answer.done() else None
+    finally:
+        node.destroy_client(client)

@@ -103,6 +103,8 @@ def otherwise_defined(topic: str, publisher: Any, subscription: Any) -> str:
     hashes = {hash_of(publisher), hash_of(subscription)} - {""}
     if _hidden(publisher) or _hidden(subscription) or len(hashes) < 2:
         return ""
+    if publisher.topic_type != subscription.topic_type:
+        return ""  # two types, which is another fault
     return (
         f"{topic}: {publisher.topic_type} is defined otherwise in {name_of(publisher)} than in "
         f"{name_of(subscription)}, so no message passes: build both from the same definition"

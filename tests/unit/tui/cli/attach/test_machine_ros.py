@@ -2,6 +2,7 @@
 
 import importlib.machinery
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
@@ -37,15 +38,22 @@ def test_an_rclpy_on_the_path_is_found_whether_it_has_an_extension_for_this_pyth
     assert find_machine_ros([str(two.parent)]) == MachineRos(two)
 
 
-def test_one_for_another_python_says_which_and_how_to_install(tmp_path: Path) -> None:
-    package = make_rclpy(tmp_path, ".cpython-37m-x86_64-linux-gnu.so")
+@pytest.mark.parametrize(
+    ("tag", "python", "parts"),
+    [
+        ("399", "3.99", ("python3.99 -m pip install --user .", "--system-site-packages")),
+        ("37m", "3.7", ("needs 3.10 or newer", "attach --connect")),
+    ],
+)
+def test_one_for_another_python_says_which_and_what_to_do(
+    tmp_path: Path, tag: str, python: str, parts: Sequence[str]
+) -> None:
+    package = make_rclpy(tmp_path, f".cpython-{tag}-x86_64-linux-gnu.so")
     found = find_machine_ros([str(tmp_path)])
-    assert found == MachineRos(package, "3.7")
+    assert found == MachineRos(package, python)
     text = how_to_install(found)
     assert "\n" not in text
-    assert all(
-        part in text for part in (f"runs on {HERE}", "python3.7 -m pip install --user", "--system-site-packages")
-    )
+    assert all(part in text for part in (f"runs on {HERE}", *parts))
 
 
 def test_what_is_sourced_counts_though_this_python_does_not_see_it(

@@ -15,6 +15,7 @@ from bot_console.tui.cli.doctor.terminal import colours_finding, letters_finding
 from bot_console.tui.cli.doctor.terminal import link_finding as terminal_link
 from geometry_msgs.msg import Twist
 from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_msgs.msg import String
@@ -81,16 +82,30 @@ def test_a_base_without_a_time_out_is_warned_of_and_one_with_is_not(node) -> Non
     assert found.level is Level.WARN and "/base" in found.text and "cmd_vel_timeout" in found.mend
 
 
-def test_the_names_of_time_outs_are_known(node, monkeypatch) -> None:
+@pytest.mark.parametrize(
+    ("name", "value", "level", "told"),
+    [
+        ("cmd_vel_timeout", 0.5, Level.OK, "/base cmd_vel_timeout 0.5: look that it is short"),
+        ("command_timeout", 1, Level.OK, "/base command_timeout 1: look that it is short"),
+        ("cmd_vel_timeout", 0.0, Level.WARN, "/base cmd_vel_timeout 0: it is switched off"),
+        ("cmd_vel_timeout", True, Level.WARN, "none is seen in /base"),
+        ("topics.key.timeout", 0.5, Level.WARN, "none is seen in /base"),
+        ("bond_timeout", 4.0, Level.WARN, "none is seen in /base"),
+    ],
+)
+def test_the_names_of_time_outs_are_known_and_their_values_told(node, monkeypatch, name, value, level, told) -> None:
+    executor = SingleThreadedExecutor(context=node.context)
+    executor.add_node(node)
+
+    def serve(node, seconds, until):
+        while not until():
+            executor.spin_once(timeout_sec=0)
+
+    monkeypatch.setattr("bot_console.tui.cli.doctor.nodes._spin", serve)
     node.create_subscription(Twist, "/cmd_vel", lambda message: None, 10)
-    for name, level in (
-        ("cmd_vel_timeout", Level.OK),
-        ("command_timeout", Level.OK),
-        ("topics.key.timeout", Level.WARN),
-        ("bond_timeout", Level.WARN),
-    ):
-        monkeypatch.setattr("bot_console.tui.cli.doctor.nodes._parameters", lambda node, base, name=name: [name])
-        assert base_finding(node).level is level, name
+    node.declare_parameter(name, value)
+    found = base_finding(node)
+    assert found.level is level and found.text.startswith(told)
 
 
 def test_pairs_that_do_not_match_are_told_and_types_are_known(node) -> None:
@@ -104,9 +119,26 @@ def test_pairs_that_do_not_match_are_told_and_types_are_known(node) -> None:
     assert [each.level for each in type_findings(node)] == [Level.OK]
 
 
+def test_a_topic_of_two_types_is_told_as_such_and_not_as_one_of_another_definition(node) -> None:
+    node.create_publisher(String, "/words", 1)
+    node.create_subscription(Twist, "/words", lambda message: None, 1)
+    (found,) = pair_findings(node)
+    assert found.text == "/words: /base publishes std_msgs/msg/String, /base wants geometry_msgs/msg/Twist"
+    assert [each.level for each in type_findings(node)] == [Level.OK]
+
+
 def run(*words: str) -> subprocess.CompletedProcess[str]:
     line = [sys.executable, "-m", "bot_console.tui", "doctor", *words]
     return subprocess.run(line, capture_output=True, text=True, timeout=100, check=False)
+
+
+def test_a_ros_that_does_not_start_says_so(tmp_path, monkeypatch) -> None:
+    (tmp_path / "rclpy").mkdir()
+    (tmp_path / "rclpy" / "__init__.py").write_text("raise ImportError('librcl.so: cannot open shared object file')")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    done = run("--ros")
+    assert done.returncode == 1 and not done.stderr
+    assert "does not start: librcl.so" in done.stdout and "ros2 node list" in done.stdout
 
 
 def test_as_json_for_scripts() -> None:

@@ -71,6 +71,13 @@ class FakeNode:
         return self.ends[1]
 
 
+def test_ends_of_two_types_are_no_two_definitions_of_one():
+    node = FakeNode([end("/lidar")], [end("/nav", kind="std_msgs/msg/String", type_hash=TWO)])
+    publisher = NodeInfo("/lidar", publishers=(Endpoint("/scan", (SCAN,)),))
+    subscription = NodeInfo("/nav", subscriptions=(Endpoint("/scan", ("std_msgs/msg/String",)),))
+    assert UnheardPairs(node).follow(GraphInfo(nodes=(publisher, subscription))) == ()
+
+
 def test_a_topic_is_asked_about_once_and_again_when_its_ends_change():
     node = FakeNode([end("/lidar")], [end("/nav", type_hash=TWO)])
     publishes, listens = Endpoint("/scan", (SCAN,), "best effort"), Endpoint("/scan", (SCAN,), "reliable")
