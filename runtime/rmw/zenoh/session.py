@@ -13,7 +13,7 @@ import json
 import os
 import threading
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, cast
 
 from bot_console.runtime.rmw.zenoh.apart import WAITING, Taking, take_apart
@@ -178,6 +178,10 @@ class Session:
     def stopped(self) -> Mapping[str, int]:
         """The processes of the mesh that are frozen: the first eight digits of their sessions' ids, and their pids."""
         return {}
+
+    def stopped_afar(self) -> Sequence[int]:
+        """The ids of frozen processes behind a router, as far as it shows them; none where there is no router."""
+        return ()
 
     def leave(self) -> None:
         """Take away what would be left of it, for a process that ends at once and does not wait for `close`."""

@@ -38,6 +38,10 @@ class WholeGraph:
         session.ask_tokens(key, lambda found: self._seen.saw(found, True), answered.set, session.patience)
         answered.wait(2 * session.patience)
         self._seen.take_waiting()  # a router shows what is there before it says that it has answered
+        for pid in session.stopped_afar():
+            notify(
+                current(), f"process {pid} of the robot is stopped, so its nodes are silent: `kill -CONT {pid}` there"
+            )
 
     def _saw(self, token: Token, came: bool) -> None:
         row = self._rows.setdefault(token.key, _row(token)) if came else self._rows.pop(token.key, None)

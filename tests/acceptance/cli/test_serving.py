@@ -78,7 +78,10 @@ def test_what_cannot_be_is_refused_and_what_is_open_is_warned_of(words: list[str
 
 def test_a_router_ends_by_a_signal() -> None:
     line = [sys.executable, "-m", "bot_console.tui", "router", "--listen", f"tcp/127.0.0.1:{free_port()}"]
-    process = subprocess.Popen(line, stdout=subprocess.PIPE, text=True)
-    assert process.stdout is not None and "a router for nodes of rmw_zenoh" in process.stdout.readline()
-    process.send_signal(signal.SIGTERM)
-    assert process.wait(PATIENCE) == 0
+    with subprocess.Popen(line, stdout=subprocess.PIPE, text=True) as process:
+        try:
+            assert process.stdout is not None and "a router for nodes of rmw_zenoh" in process.stdout.readline()
+            process.send_signal(signal.SIGTERM)
+            assert process.wait(PATIENCE) == 0
+        finally:
+            process.kill()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -98,6 +98,10 @@ class NetworkSession(Session):
     def stopped(self) -> Mapping[str, int]:
         """The frozen processes behind the router, where it is one of ours; nothing is known while nobody watches."""
         return self._stopped.now() if self._stopped else {}
+
+    def stopped_afar(self) -> Sequence[int]:
+        """The ids of those processes, which are the robot's."""
+        return sorted(self.stopped().values())
 
     @property
     def link(self) -> LinkState:

@@ -7,10 +7,12 @@ import signal
 from typing import Any, cast
 
 import pytest
+from bot_console.runtime.process import on_notice
 from bot_console.runtime.rmw.zenoh.domain.mesh import MeshSession
 from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session
 from bot_console.runtime.rmw.zenoh.network.stopped import TOKEN, StoppedBehind
 from bot_console.runtime.rmw.zenoh.settings import Serving
+from bot_console.runtime.rmw.zenoh.whole_graph import WholeGraph
 from helpers.processes.mesh import eventually, members
 from helpers.processes.ports import free_port
 
@@ -29,8 +31,14 @@ def test_it_is_told_until_it_goes_on():
             client.watch()
             member.process.send_signal(signal.SIGSTOP)
             assert eventually(lambda: client.stopped() == {member.zid[:8]: member.process.pid})
+            told: list[str] = []
+            forget = on_notice(lambda process, text: told.append(text))
+            WholeGraph(client, lambda node: None)  # as every verb asks for it
+            forget()
+            assert [str(member.process.pid) in each and "is stopped" in each for each in told] == [True]
             member.process.send_signal(signal.SIGCONT)
             assert eventually(lambda: client.stopped() == {})
+            assert client.stopped_afar() == []
         finally:
             client.close()
             router.close()
