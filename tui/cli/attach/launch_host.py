@@ -13,8 +13,8 @@ import subprocess
 import sys
 import threading
 from collections.abc import Callable, Sequence
-from pathlib import Path
 
+from bot_console.tui.cli.attach.launch_files import launch_files
 from bot_console.tui.cli.live.launch_lines import launch_variables
 from bot_console.tui.cli.live.system_vitals import SystemVitals
 from bot_console.tui.console.launch.launcher import RosLauncher
@@ -78,17 +78,6 @@ class MainThread:
     def end(self) -> None:
         """Take no more."""
         self._turns.put(None)
-
-
-def launch_files() -> Sequence[str]:
-    """The launch files of all packages that the environment has."""
-    from ament_index_python.packages import get_packages_with_prefixes
-
-    found: list[str] = []
-    for name, prefix in sorted(get_packages_with_prefixes().items()):
-        folder = Path(prefix) / "share" / name
-        found += (str(each) for each in sorted(folder.glob("**/*.launch.*")) if each.suffix in (".py", ".xml", ".yaml"))
-    return tuple(found)
 
 
 def main(words: Sequence[str] | None = None) -> int:

@@ -10,10 +10,12 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
 
+from bot_console.tui.cli.attach.launch_files import LaunchFiles
 from bot_console.tui.cli.attach.launch_host import start_host
 from bot_console.tui.cli.live.launch_lines import teller
 from bot_console.tui.console.connection.no_console import done
 from bot_console.tui.console.launch.asked import AskedForProcesses
+from bot_console.tui.console.launch.launcher import CLOSED
 from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.console.launch.timeline import KEPT
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
@@ -56,6 +58,8 @@ class HostLaunchers(AskedForProcesses):
             return _Host(number, start, record, printed)
 
         self._make = make
+        self._files = LaunchFiles()
+        self._closed = False
         self._numbers = itertools.count(1)
         self._lock = threading.Lock()
         self._hosts: list[_Host] = []
@@ -64,8 +68,13 @@ class HostLaunchers(AskedForProcesses):
         self._info = LaunchInfo()
 
     def _unused(self, use: bool) -> _Host:
-        """A host that runs nothing yet; it is taken for a launch where that is its `use`."""
+        """A host that runs nothing yet; it is taken for a launch where that is its `use`.
+
+        Raises `ValueError` once it is closed.
+        """
         with self._lock:
+            if self._closed:
+                raise ValueError(CLOSED)
             host = next((each for each in self._hosts if not each.used), None)
             if host is None:
                 host = self._make(next(self._numbers))
@@ -98,7 +107,11 @@ class HostLaunchers(AskedForProcesses):
 
     def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
         """Run one more launch file, in a process of its own."""
-        return self._unused(use=True).launcher.launch(path, arguments)
+        try:
+            host = self._unused(use=True)
+        except ValueError as closed:
+            return done(Answer(False, str(closed)))
+        return host.launcher.launch(path, arguments)
 
     def arguments(self, path: str) -> Sequence[LaunchArgument]:
         """The arguments a launch file declares; raises `ValueError` when it cannot be read."""
@@ -106,7 +119,7 @@ class HostLaunchers(AskedForProcesses):
 
     def files(self) -> Sequence[str]:
         """Launch files of all packages of this machine."""
-        return self._unused(use=False).launcher.files()
+        return self._files.now()
 
     def _want(self, verb: str, key: str) -> Future[Answer]:
         number, _, rest = key.partition(":")
@@ -120,7 +133,7 @@ class HostLaunchers(AskedForProcesses):
     def close(self) -> None:
         """End all that was launched from this console, and only that."""
         with self._lock:
-            hosts = list(self._hosts)
+            self._closed, hosts = True, list(self._hosts)
         threads = [threading.Thread(target=each.launcher.close, daemon=True) for each in hosts]
         for each in threads:
             each.start()

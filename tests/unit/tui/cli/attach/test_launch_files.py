@@ -1,0 +1,42 @@
+"""The launch files of a robot's packages, in all spellings of ROS 2, without holding up who asks."""
+
+import threading
+from pathlib import Path
+
+from bot_console.tui.cli.attach.launch_files import LaunchFiles, launch_files
+
+PATIENCE = 10.0
+
+
+def test_all_spellings_are_found_and_nothing_else(tmp_path: Path, monkeypatch) -> None:
+    share = tmp_path / "share"
+    for name in ("launch/a.launch.py", "launch/bringup_launch.py", "b.launch.xml", "launch/deep/c.launch.yaml"):
+        (share / "nav" / name).parent.mkdir(parents=True, exist_ok=True)
+        (share / "nav" / name).touch()
+    for name in ("launch/a.launch.pyc", "launch/launcher.py", "launch/launch.txt"):
+        (share / "nav" / name).touch()
+    index = share / "ament_index/resource_index/packages"
+    index.mkdir(parents=True)
+    (index / "nav").touch()
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    found = [Path(each).name for each in launch_files() if each.startswith(str(tmp_path))]
+    assert found == ["b.launch.xml", "a.launch.py", "bringup_launch.py", "c.launch.yaml"]
+
+
+def test_who_asks_waits_for_the_first_look_alone() -> None:
+    go_on, looks = threading.Semaphore(1), []
+
+    def look() -> tuple[str, ...]:
+        assert go_on.acquire(timeout=PATIENCE)
+        looks.append(str(len(looks)))
+        return tuple(looks)
+
+    files = LaunchFiles(look)
+    assert files.now() == ("0",)  # and a second look begins, which has to wait
+    assert files.now() == ("0",) == files.now()
+    go_on.release()
+    while files.now() == ("0",):
+        go_on.release()
+    assert files.now()[:2] == ("0", "1")
+    for _ in range(100):
+        go_on.release()

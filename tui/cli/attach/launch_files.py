@@ -1,0 +1,56 @@
+"""The launch files of the machine's packages, which may be hundreds: looked for beside the caller."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+ENDINGS = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
+"""As `ros2 launch` has them: `talker.launch.py`, and `talker_launch.py` of Nav2 and of many others."""
+PATIENCE = 2.0
+"""Seconds that who asks first waits at most."""
+
+
+def launch_files() -> Sequence[str]:
+    """The launch files of all packages that the environment has."""
+    from ament_index_python.packages import get_packages_with_prefixes
+
+    found: list[str] = []
+    for name, prefix in sorted(get_packages_with_prefixes().items()):
+        share = Path(prefix) / "share" / name
+        found += (str(each) for each in sorted(share.rglob("*launch.*")) if each.name.endswith(ENDINGS))
+    return tuple(found)
+
+
+class LaunchFiles:
+    """What the last look has found; to be asked from any thread."""
+
+    def __init__(self, look: Callable[[], Sequence[str]] = launch_files) -> None:
+        """The first look begins at once."""
+        self._look = look
+        self._lock = threading.Lock()
+        self._found: Sequence[str] = ()
+        self._looked = threading.Event()
+        self._looking = False
+        self._begin()
+
+    def now(self) -> Sequence[str]:
+        """What is known; a new look begins for whoever asks next."""
+        if self._looked.wait(PATIENCE):
+            self._begin()
+        return self._found
+
+    def _begin(self) -> None:
+        with self._lock:
+            if self._looking:
+                return
+            self._looking = True
+        threading.Thread(target=self._run, name="launch files", daemon=True).start()
+
+    def _run(self) -> None:
+        try:
+            self._found = self._look()
+        finally:
+            self._looking = False
+            self._looked.set()
