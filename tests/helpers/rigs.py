@@ -68,7 +68,7 @@ PROFILES: dict[str, tuple[str, dict[str, dict[str, Value]] | None]] = {
 }
 
 T = TypeVar("T")
-_domains = itertools.count(100)  # DDS has no more than 232
+_domains = itertools.cycle(range(20, 102))  # up to 101 each DDS takes on every system
 
 Sides = Callable[[str], None]
 """Called before the robot, and before the console, is connected: chooses how they are."""
@@ -211,7 +211,7 @@ class RosRig:
 
     def __init__(self, folder: Path, sides: Sides = IN_ONE, **options: Any) -> None:
         """`options` are those of the console."""
-        domain = next(_domains)
+        self.domain = domain = next(_domains)
         sides("robot")
         self.received: list[tuple[float, float]] = []
         self._speed_rule = ""

@@ -1,4 +1,4 @@
-"""The console's contract on an rclpy that is not ours: the stand-in, by the way that a machine with ROS 2 takes."""
+"""All that is marked `ros` on an rclpy that is not ours: the stand-in, by the way that a machine with ROS 2 takes."""
 
 from __future__ import annotations
 
@@ -14,14 +14,22 @@ if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
 
 ROOT = Path(__file__).resolve().parents[3]
-SOME = "graph or refusal or commands or logs_have or series_is_read"
+SOME = "graph or refusal or commands or logs_have or series_is_read or panes_see"
 
 
-@pytest.mark.parametrize("which", [SOME, pytest.param("", marks=pytest.mark.soak)], ids=["some", "all"])
-def test_it_holds_on_the_stand_in(tmp_path: Path, which: str) -> None:
-    environment = {**make_standin(tmp_path), "BOT_CONSOLE_TESTS_ON": "ros"}
-    files = ["tests/contract/test_console.py", "tests/contract/test_parameters.py"]
-    line = [sys.executable, "-m", "pytest", "-q", "-n", "0", "-m", "ros", "-k", which, *files]
+def on_the_stand_in(folder: Path, *words: str, **variables: str) -> None:
+    environment = {**make_standin(folder), "BOT_CONSOLE_TESTS_ON": "ros", **variables}
+    line = [sys.executable, "-m", "pytest", "-q", "-n", "0", "-m", "ros", *words]
     done = subprocess.run(line, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=900, check=False)
     assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-1000:]
     assert "skipped" not in done.stdout and " passed" in done.stdout
+
+
+@pytest.mark.parametrize("which", [SOME, pytest.param("", marks=pytest.mark.soak)], ids=["some", "all"])
+def test_the_contracts_hold(tmp_path: Path, which: str) -> None:
+    on_the_stand_in(tmp_path, "-k", which, "tests/contract")
+
+
+@pytest.mark.soak
+def test_the_soak_runs(tmp_path: Path) -> None:
+    on_the_stand_in(tmp_path, "tests/soak", BOT_CONSOLE_SOAK_MINUTES="0.5")
