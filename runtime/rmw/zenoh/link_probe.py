@@ -37,6 +37,7 @@ class LinkProbe:
     def __init__(self, ask: Ask, to: str, clock: Callable[[], float] = time.monotonic) -> None:
         self._ask = ask
         self._clock = clock
+        self._silent = False
         self.state = LinkState(to, clock())  # it has just been opened
         self._ended = threading.Event()
         self._thread = threading.Thread(target=self._run, name="link-probe", daemon=True)
@@ -51,12 +52,13 @@ class LinkProbe:
             self.look()
 
     def look(self) -> None:
-        """Ask once."""
+        """Ask once. The first answer after silence may be none: Zenoh ends a question too when it gives a link up."""
         began = self._clock()
         try:
             answered = self._ask(LONGEST)
         except RuntimeError:  # the session is being closed
             return
-        if answered:
+        if answered and not self._silent:
             now = self._clock()
             self.state = replace(self.state, heard=now, delay=now - began)
+        self._silent = not answered

@@ -88,7 +88,14 @@ def test_a_cut_link_is_told_and_its_end_brings_no_motion_back(
     monkeypatch.setattr("rigs.PATIENCE", seconds + 20.0)
     assert far.console.snapshot().link.silent_s == 0
     far.wire.cut()
-    until(lambda: far.console.snapshot().link.silent_s >= seconds, "the silence")
+    told = [0]
+
+    def silent() -> bool:
+        told.append(far.console.snapshot().link.silent_s)
+        assert told[-1] >= told[-2], "an answer over a link that is cut"  # as when Zenoh gives it up, after 10 s
+        return told[-1] >= seconds
+
+    until(silent, "the silence")
     sent_at_most = 3.5 / PERIOD  # a command is refused 1 s after the last answer, which is asked for every 1.3 s
     far.publish(1.0)  # the robot waits for nobody
     before = len(far.received)
@@ -99,6 +106,20 @@ def test_a_cut_link_is_told_and_its_end_brings_no_motion_back(
     until(lambda: far.console.snapshot().link.silent_s == 0, "the link")
     zero = before + late.index((0.0, 0.0))
     until(lambda: (0.5, 0.0) in far.received[zero:], "commands of the key that is still held")
+
+
+@pytest.mark.soak
+def test_a_robot_that_was_driven_when_a_link_was_lost_for_long_gets_a_zero_when_it_is_back(
+    far: FarRig, key: threading.Event, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("rigs.PATIENCE", 40.0)
+    far.wire.cut()
+    until(lambda: far.console.snapshot().link.silent_s >= 15, "that Zenoh has given the link up, and what waited in it")
+    key.set()  # as the pane does, which is disarmed
+    before = len(far.received)
+    far.wire.mend()
+    until(lambda: far.console.snapshot() and len(far.received) > before, "a command")
+    assert set(far.received[before:]) == {(0.0, 0.0)}
 
 
 def test_a_robot_publishes_as_fast_beside_a_console_whose_link_is_cut(far: FarRig) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import queue
 import random
 import socket
 import threading
@@ -10,6 +11,10 @@ import time
 from collections.abc import Callable
 
 SEGMENT = 1400
+UNDER_WAY = 1000
+"""Segments of one direction that may be under way at once, so that delay does not limit the rate."""
+Segments = queue.Queue["tuple[float, bytes]"]
+"""When each is due, and what it is; without bytes, the end."""
 Spoil = Callable[[bytes], bytes]
 
 
@@ -61,17 +66,30 @@ class BadLink:
                 self._sockets += (inner, outer)
                 for one, other in ((inner, outer), (outer, inner)):
                     one.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-                    threading.Thread(target=self._carry, args=(one, other), daemon=True).start()
+                    under_way: Segments = queue.Queue(UNDER_WAY)
+                    threading.Thread(target=self._take, args=(one, under_way), daemon=True).start()
+                    threading.Thread(target=self._bring, args=(under_way, one, other), daemon=True).start()
 
-    def _carry(self, one: socket.socket, other: socket.socket) -> None:
+    def _take(self, one: socket.socket, under_way: Segments) -> None:
         due = 0.0
         with contextlib.suppress(OSError):
             while data := one.recv(SEGMENT):
                 held = self.hold if self._random.random() < self.held_share else 0.0
                 due = max(due, time.monotonic() + self.delay + held)  # in order, as TCP delivers
+                under_way.put((due, data))
+                self._passing.wait()
+        under_way.put((0.0, b""))
+
+    def _bring(self, under_way: Segments, one: socket.socket, other: socket.socket) -> None:
+        data = b" "
+        with contextlib.suppress(OSError):
+            while data:
+                due, data = under_way.get()
                 time.sleep(max(0.0, due - time.monotonic()))
                 self._passing.wait()
                 other.sendall(self.spoil(data) if self.spoil else data)
         for each in (one, other):
             with contextlib.suppress(OSError):
                 each.shutdown(socket.SHUT_RDWR)
+        while data:  # whoever still reads is not to wait for room
+            _, data = under_way.get()

@@ -193,6 +193,8 @@ class RosConsole:
         """The newest snapshot; the same object when nothing changed."""
         old = self._snapshot
         launch, link = self._launch_info(), self._link()
+        if not link.silent_s:
+            self._zero_again()
         new = replace(self._now.snapshot(), seq=old.seq, launch=launch, link=link, problem=self._problem)
         if not _same(old, new):
             self._snapshot = replace(new, seq=old.seq + 1)
@@ -289,11 +291,17 @@ class RosConsole:
     def drive(self, linear: float, angular: float) -> None:
         """Send a velocity command."""
         if not self._link().silent_s:
-            self._zeroed = False
+            self._zero_again()
             self._now.drive(linear, angular)
         elif not self._zeroed:
             # What waits in a link that is cut comes late: a zero is to be the last of it.
             self._zeroed = True
+            self._now.drive(0.0, 0.0)
+
+    def _zero_again(self) -> None:
+        """After a long silence what had waited in the link is lost, the zero among it: it is said once more."""
+        if self._zeroed:
+            self._zeroed = False
             self._now.drive(0.0, 0.0)
 
     def all_stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:

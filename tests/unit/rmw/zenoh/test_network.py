@@ -57,7 +57,8 @@ def test_a_client_without_or_with_a_wrong_certificate_is_refused_and_that_is_sai
     own, stranger = files
     assert "--tls-certificate" in refusal(Way((secure,), Tls(own.ca), patience=0.3))
     wrong = Tls(own.ca, stranger.certificate, stranger.key)
-    assert "--tls-certificate" in refusal(Way((secure,), wrong, patience=0.3))
+    told = refusal(Way((secure,), wrong, patience=0.3))
+    assert stranger.certificate in told and "X.509 version 3" in told and "--tls-certificate" not in told
 
 
 def test_files_that_cannot_be_used_are_named(secure, files, tmp_path):
@@ -201,3 +202,18 @@ def test_a_link_that_does_not_answer_keeps_the_time_of_its_last_answer():
     answers[0] = False
     probe.look()
     assert probe.state.heard == 100.25
+
+
+@pytest.mark.parametrize(("answers", "heard"), [([False, True, False], 0.0), ([False, True, True], 3.0), ([True], 1.0)])
+def test_after_silence_one_answer_is_not_believed(answers, heard):
+    now = [0.0]
+
+    def ask(timeout: float) -> bool:
+        now[0] += 1.0
+        return answers.pop(0)
+
+    probe = LinkProbe(ask, "tcp/robot:7447", lambda: now[0])
+    probe.end()
+    while answers:
+        probe.look()
+    assert probe.state.heard == heard
