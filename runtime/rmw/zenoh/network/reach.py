@@ -124,7 +124,7 @@ def _why_no_tls(link: socket.socket, endpoint: str, host: str, tls: Tls) -> str:
     except ssl.SSLCertVerificationError as error:
         return f"{endpoint}: the router's certificate is refused: {error.verify_message}; --tls-ca names its authority"
     except (ssl.SSLError, OSError) as error:
-        return _refused(endpoint, error)
+        return _refused(endpoint, error, tls)
     try:
         with secure:
             secure.settimeout(0.5)  # a router that wants a certificate says so only after the handshake
@@ -132,12 +132,18 @@ def _why_no_tls(link: socket.socket, endpoint: str, host: str, tls: Tls) -> str:
     except TimeoutError:
         return ""
     except (ssl.SSLError, OSError) as error:
-        return _refused(endpoint, error)
+        return _refused(endpoint, error, tls)
     return ""
 
 
-def _refused(endpoint: str, error: Exception) -> str:
+def _refused(endpoint: str, error: Exception, tls: Tls) -> str:
     reason = str(getattr(error, "reason", None) or error)
     if "CERTIFICATE" in reason or "UNKNOWN_CA" in reason:
-        return f"{endpoint}: the router refuses this side's certificate ({reason}): give --tls-certificate, --tls-key"
+        mend = "give --tls-certificate, --tls-key"
+        if tls.certificate:
+            mend = (
+                f"is {tls.certificate} signed by the authority that the router asks for, in date, and of X.509 "
+                "version 3 (which openssl makes with -extfile)?"
+            )
+        return f"{endpoint}: the router refuses this side's certificate ({reason}): {mend}"
     return f"{endpoint}: no TLS there ({reason}): is it a router for tcp/?"
