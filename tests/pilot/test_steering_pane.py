@@ -7,6 +7,7 @@ from dataclasses import replace
 import pytest
 from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.panes.steering.pane import SteeringPane
+from bot_console.tui.panes.steering.state import DEAD_MAN
 from piloting import Clock, Session, run
 from samples import driving, empty, live
 
@@ -161,6 +162,26 @@ def test_a_stop_that_is_not_acknowledged_is_not_called_held() -> None:
         assert "ALL STOP held by anna@pc: the arm (! holds it too, once more releases)" in session.text()
 
     run(live(), play, (140, 40))
+
+
+def test_a_robot_without_a_lock_that_stands_after_the_dead_man_time_is_steered_on_by_enter() -> None:
+    async def play(session: Session) -> None:
+        await session.press("6", "enter")
+        stands = replace(driving(), lockable=False, stopped=True, stopped_here=True, stop_reason=DEAD_MAN)
+        steering(session).state.disarm()
+        session.console.change(drive=stands)
+        await session.settle()
+        assert "STANDS  by zeros" in session.text()
+        session.console.change(drive=replace(stands, stop_reason="ALL STOP"))
+        await session.settle()
+        await session.press("enter")
+        assert not steering(session).state.armed, "an all-stop is not taken back by the way"
+        session.console.change(drive=stands)
+        await session.settle()
+        await session.press("enter")
+        assert steering(session).state.armed and session.console.asked[-1] == ("all_stop", False)
+
+    run(live(), play)
 
 
 def test_a_screen_over_the_pane_disarms() -> None:

@@ -88,7 +88,7 @@ def reason_first(problem: str) -> str:
 def drive_text(drive: DriveInfo) -> str:
     """The command chain: asked, what limited it, final, actual speed."""
     if drive.final is None and drive.actual is None and not drive.limited_by and not drive.silent_s:
-        return "no robot yet"
+        return "no robot yet" if drive.nothing_to_stop else "no command and no odometry yet"
     parts: list[str] = []
     if drive.asked is not None:
         parts.append(f"asked {drive.asked[0]:+.1f}")

@@ -116,6 +116,8 @@ def _moved(value: float, steps: int, greatest: float) -> float:
 
 def stands_after_steering(drive: DriveInfo) -> bool:
     """Whether the robot stands because of this pane alone, so that one key may take or hand back the steering."""
+    if not drive.lockable:  # nothing but zeros of this console holds it, and what they are for
+        return drive.stopped_here and drive.stop_reason in OWN_REASONS
     return bool(drive.stops) and all(each.here and each.reason in OWN_REASONS for each in drive.stops)
 
 

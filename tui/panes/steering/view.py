@@ -40,6 +40,8 @@ def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
         topic += f"  {drive.robots.index(drive.robot) + 1} of {len(drive.robots)}, r steers another"
     if drive.stopped and drive.nothing_to_stop:
         return ((" STOP ", "warn"), (f" nothing is here to stop: {topic}", ""))
+    if drive.stopped and not drive.lockable and stands_after_steering(drive):
+        return ((" STANDS ", "warn"), (" by zeros, having no emergency stop: enter steers on, ! ends them", ""))
     if drive.stopped and not drive.stop_confirmed:
         return ((" STOP SENT, NOT CONFIRMED ", "error"), (_unconfirmed(drive), ""))
     if drive.stopped and stands_after_steering(drive):

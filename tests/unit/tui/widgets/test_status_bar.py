@@ -29,3 +29,8 @@ def test_a_stop_where_no_robot_is_says_that_nothing_is_there_to_stop() -> None:
     assert "nothing is here to stop" in status_text(ConsoleSnapshot(drive=nobody))
     for robot in (DriveInfo(stopped=True, topic="/cmd_vel"), DriveInfo(stopped=True, lockable=True)):
         assert "STOP SENT, NOT CONFIRMED" in status_text(ConsoleSnapshot(drive=robot))
+
+
+def test_a_robot_that_has_told_nothing_yet_is_one() -> None:
+    assert status_text(ConsoleSnapshot()) == "no robot yet"
+    assert status_text(ConsoleSnapshot(drive=DriveInfo(topic="/a/cmd_vel"))) == "no command and no odometry yet"
