@@ -35,6 +35,9 @@ SETS: Sequence[tuple[str, str, Any]] = (
     (ARM, "reach", 0.25),
 )
 
+WOULD_CHANGE = ("careful", "slow", "wild")
+"""Profiles, of which the last one is refused."""
+
 Pane = Callable[[Rig], Any]
 
 
@@ -88,8 +91,7 @@ def _value(console: Console, node: str, name: str) -> Any:
 def profiles(rig: Rig) -> Any:
     """The Profiles pane: what each would change, and what became of one."""
     console = rig.console
-    names = [each.name for each in console.snapshot().profiles if not each.problem]
-    would = {name: [_difference(each) for each in console.profile_differences(name)] for name in names}
+    would = {name: [_difference(each) for each in console.profile_differences(name)] for name in WOULD_CHANGE}
     applied = [_outcome(each) for each in console.apply_profile("wild").result(PATIENCE)]
     return {"would change": would, "wild": applied}
 
