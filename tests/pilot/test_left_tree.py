@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from bot_console.tui.panes.graph.pane import GraphPane
+from bot_console.tui.panes.graph.view import Mode
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
 from piloting import Session, run
@@ -47,6 +49,20 @@ def test_a_filter_is_there_again_and_escape_takes_it_away() -> None:
         assert "/turn" in session.text() and current(session) == ("/robot_navigator", "turn_rate")
         await session.press("escape")
         assert len(session.pane(ParameterRows).rows) > 5
+
+    run(live(), play)
+
+
+def test_the_graph_is_drawn_as_it_was_left() -> None:
+    async def play(session: Session) -> None:
+        pane = session.pane(GraphPane)
+        await session.press("3", "m", "D")
+        pane.on_unmount()
+        kept = session.app.kept.get("graph")
+        session.app.kept.put("graph", {"mode": "NODES"})
+        pane.on_mount()
+        await session.press("1", "3", "o")
+        assert kept == {**kept, "mode": "ALL", "debug": True} and pane._mode is Mode.NODES
 
     run(live(), play)
 

@@ -1,0 +1,42 @@
+"""How the picture of the graph is left: plain data that is kept for the next start. Pure."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, cast
+
+from bot_console.tui.panes.graph.view import GraphView, Mode
+
+KEPT = "graph"
+SWITCHES = ("debug", "dead_sinks", "leaves", "services")
+
+
+@dataclass(frozen=True)
+class Left:
+    """What a person has chosen; what the pane chooses by itself is not among it."""
+
+    mode: Mode | None = None
+    view: GraphView = field(default_factory=GraphView)
+    folds: frozenset[str] | None = None
+    rates: bool = False
+
+    @property
+    def data(self) -> dict[str, object]:
+        """As plain data."""
+        return {
+            **{each: getattr(self.view, each) for each in SWITCHES},
+            "mode": self.mode.name if self.mode else "",
+            "folds": None if self.folds is None else sorted(self.folds),
+            "rates": self.rates,
+        }
+
+
+def left_of(data: object) -> Left:
+    """How it was left; the default for each part that cannot be read."""
+    given = cast("Mapping[str, Any]", data) if isinstance(data, Mapping) else dict[str, Any]()
+    switches = {each: given[each] for each in SWITCHES if isinstance(given.get(each), bool)}
+    mode = next((each for each in Mode if each.name == given.get("mode")), None)
+    folds = given.get("folds")
+    known = frozenset(map(str, cast("list[object]", folds))) if isinstance(folds, list) else None
+    return Left(mode, replace(GraphView(), **switches), known, given.get("rates") is True)
