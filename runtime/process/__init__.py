@@ -43,7 +43,7 @@ from typing import TYPE_CHECKING, Any
 from .clock_source import ClockSource, Wakeup
 from .crashes import explain_with
 from .current import MAIN, NodeProcess, ProcessLocal, current, running_as
-from .node.node_process import ProcessState
+from .node.process_state import ProcessState
 from .node.thread_state import ProcessKilled
 from .notices import on_notice
 from .real_time import RealTime

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator
 from contextlib import contextmanager
-from typing import Generic, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 from .node.main_process import MainProcess
 from .node.node_process import NodeProcess
 from .node.thread_state import local
+
+if TYPE_CHECKING:
+    from .roles import CurrentProcess
 
 __all__ = ["MAIN", "NodeProcess", "ProcessLocal", "current", "running_as"]
 
@@ -20,13 +23,13 @@ MAIN = MainProcess("main")
 type(local).process = MAIN
 
 
-def current() -> NodeProcess:
+def current() -> CurrentProcess:
     """The node process of the calling thread."""
     return local.process
 
 
 @contextmanager
-def running_as(process: NodeProcess) -> Generator[None]:
+def running_as(process: CurrentProcess) -> Generator[None]:
     """Let the calling thread work for a node process for a while: its `current()`, output, arguments, environment."""
     before = local.process
     local.process = process

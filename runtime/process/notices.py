@@ -7,9 +7,9 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from .node.node_process import NodeProcess
+    from .roles import Warned
 
-NoticeHook = Callable[["NodeProcess", str], None]
+NoticeHook = Callable[["Warned", str], None]
 _hooks: list[NoticeHook] = []
 
 
@@ -27,7 +27,7 @@ def on_notice(hook: NoticeHook) -> Callable[[], None]:
     return forget
 
 
-def notify(process: NodeProcess, text: str) -> None:
+def notify(process: Warned, text: str) -> None:
     """Give a notice, once per process and text."""
     if text in process.notices:
         return

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import LaunchInfo, ProcessInfo, ProcessState
-from bot_console.tui.console.protocol import Answer
 from launcher_bench import PATIENCE
 from scenes.launcher_rigs import DECLARED, AttachedRig, FakeRig, HostedRig, LauncherRig, MachineRig, RosRig
 

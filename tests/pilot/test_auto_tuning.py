@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.console.protocol import Answer
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.screens.tuning.progress import SettingRows, TuningScreen
 from bot_console.tui.tuning.dial import Setting

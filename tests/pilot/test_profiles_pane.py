@@ -7,8 +7,8 @@ from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import Endpoint, Profile, SetOutcome
-from bot_console.tui.console.protocol import Answer
 from bot_console.tui.panes.profiles.pane import ProfilesPane
 from bot_console.tui.panes.profiles.rows import ProfileRows
 from bot_console.tui.screens.confirm import ConfirmScreen

@@ -1,7 +1,4 @@
-"""No module imports, by whatever way, one that imports it: late imports within functions count, too.
-
-What stands under `if TYPE_CHECKING` is never run and does not count.
-"""
+"""No module imports, by whatever way, one that imports it: late imports count, and those for annotations alone, too."""
 
 from __future__ import annotations
 
@@ -10,6 +7,7 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
+import pytest
 from bot_console.runtime.importer import PACKAGES
 
 ROOT = Path(__file__).parents[2]
@@ -42,18 +40,11 @@ def canonical(name: str) -> str:
 
 
 class Imports(ast.NodeVisitor):
-    """The names that a module imports when it runs, whenever that is."""
+    """The names that a module imports: at once, late within functions, or under `if TYPE_CHECKING`."""
 
     def __init__(self, package: str) -> None:
         self._package = package
         self.found: list[tuple[str, str | None]] = []
-
-    def visit_If(self, node: ast.If) -> None:
-        if "TYPE_CHECKING" not in ast.unparse(node.test):
-            self.generic_visit(node)
-        else:
-            for each in node.orelse:
-                self.visit(each)
 
     def visit_Import(self, node: ast.Import) -> None:
         self.found += [(each.name, None) for each in node.names]
@@ -145,13 +136,11 @@ def test_what_a_node_is_made_of_knows_no_node():
     assert not up
 
 
-def test_late_imports_count_and_those_for_types_do_not(tmp_path):
-    late = tmp_path / "a.py"
+@pytest.mark.parametrize("back", ["from . import a", "if TYPE_CHECKING:\n    from x import a", "import json"])
+def test_late_imports_count_and_those_for_annotations(tmp_path, back):
+    late, other = tmp_path / "a.py", tmp_path / "b.py"
     late.write_text("def f():\n    from x import b\n")
-    typed = tmp_path / "b.py"
-    typed.write_text("from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from x import a\n")
-    known = {"x.a": late, "x.b": typed}
-    assert circles({name: set(imported(name, path, known)) for name, path in known.items()}) == []
-    typed.write_text("from . import a\n")
+    other.write_text(f"{back}\n")
+    known = {"x.a": late, "x.b": other}
     edges = {name: set(imported(name, path, known)) for name, path in known.items()}
-    assert circles(edges) == [frozenset(known)]
+    assert circles(edges) == ([] if back == "import json" else [frozenset(known)])

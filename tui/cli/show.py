@@ -11,7 +11,7 @@ from pathlib import Path
 
 from bot_console.runtime.importer import install
 from bot_console.tui.cli.arguments import Options
-from bot_console.tui.cli.live.launch_host import Host, start_host
+from bot_console.tui.cli.live.own_host import Host, start_host
 from bot_console.tui.cli.system.domain import domain, is_in_range, robot_there, take_part
 from bot_console.tui.cli.system.workspaces import choose
 from bot_console.tui.console.model import Severity

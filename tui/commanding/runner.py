@@ -11,8 +11,9 @@ from difflib import get_close_matches
 from typing import Any, Protocol
 
 from bot_console.tui.commanding.verbs import VERBS, places, setting_of, wrong_bag, wrong_use
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import ChangeSource, SetOutcome
-from bot_console.tui.console.protocol import Answer, CommandLine, Console, Stream
+from bot_console.tui.console.protocol import CommandLine, Console, Stream
 from bot_console.tui.format import harmless, value_text
 from bot_console.tui.opening import RQT_PANES, Opening, is_rqt, rqt_opening
 from bot_console.tui.safety.line_risk import risk_of

@@ -11,6 +11,7 @@ from functools import partial
 from typing import Any
 
 import rclpy
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.calls import Calls, NoAnswer
 from bot_console.tui.console.graph.findings import mend
 from bot_console.tui.console.graph.told_types import TypeSource
@@ -37,7 +38,7 @@ from bot_console.tui.console.parameters.provenance import Provenance
 from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.console.parameters.setter import ParameterSetter
 from bot_console.tui.console.plot.watch import PlotWatch
-from bot_console.tui.console.protocol import Answer, LoggerLevel
+from bot_console.tui.console.protocol import LoggerLevel
 from bot_console.tui.console.robot.drive_node import DriveNode
 from bot_console.tui.console.robot.world_watch import WorldWatch
 from bot_console.tui.console.sights.room import NodeSights

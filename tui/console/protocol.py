@@ -11,6 +11,7 @@ from concurrent.futures import Future
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import (
     Change,
     ChangeSource,
@@ -115,14 +116,6 @@ class LogSource(Protocol):
     def close(self) -> None:
         """Read no more."""
         ...
-
-
-@dataclass(frozen=True, slots=True)
-class Answer:
-    """The outcome of a command: whether it was done, and in words why not, or what was done."""
-
-    ok: bool
-    text: str = ""
 
 
 @dataclass(frozen=True, slots=True)

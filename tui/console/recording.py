@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from concurrent.futures import Future
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
-if TYPE_CHECKING:
-    from bot_console.tui.console.protocol import Answer
+from bot_console.tui.console.answer import Answer
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Protocol
 
-from bot_console.tui.console.protocol import Answer
+from bot_console.tui.console.answer import Answer
 
 
 class Payload(Enum):

@@ -8,8 +8,9 @@ from concurrent.futures import Future
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.console.protocol import Answer, Console, Launcher
+from bot_console.tui.console.protocol import Console, Launcher
 from bot_console.tui.files.save_file import NotSaved, typed_path
 from bot_console.tui.format import counted, harmless
 from bot_console.tui.kept import Kept, KeptHere

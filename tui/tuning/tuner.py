@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from bot_console.tui.console.protocol import Answer
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.tuning.dial import Setting
 from bot_console.tui.tuning.question import Question
 from bot_console.tui.tuning.study import Progress

@@ -14,12 +14,12 @@ from ..virtual import child_threads, pools
 from .thread_state import ProcessKilled, local
 
 if TYPE_CHECKING:
-    from .node_process import NodeProcess
+    from ..roles import CurrentProcess
 
 SIGINT_EXIT = -2
 
 
-def start_main_thread(process: NodeProcess, target: Callable[[], object]) -> None:
+def start_main_thread(process: CurrentProcess, target: Callable[[], object]) -> None:
     """Start the thread that runs `target` as the main of the process."""
     thread = threading.Thread(target=_Main(process, target), name="MainThread", daemon=False)
     child_threads.start_inside(process, process.clock, thread, child=False)
@@ -28,7 +28,7 @@ def start_main_thread(process: NodeProcess, target: Callable[[], object]) -> Non
 class _Main:
     """What the thread runs."""
 
-    def __init__(self, process: NodeProcess, target: Callable[[], object]) -> None:
+    def __init__(self, process: CurrentProcess, target: Callable[[], object]) -> None:
         self._process = process
         self._target: Callable[[], object] | None = target
 

@@ -9,7 +9,6 @@ import sys
 import threading
 from _thread import allocate_lock
 from collections.abc import Callable, Iterable, Mapping, MutableMapping, Sequence
-from enum import Enum
 from functools import partial
 from typing import TYPE_CHECKING, Any
 from weakref import WeakSet
@@ -18,28 +17,19 @@ from .. import frames, real
 from ..clock_source import ClockSource
 from ..notices import notify
 from .capture import NO_INPUT, LineCapture, Sink
+from .process_state import ProcessState
 from .running import running
 from .signals import SIGKILL, Signals
-from .thread_state import ProcessKilled, ThreadState, local
+from .thread_state import ProcessKilled, local
 
 if TYPE_CHECKING:
     from concurrent.futures import ThreadPoolExecutor
 
-    from ..virtual.fresh_import import FreshModules
+    from ..roles import NodeThread, OwnModules
 
 _pids = itertools.count((1 << 22) + 1)  # above Linux's highest possible pid, so that a stray kill() hits nobody
 KILL_GRACE_S = 0.5
 """How long (s) a killed process's threads may take to unwind before it counts as abandoned."""
-
-
-class ProcessState(Enum):
-    """How far a node process has come."""
-
-    NEW = "new"
-    RUNNING = "running"
-    EXITED = "exited"
-    ABANDONED = "abandoned"
-    """Killed, but a thread of it still runs; it has left the graph and its output is dropped."""
 
 
 class NodeProcess:
@@ -64,12 +54,12 @@ class NodeProcess:
         self.state = ProcessState.NEW
         self.exit_code: int | None = None
         self.signals = Signals(self)
-        self.main_state: ThreadState | None = None
-        self.children: dict[threading.Thread, ThreadState] = {}
+        self.main_state: NodeThread | None = None
+        self.children: dict[threading.Thread, NodeThread] = {}
         self.pools: WeakSet[ThreadPoolExecutor] = WeakSet()
         self.exit_functions: list[partial[Any]] = []
         self.notices: list[str] = []
-        self.modules: FreshModules | None = None
+        self.modules: OwnModules | None = None
         self.overrides: dict[Any, Any] = {}
         self.cpu_of_ended_threads = 0.0
         self._ended = self.clock.wakeup()
@@ -201,7 +191,7 @@ class NodeProcess:
         """Where its main thread is, as `file.py:12, in function`; None when it has ended."""
         return None if self.main_state is None else frames.thread_line(self.main_state.ident)
 
-    def thread_states(self) -> list[ThreadState]:
+    def thread_states(self) -> list[NodeThread]:
         """Its main thread and the threads that it started, those that have ended excepted."""
         main = [] if self.main_state is None else [self.main_state]
         return [state for state in (*main, *self.children.values()) if state.thread.is_alive()]
@@ -236,11 +226,11 @@ class NodeProcess:
         if local.state in states:
             raise ProcessKilled
 
-    def break_off_later(self, states: Sequence[ThreadState]) -> None:
+    def break_off_later(self, states: Sequence[NodeThread]) -> None:
         """Give killed threads a moment to unwind; then raise in those that compute, then say which one hangs where."""
         real.later(KILL_GRACE_S, partial(self._break_off, states))
 
-    def _break_off(self, states: Sequence[ThreadState]) -> None:
+    def _break_off(self, states: Sequence[NodeThread]) -> None:
         left = [state for state in states if state.thread.is_alive()]
         # One that waits for its turn raises by itself when that comes; thrown at, it would break the order.
         if any(state.takes_turns for state in left):
@@ -251,7 +241,7 @@ class NodeProcess:
         if left:
             real.later(KILL_GRACE_S, partial(self._report_hanging, left))
 
-    def _report_hanging(self, states: Sequence[ThreadState]) -> None:
+    def _report_hanging(self, states: Sequence[NodeThread]) -> None:
         for state in states:
             if state.thread.is_alive() and not state.waiting:
                 self.state = ProcessState.ABANDONED

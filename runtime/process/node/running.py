@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 from weakref import WeakValueDictionary
 
 if TYPE_CHECKING:
-    from .node_process import NodeProcess
+    from ..roles import RunningProcess
 
-running: WeakValueDictionary[int, NodeProcess] = WeakValueDictionary()
+running: WeakValueDictionary[int, RunningProcess] = WeakValueDictionary()
 
 
-def running_process(pid: int) -> NodeProcess | None:
+def running_process(pid: int) -> RunningProcess | None:
     """The running node process with this synthetic pid."""
     return running.get(pid)

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any
 
 from .. import real
 from ..notices import notify
-from .thread_state import ThreadState, local
+from .thread_state import local
 
 if TYPE_CHECKING:
     from ..clock_source import Wakeup
-    from .node_process import NodeProcess
+    from ..roles import CurrentProcess, Handler, NodeThread
 
 BUSY_GRACE_S = 0.1
 """How long (s) a busy thread may take to reach a wait before the exception is raised wherever it is."""
@@ -29,13 +29,12 @@ _JOB_CONTROL = frozenset(
     getattr(signal, name) for name in ("SIGSTOP", "SIGTSTP", "SIGTTIN", "SIGTTOU") if hasattr(signal, name)
 )
 Hook = Callable[[int], Any]
-Handler = Callable[[int, Any], Any] | int | None
 
 
 class Signals:
     """What one node process does about each signal: hooks as rclpy's, and the handler that `signal.signal` set."""
 
-    def __init__(self, process: NodeProcess) -> None:
+    def __init__(self, process: CurrentProcess) -> None:
         self._process = process
         self._hooks: list[tuple[Hook, frozenset[int]]] = []
         self._handlers: dict[int, Handler] = {signal.SIGINT: signal.default_int_handler}
@@ -126,7 +125,7 @@ class Signals:
             self._pause.set()
         handler(signum, sys._getframe())  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
 
-    def _break_in(self, state: ThreadState, action: partial[Any]) -> None:
+    def _break_in(self, state: NodeThread, action: partial[Any]) -> None:
         """Interrupt a thread that computes: what a handler raises elsewhere is raised there."""
         if state.takes_turns:
             if state.called and state.thread.is_alive():
@@ -135,7 +134,7 @@ class Signals:
             # The busy thread cannot be made to call it; so it is called here, and what it raises is raised there.
             _thread.start_new_thread(self._handle_for, (state, action))
 
-    def _handle_for(self, state: ThreadState, action: partial[Any]) -> None:
+    def _handle_for(self, state: NodeThread, action: partial[Any]) -> None:
         local.process = self._process
         try:
             action()

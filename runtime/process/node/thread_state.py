@@ -14,7 +14,7 @@ from .. import frames, real
 
 if TYPE_CHECKING:
     from ..clock_source import ClockSource, Seat
-    from .node_process import NodeProcess
+    from ..roles import CurrentProcess
 
 
 IMPORT_PATIENCE_S = 0.005
@@ -49,7 +49,7 @@ class ThreadState:
         "waits",
     )
 
-    def __init__(self, process: NodeProcess, clock: ClockSource, thread: threading.Thread) -> None:
+    def __init__(self, process: CurrentProcess, clock: ClockSource, thread: threading.Thread) -> None:
         self.process = process
         self.clock = clock
         self.thread = thread
@@ -179,7 +179,7 @@ def _checkpoint() -> None:
 class _ThreadLocals(threading.local):
     """What is looked up at every call: plain attributes of the thread."""
 
-    process: NodeProcess
+    process: CurrentProcess
     state: ThreadState | None = None
     seat: Seat | None = None
     waits_on: ClockSource | None = None

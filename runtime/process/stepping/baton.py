@@ -10,13 +10,12 @@ from _thread import allocate_lock, get_ident, get_native_id
 from collections import deque
 from contextlib import suppress
 from heapq import heapify, heappop, heappush
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from ..clock_source import WaitingThread
-    from .wakeup import SteppedWakeup
 
 LAST = 1 << 60
 """The driver's rank: it sees everything that happens at the time until which it waits."""
@@ -28,6 +27,15 @@ STALE_DEADLINES = 64
 Note = TypeVar("Note")
 SIGNAL_CHECK_S = 0.2
 """How often (s of wall time) a waiting driver looks for real signals: another thread may have received them."""
+
+
+class Awaited(Protocol):
+    """What threads wait for, as the scheduler sees it."""
+
+    flag: bool
+    """Whether it is set."""
+    waiters: list[Seat]
+    """In the order of their waits."""
 
 
 class Seat:
@@ -56,7 +64,7 @@ class Seat:
         self.lock = allocate_lock()
         # Held from the start: to wait for the turn is to acquire it again, to be given the turn is its release.
         self.lock.acquire()
-        self.wakeup: SteppedWakeup | None = None
+        self.wakeup: Awaited | None = None
         self.due: int | None = None
         self.in_heap: int | None = None
         self.waiting = False
@@ -83,7 +91,7 @@ class Seat:
         """End the present wait of this thread, though neither set nor due."""
         self.baton.rouse(self)
 
-    def wait(self, wakeup: SteppedWakeup | None, deadline: int | None) -> bool:
+    def wait(self, wakeup: Awaited | None, deadline: int | None) -> bool:
         """Hand the baton on until woken or due (ns); whether woken. Raises what is to be raised in this thread."""
         state = self.state
         if state is None:
@@ -143,7 +151,7 @@ class Baton:
             if self.holder is seat or self.holder is None:
                 self._grant_next()
 
-    def wait(self, seat: Seat, wakeup: SteppedWakeup | None, deadline: int | None) -> bool:
+    def wait(self, seat: Seat, wakeup: Awaited | None, deadline: int | None) -> bool:
         """Hand the baton on; True when the wakeup is set, False when due or roused."""
         with self._guard:
             self.turns += 1
@@ -164,7 +172,7 @@ class Baton:
         self._await_turn(seat)
         return self._withdraw(seat, wakeup)
 
-    def wait_outside(self, wakeup: SteppedWakeup, deadline: int | None) -> bool:
+    def wait_outside(self, wakeup: Awaited, deadline: int | None) -> bool:
         """The wait of a thread that never has the baton: it goes on beside the one that has."""
         with self._guard:
             if wakeup.flag:
@@ -189,7 +197,7 @@ class Baton:
             if self.holder is None:
                 self._grant_next()
 
-    def rouse_all(self, wakeup: SteppedWakeup) -> None:
+    def rouse_all(self, wakeup: Awaited) -> None:
         """Set a wakeup: all that wait for it are ready, in the order of their waits."""
         with self._guard:
             wakeup.flag = True
@@ -220,7 +228,7 @@ class Baton:
             if self.holder is None:
                 self._grant_next()
 
-    def _enlist(self, seat: Seat, wakeup: SteppedWakeup | None, deadline: int | None) -> None:
+    def _enlist(self, seat: Seat, wakeup: Awaited | None, deadline: int | None) -> None:
         seat.waiting = True
         seat.woken = False
         seat.wakeup = wakeup
@@ -250,7 +258,7 @@ class Baton:
         else:
             self._ready.append(seat)
 
-    def _withdraw(self, seat: Seat, wakeup: SteppedWakeup | None) -> bool:
+    def _withdraw(self, seat: Seat, wakeup: Awaited | None) -> bool:
         """What a wait leaves behind; whether it ended by `set`."""
         if seat.waiting:
             seat.waiting = False

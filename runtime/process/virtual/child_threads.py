@@ -14,7 +14,7 @@ from .module_property import VirtualModule, process_variable
 
 if TYPE_CHECKING:
     from ..clock_source import ClockSource
-    from ..node.node_process import NodeProcess
+    from ..roles import CurrentProcess
 
 _STATE = "_node_process_state"
 
@@ -33,7 +33,7 @@ def start_outside(thread: threading.Thread) -> None:
 
 
 def start_inside(
-    process: NodeProcess, clock: ClockSource, thread: threading.Thread, *, child: bool = True
+    process: CurrentProcess, clock: ClockSource, thread: threading.Thread, *, child: bool = True
 ) -> ThreadState:
     """Start a thread that belongs to a node process.
 

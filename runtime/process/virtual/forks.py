@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from ..node.thread_state import local
 
 if TYPE_CHECKING:
-    from ..node.node_process import NodeProcess
+    from ..roles import CurrentProcess
 
 _DESCRIPTORS = {"stdout": 1, "stderr": 2}
 
@@ -44,7 +44,7 @@ class Forks:
         _become(process)
 
 
-def _become(process: NodeProcess) -> None:
+def _become(process: CurrentProcess) -> None:
     for name, descriptor in _DESCRIPTORS.items():
         capture = getattr(process, name)
         if capture is not None:

@@ -10,13 +10,15 @@ import sys
 import threading
 from collections.abc import Callable
 from functools import partial
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from .. import frames
 from ..node.running import running_process
-from ..node.signals import Handler
 from ..node.thread_state import local
 from ..notices import notify
+
+if TYPE_CHECKING:
+    from ..roles import Handler
 
 _getpid = os.getpid
 _getppid = os.getppid

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ..node.thread_state import local
 
 if TYPE_CHECKING:
-    from ..node.node_process import NodeProcess
+    from ..roles import CurrentProcess
 
 _make = ThreadPoolExecutor.__init__
 
@@ -22,7 +22,7 @@ def make(pool: ThreadPoolExecutor, *arguments: Any, **options: Any) -> None:
         local.process.pools.add(pool)
 
 
-def shut_down(process: NodeProcess) -> None:
+def shut_down(process: CurrentProcess) -> None:
     """Let the threads of its pools end once they have done what was submitted."""
     for pool in list(process.pools):
         pool.shutdown(wait=False)

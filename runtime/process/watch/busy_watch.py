@@ -10,8 +10,7 @@ from ..notices import notify
 from .processor_time import thread_seconds
 
 if TYPE_CHECKING:
-    from ..node.node_process import NodeProcess
-    from ..node.thread_state import ThreadState
+    from ..roles import NodeThread, Watched
 
 PERIOD_S = 0.5
 """Wall time (s) between two looks."""
@@ -26,10 +25,10 @@ class BusyWatch:
 
     def __init__(self) -> None:
         self._guard = allocate_lock()
-        self._processes: set[NodeProcess] = set()
-        self._last: dict[ThreadState, tuple[int, float, float]] = {}
+        self._processes: set[Watched] = set()
+        self._last: dict[NodeThread, tuple[int, float, float]] = {}
 
-    def watch(self, process: NodeProcess) -> None:
+    def watch(self, process: Watched) -> None:
         """Look after a process until it ends."""
         with self._guard:
             first = not self._processes
@@ -48,7 +47,7 @@ class BusyWatch:
         if processes:
             real.later(PERIOD_S, self._look)
 
-    def _look_at(self, process: NodeProcess, state: ThreadState, before: tuple[int, float, float] | None) -> None:
+    def _look_at(self, process: Watched, state: NodeThread, before: tuple[int, float, float] | None) -> None:
         seconds = thread_seconds(state.thread.native_id or 0)
         if state.waiting or seconds is None:
             return

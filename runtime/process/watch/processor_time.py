@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ..node.thread_state import ThreadState
+    from ..roles import NodeThread
 
 
 def state_and_seconds(task: str) -> tuple[str, float] | None:
@@ -42,7 +42,7 @@ def ran_and_waited(task: str) -> tuple[float, float] | None:
     return int(ran) * 1e-9, int(waited) * 1e-9
 
 
-def total_seconds(states: Iterable[ThreadState]) -> float | None:
+def total_seconds(states: Iterable[NodeThread]) -> float | None:
     """Processor time (s) of several running threads; None where it is not known."""
     times = [thread_seconds(state.thread.native_id) for state in states if state.thread.native_id is not None]
     known = [time for time in times if time is not None]

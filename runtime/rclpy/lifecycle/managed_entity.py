@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import wraps
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from rclpy.lifecycle.lifecycle_state import LifecycleState
 from rclpy.lifecycle.transition_callback_return import TransitionCallbackReturnType as TransitionCallbackReturn
-
-if TYPE_CHECKING:
-    from rclpy.lifecycle.node import LifecycleState
 
 
 class ManagedEntity:

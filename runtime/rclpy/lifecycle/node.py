@@ -4,25 +4,18 @@ from __future__ import annotations
 
 import traceback
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 from lifecycle_msgs.msg import State, Transition
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.impl.reexports import reexporting
+from rclpy.lifecycle.lifecycle_state import LifecycleState
 from rclpy.lifecycle.managed_entity import ManagedEntity
 from rclpy.lifecycle.publisher import LifecyclePublisher
 from rclpy.lifecycle.services import LifecycleServices
 from rclpy.lifecycle.state_machine import LifecycleStateMachine
 from rclpy.lifecycle.transition_callback_return import TransitionCallbackReturnType as TransitionCallbackReturn
 from rclpy.node import Node
-
-
-class LifecycleState(NamedTuple):
-    """A state, as transition callbacks get it."""
-
-    label: str
-    state_id: int
-
 
 _SHUTDOWNS = {
     "unconfigured": Transition.TRANSITION_UNCONFIGURED_SHUTDOWN,

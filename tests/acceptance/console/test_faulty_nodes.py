@@ -21,7 +21,7 @@ import pytest
 if not Path("/proc/self/schedstat").exists():
     pytest.skip("needs /proc and fork", allow_module_level=True)
 
-from bot_console.tui.cli.live.launch_host import start_host
+from bot_console.tui.cli.live.own_host import start_host
 from bot_console.tui.cli.system.workspaces import PROGRAM_LAUNCH, SYSTEM_LAUNCH
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.model import ProcessInfo, ProcessState

@@ -17,7 +17,7 @@ import pytest
 if not hasattr(os, "fork"):
     pytest.skip("needs fork", allow_module_level=True)
 
-from bot_console.tui.cli.live.launch_host import start_host
+from bot_console.tui.cli.live.own_host import start_host
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.model import ProcessState
 from launcher_bench import HEAD, WAITS
@@ -153,7 +153,7 @@ def test_what_an_owner_started_ends_with_it(tmp_path: Path) -> None:
     file.write_text(HEAD.format(entities=f"[Node(executable={str(program)!r})]"))
     owner = (
         "import time\n"
-        "from bot_console.tui.cli.live.launch_host import start_host\n"
+        "from bot_console.tui.cli.live.own_host import start_host\n"
         "from bot_console.tui.console.launch_host.proxy import HostedLauncher\n"
         "host = start_host()\n"
         "launcher = HostedLauncher(host.connection, lambda *record: None, lambda *line: None)\n"

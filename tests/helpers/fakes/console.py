@@ -11,6 +11,7 @@ from types import MappingProxyType
 from typing import Any
 
 from bot_console.tui.commanding.completing import live_names
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.connection.no_console import refused_profile
 from bot_console.tui.console.logs.file import open_log
 from bot_console.tui.console.logs.search import matching
@@ -31,7 +32,7 @@ from bot_console.tui.console.parameters.file.saving import save
 from bot_console.tui.console.parameters.journal import Journal, Move, Step
 from bot_console.tui.console.parameters.origin import origin_text
 from bot_console.tui.console.parameters.profiles import cannot_apply, differences
-from bot_console.tui.console.protocol import Answer, LoggerLevel, LogSource, LogView, Stream
+from bot_console.tui.console.protocol import LoggerLevel, LogSource, LogView, Stream
 from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.console.values import refusal
 

@@ -8,9 +8,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.launch.process import LaunchedProcess, Order
 from bot_console.tui.console.model import LaunchArgument
-from bot_console.tui.console.protocol import Answer
 
 from fakes.console import CLOSED, FakeConsole, done
 

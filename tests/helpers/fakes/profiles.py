@@ -6,9 +6,9 @@ from concurrent.futures import Future
 from pathlib import Path
 from typing import Any
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import ConsoleSnapshot, Profile
 from bot_console.tui.console.parameters.profiles import load
-from bot_console.tui.console.protocol import Answer
 
 CLOSED = "the console has closed"
 

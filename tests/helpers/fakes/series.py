@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import Value
-from bot_console.tui.console.protocol import Answer, Samples
+from bot_console.tui.console.protocol import Samples
 from bot_console.tui.console.robot.robot_model import Pose
 
 from fakes.profiles import CLOSED

@@ -7,7 +7,7 @@ from concurrent.futures import Future
 from dataclasses import replace
 from typing import Any
 
-from bot_console.tui.console.protocol import Answer
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.topics import forms
 from bot_console.tui.console.topics.message_tree import tree
 from bot_console.tui.console.traffic import Goal, LiveMessage, Measure, Payload, Repeated, Reply, Slot, Values

@@ -13,6 +13,7 @@ from dataclasses import replace
 from bot_console.tui.cli.attach.launch_files import LaunchFiles
 from bot_console.tui.cli.attach.launch_host import start_host
 from bot_console.tui.cli.live.launch_lines import teller
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.connection.no_console import done
 from bot_console.tui.console.launch.asked import AskedForProcesses
 from bot_console.tui.console.launch.launcher import CLOSED
@@ -20,7 +21,6 @@ from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.console.launch.timeline import KEPT
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.model import LaunchArgument, LaunchEvent, LaunchInfo, ProcessInfo
-from bot_console.tui.console.protocol import Answer
 
 Start = Callable[[], tuple["subprocess.Popen[bytes]", socket.socket]]
 PATIENCE = 15.0

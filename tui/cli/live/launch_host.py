@@ -1,20 +1,16 @@
 """The process that runs launch files for consoles: it holds the launches and the nodes that are threads.
 
-`python -m bot_console.tui.cli.live.launch_host`; its options say whom it serves, see `start_host`.
+`python -m bot_console.tui.cli.live.launch_host`; its options say whom it serves, see `own_host`.
 """
 
 from __future__ import annotations
 
 import argparse
-import contextlib
-import os
 import signal
 import socket
-import subprocess
 import sys
 import threading
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING
@@ -23,47 +19,6 @@ from bot_console.runtime.importer import install
 
 if TYPE_CHECKING:
     from bot_console.tui.console.launch_host.host import LaunchHost
-
-SWITCH = "bot_console.tui.cli.live.launch_host"
-END_S = 15.0
-"""Seconds that a host may take to end, after its owner has hung up."""
-
-
-@dataclass(frozen=True)
-class Host:
-    """A launch host that this process owns, and the connection to it."""
-
-    process: subprocess.Popen[bytes]
-    connection: socket.socket
-
-    def end(self, patience: float = END_S) -> None:
-        """Hang up, which ends it and all that it has started; waits for that, and kills it when it takes too long."""
-        with contextlib.suppress(OSError):
-            self.connection.shutdown(socket.SHUT_RDWR)
-        self.connection.close()
-        try:
-            self.process.wait(patience)
-        except subprocess.TimeoutExpired:
-            self.process.kill()
-            self.process.wait()
-
-
-def start_host(options: Sequence[str] = (), *, log: Path | None = None) -> Host:
-    """Start a host that this process owns: when it hangs up, the host ends all that it has started, then itself.
-
-    What the host itself prints, which should be nothing, goes to a file.
-    """
-    ours, theirs = socket.socketpair()
-    with theirs, open(log or os.devnull, "ab") as output:
-        process = subprocess.Popen(
-            [sys.executable, "-m", SWITCH, "--owner", str(theirs.fileno()), *options],
-            stdin=subprocess.DEVNULL,
-            stdout=output,
-            stderr=output,
-            pass_fds=[theirs.fileno()],
-            start_new_session=True,
-        )
-    return Host(process, ours)
 
 
 def main(words: Sequence[str] | None = None) -> int:

@@ -20,7 +20,7 @@ from bot_console.tui.console.model import LaunchInfo
 from bot_console.tui.console.protocol import Launcher
 
 if TYPE_CHECKING:
-    from bot_console.tui.cli.live.launch_host import Host
+    from bot_console.tui.cli.live.own_host import Host
     from bot_console.tui.cli.live.past import HostsPast
     from bot_console.tui.console.connection.ros_console import RosConsole
 

@@ -8,10 +8,10 @@ from bot_console.runtime.rmw.middleware import bus_of
 from bot_console.runtime.rosidl import type_hash
 from bot_console.runtime.rosidl.cdr import serialize_copied
 from bot_console.tui.cli.system.domain import domain
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.past import Past
 from bot_console.tui.console.connection.no_console import done
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
-from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.recording import RingSize
 
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from bot_console.runtime.process import NodeProcess, on_notice
+from bot_console.runtime.process import on_notice
 from bot_console.runtime.process.facts import on_fact
 from bot_console.tui.console.model import Severity
 from bot_console.tui.console.parameters.provenance import Learn
 
 if TYPE_CHECKING:
+    from bot_console.runtime.process.roles import Warned
     from launch.child import News
 
 Printed = Callable[[int, str, str], None]
@@ -23,7 +24,7 @@ def tell_news(printed: Printed, learn: Learn) -> Callable[[], None]:
     """
     from launch.child import on_news  # ROS names answer only in a program that is composed
 
-    def noticed(process: NodeProcess, text: str) -> None:
+    def noticed(process: Warned, text: str) -> None:
         printed(Severity.WARN, process.name, text)
 
     def heard(news: News) -> None:

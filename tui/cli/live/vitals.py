@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
-from bot_console.runtime.process import NodeProcess, ProcessState
+from typing import TYPE_CHECKING
+
+from bot_console.runtime.process import ProcessState
 from bot_console.runtime.process.node.running import running_process
 from bot_console.tui.cli.live.system_vitals import SystemVitals
 from bot_console.tui.console.launch.vitals import Vitals
+
+if TYPE_CHECKING:
+    from bot_console.runtime.process.roles import RunningProcess
 
 
 class NodeVitals:
     """Those of a node process, which is a thread of this process and those that it starts."""
 
-    def __init__(self, process: NodeProcess) -> None:
+    def __init__(self, process: RunningProcess) -> None:
         self._process = process
 
     def cpu_seconds(self) -> float | None:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from bot_console.tui.cli.tune.pool import CAN_FORK, Pool
 from bot_console.tui.cli.tune.saving import save_profile
-from bot_console.tui.console.protocol import Answer
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.files.folders import state_folder
 from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.tuning.dial import Setting

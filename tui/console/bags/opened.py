@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.contents import Contents
 from bot_console.tui.console.bags.traffic import BagTraffic
 from bot_console.tui.console.connection.no_console import NoConsole
@@ -27,7 +28,7 @@ from bot_console.tui.console.model import (
 from bot_console.tui.console.plot.arrays import NotPlottable
 from bot_console.tui.console.plot.paths import number_paths
 from bot_console.tui.console.plot.series import parse_path, reader
-from bot_console.tui.console.protocol import Answer, LogSource, LogView, Samples
+from bot_console.tui.console.protocol import LogSource, LogView, Samples
 from bot_console.tui.console.robot.robot_model import Pose
 from bot_console.tui.console.traffic import Traffic
 from bot_console.tui.text.expression.tree import is_parameter

@@ -9,12 +9,12 @@ from collections.abc import Callable
 from concurrent.futures import Future
 from typing import Any, Protocol
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.needed import Missing
 from bot_console.tui.console.bags.qos import noted
 from bot_console.tui.console.bags.recorder import CLOCK, Ring, in_order
 from bot_console.tui.console.bags.tape import Tape
 from bot_console.tui.console.bags.writer import BagWriter
-from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.recording import RingSize
 from bot_console.tui.files.save_file import NotSaved, typed_path
 

@@ -10,12 +10,12 @@ from concurrent.futures import Future
 from typing import Any
 
 import rclpy
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.needed import Missing
 from bot_console.tui.console.bags.recorder import CLOCK, PACE, Recorder
 from bot_console.tui.console.bags.tape import Tape
 from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.console.connection.no_console import done
-from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.recording import Keeper, RecordingInfo
 from bot_console.tui.files.save_file import NotSaved, typed_path
 from rclpy.context import Context

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import Future
 from threading import Event
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.room import Recordings
 from bot_console.tui.console.connection.no_console import CLOSED, refused_profile
 from bot_console.tui.console.logs.file import open_log
@@ -28,7 +29,7 @@ from bot_console.tui.console.model import (
 from bot_console.tui.console.node import ConsoleNode
 from bot_console.tui.console.parameters.profiles import cannot_apply
 from bot_console.tui.console.parameters.shelf import Shelf
-from bot_console.tui.console.protocol import Answer, LoggerLevel, LogSource, LogView, Samples
+from bot_console.tui.console.protocol import LoggerLevel, LogSource, LogView, Samples
 from bot_console.tui.console.recording import Keeper, Recording
 from bot_console.tui.console.robot.robot_model import Pose
 from bot_console.tui.console.sights.model import Sights

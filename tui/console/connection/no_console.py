@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from typing import TypeVar
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import (
     Change,
     ChangeSource,
@@ -18,7 +19,6 @@ from bot_console.tui.console.model import (
     Value,
 )
 from bot_console.tui.console.protocol import (
-    Answer,
     ConsoleReading,
     LogFindings,
     LoggerLevel,

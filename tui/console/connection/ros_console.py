@@ -16,6 +16,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.connection.no_console import CLOSED, STARTING, NoConsole, NothingKnown
 from bot_console.tui.console.model import (
     Capabilities,
@@ -32,7 +33,7 @@ from bot_console.tui.console.model import (
     Value,
 )
 from bot_console.tui.console.parameters.provenance import Learn, Provenance
-from bot_console.tui.console.protocol import Answer, Console, LoggerLevel, LogSource, LogView, Samples
+from bot_console.tui.console.protocol import Console, LoggerLevel, LogSource, LogView, Samples
 from bot_console.tui.console.recording import Keeper, Recording
 from bot_console.tui.console.robot.robot_model import Pose
 from bot_console.tui.console.sights.model import Sights

@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from concurrent.futures import Future
 
-from bot_console.tui.console.protocol import Answer
+from bot_console.tui.console.answer import Answer
 
 
 class AskedForProcesses(ABC):

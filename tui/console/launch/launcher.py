@@ -9,6 +9,7 @@ from concurrent.futures import Future
 from pathlib import Path
 from typing import Any, Protocol
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.connection.no_console import done
 from bot_console.tui.console.launch.arguments import read_arguments
 from bot_console.tui.console.launch.asked import AskedForProcesses
@@ -19,7 +20,6 @@ from bot_console.tui.console.launch.run import LaunchRun, Listener
 from bot_console.tui.console.launch.timeline import LaunchTimeline
 from bot_console.tui.console.launch.vitals import FindVitals, Usage, Vitals
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo, ProcessState, Severity
-from bot_console.tui.console.protocol import Answer
 
 CLOSED = "the console is closing"
 BUSY_S = 6.0

@@ -7,8 +7,8 @@ from concurrent.futures import Future
 from dataclasses import replace
 from enum import Enum
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import ProcessInfo, ProcessState
-from bot_console.tui.console.protocol import Answer
 
 INTERRUPTED = (0, -2, -15, 130)
 """Exit codes of a process that ended as it was asked to."""

@@ -10,11 +10,11 @@ from concurrent.futures import Future
 from functools import partial
 from typing import Any, Protocol
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.console.launch_host.channel import Channel, Message
 from bot_console.tui.console.launch_host.plain import of_arguments, of_info
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo
-from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.recording import Keeper
 
 LOOK_S = 0.1

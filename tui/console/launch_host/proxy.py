@@ -11,6 +11,7 @@ from concurrent.futures import TimeoutError as TooLate
 from dataclasses import replace
 from typing import Any
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.launch.asked import AskedForProcesses
 from bot_console.tui.console.launch.launcher import CLOSED
 from bot_console.tui.console.launch.process import ENDED
@@ -20,7 +21,6 @@ from bot_console.tui.console.launch_host.channel import Channel, Message
 from bot_console.tui.console.launch_host.plain import to_arguments, to_info
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo, ProcessInfo, ProcessState, Severity
 from bot_console.tui.console.parameters.provenance import Learn
-from bot_console.tui.console.protocol import Answer
 
 GONE = "the launch host has ended, and with it all that it had started"
 FILES_S = 2.0

@@ -7,12 +7,12 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.connection.no_console import done
 from bot_console.tui.console.launch.asked import AskedForProcesses
 from bot_console.tui.console.launch.timeline import KEPT
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.model import LaunchArgument, LaunchEvent, LaunchInfo, ProcessInfo
-from bot_console.tui.console.protocol import Answer
 
 LOOK_S = 1.0
 """Seconds between two looks for hosts that have come."""

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Container, Iterable
 from typing import Protocol
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.calls import Calls, NoAnswer
 from bot_console.tui.console.model import Severity
-from bot_console.tui.console.protocol import Answer, LoggerLevel
+from bot_console.tui.console.protocol import LoggerLevel
 from rcl_interfaces.msg import LoggerLevel as LevelMessage
 from rcl_interfaces.srv import GetLoggerLevels, SetLoggerLevels
 

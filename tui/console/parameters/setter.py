@@ -6,12 +6,12 @@ import time
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.calls import Calls, NoAnswer
 from bot_console.tui.console.model import ChangeSource, SetOutcome, Value
 from bot_console.tui.console.parameters.expected import Expected, Wish
 from bot_console.tui.console.parameters.journal import Journal, Move, Step
 from bot_console.tui.console.parameters.mirror import ParameterMirror
-from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.values import refusal, to_message
 from rcl_interfaces.msg import Parameter, SetParametersResult
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically

@@ -11,10 +11,10 @@ from dataclasses import replace
 from pathlib import Path, PurePosixPath
 from urllib.parse import urlsplit
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import ParameterTree, Profile
 from bot_console.tui.console.parameters.file.saving import save
 from bot_console.tui.console.parameters.profiles import find, load
-from bot_console.tui.console.protocol import Answer
 from bot_console.tui.files.save_file import NotSaved, typed_path
 
 _NAME = re.compile(r"[\w][\w .+-]*")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from concurrent.futures import Future
 
-from bot_console.tui.console.protocol import Answer
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.traffic import Goal, LiveMessage, Measure, Payload, Repeated, Reply, Slot, Values
 
 

@@ -10,10 +10,10 @@ from functools import partial
 from typing import Any, cast
 
 import yaml
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.calls import Calls, NoAnswer
 from bot_console.tui.console.graph.told_types import ToldTypes, TypeSource
 from bot_console.tui.console.model import GraphInfo
-from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.topics import forms
 from bot_console.tui.console.topics.goals import Goals
 from bot_console.tui.console.topics.interfaces import interface

@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from bot_console.tui import keymap
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.graph.findings import findings
 from bot_console.tui.console.model import ConsoleSnapshot, GraphInfo
-from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.query import parse
 from bot_console.tui.console.sights.model import Sights
 from bot_console.tui.files.save_file import save_file

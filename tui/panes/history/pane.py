@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from bot_console.tui import keymap
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import Change, ChangeSource, ConsoleSnapshot, JournalState, SetOutcome, Value
 from bot_console.tui.console.parameters.safety import takes_safety
-from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.query import Query, parse
 from bot_console.tui.format import counted, harmless, value_text
 from bot_console.tui.panes.history.back import Return, returns, values_at

@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from bot_console.tui import keymap
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import ConsoleSnapshot, LaunchEvent, LaunchInfo, ProcessInfo, ProcessState, Severity
-from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.query import Query, parse
 from bot_console.tui.format import clock_text, counted, cut, harmless
 from bot_console.tui.panes.launch.rows import ProcessRows, matches, rows

@@ -8,8 +8,9 @@ from functools import partial
 from typing import ClassVar
 
 from bot_console.tui import keymap
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import GraphInfo, Severity
-from bot_console.tui.console.protocol import Answer, Console, LoggerLevel
+from bot_console.tui.console.protocol import Console, LoggerLevel
 from bot_console.tui.format import LETTERS, cut, harmless
 from bot_console.tui.panes.pane import answer_of
 from bot_console.tui.widgets.item_list import ItemList

@@ -10,8 +10,8 @@ from functools import partial
 from pathlib import Path
 
 from bot_console.tui import keymap
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import ConsoleSnapshot, Value
-from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.query import parse
 from bot_console.tui.format import command_of, harmless
 from bot_console.tui.kept import LAST_FILE

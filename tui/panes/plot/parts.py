@@ -6,8 +6,9 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import Change
-from bot_console.tui.console.protocol import Answer, Console
+from bot_console.tui.console.protocol import Console
 from bot_console.tui.format import value_text
 from bot_console.tui.panes.plot.thresholds import first_crossed
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
-from bot_console.tui.console.protocol import Answer
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.files import plot_presets
 from bot_console.tui.files.plot_presets import KeptCurve, NoPreset, Preset
 from bot_console.tui.files.save_file import NotSaved

@@ -9,9 +9,9 @@ from functools import partial
 from typing import Any
 
 from bot_console.tui import keymap
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import ConsoleSnapshot, ProcessState, Profile, ProfileDifference, SetOutcome
 from bot_console.tui.console.parameters.file.node_keys import means
-from bot_console.tui.console.protocol import Answer
 from bot_console.tui.console.query import Query, parse
 from bot_console.tui.files.save_file import typed_path
 from bot_console.tui.format import counted, value_text

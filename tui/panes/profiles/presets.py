@@ -7,8 +7,9 @@ from concurrent.futures import Future
 from dataclasses import dataclass, field
 from functools import partial
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import GraphInfo
-from bot_console.tui.console.protocol import Answer, Console
+from bot_console.tui.console.protocol import Console
 from bot_console.tui.format import harmless
 from bot_console.tui.panes.pane import answer_of
 from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Line, Option, Question

@@ -7,8 +7,9 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass, field
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import Profile
-from bot_console.tui.console.protocol import Answer, Launcher
+from bot_console.tui.console.protocol import Launcher
 
 
 @dataclass

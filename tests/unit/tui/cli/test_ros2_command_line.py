@@ -11,9 +11,9 @@ import pytest
 from bot_console.tui.cli.live.ros2_command_line import Ros2CommandLine
 from bot_console.tui.cli.started_lines import launched_by
 from bot_console.tui.cli.system.workspaces import PROGRAM_LAUNCH
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.connection.no_console import done
 from bot_console.tui.console.connection.read_only import ReadOnlyLauncher
-from bot_console.tui.console.protocol import Answer
 
 PATIENCE = 30.0
 

@@ -8,12 +8,12 @@ from pathlib import Path
 
 import pytest
 import rclpy
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.console.bags.recorder import Ring
 from bot_console.tui.console.bags.room import Recordings
 from bot_console.tui.console.bags.tape import Tape
 from bot_console.tui.console.bags.writer import BagWriter
-from bot_console.tui.console.protocol import Answer
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.serialization import deserialize_message, serialize_message
 from rosgraph_msgs.msg import Clock

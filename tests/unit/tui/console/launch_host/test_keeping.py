@@ -8,10 +8,10 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.launch_host.host import LaunchHost
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.model import LaunchInfo
-from bot_console.tui.console.protocol import Answer
 
 
 class Kept:

@@ -1,0 +1,12 @@
+"""The state of a managed node, as its callbacks get it."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class LifecycleState(NamedTuple):
+    """A state, as transition callbacks get it."""
+
+    label: str
+    state_id: int
