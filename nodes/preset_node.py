@@ -114,7 +114,7 @@ class Presets(Node):
         chosen = [str(each) for each in self.get_parameter("nodes").value or () if each]
         if chosen:
             return [f"/{each.lstrip('/')}" for each in chosen]
-        known = (f"{space.rstrip('/')}/{name}" for name, space in self.get_node_names_and_namespaces())
+        known = self.get_fully_qualified_node_names()
         offered = {name for name, _ in self.get_service_names_and_types()}
         own = self.get_fully_qualified_name()
         return sorted({each for each in known if f"{each}/set_parameters" in offered and each != own})

@@ -184,7 +184,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
     def get_fully_qualified_name(self) -> str:
         """Namespace and name."""
         self._ros_use()
-        return f"{self._ros_namespace.rstrip('/')}/{self._ros_name}"
+        return names.full_name(self._ros_namespace, self._ros_name)
 
     def get_clock(self) -> Clock:
         """The node's clock, of ROS time."""
@@ -229,7 +229,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
 
 
 def _logger_name(namespace: str, name: str) -> str:
-    return f"{namespace.rstrip('/')}/{name}".lstrip("/").replace("/", LOGGER_SEPARATOR)
+    return names.full_name(namespace, name).lstrip("/").replace("/", LOGGER_SEPARATOR)
 
 
 __getattr__ = reexporting(

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, Literal, NamedTuple
 
+from bot_console.runtime.rmw.names import full_name
 from bot_console.runtime.rmw.qos import Profile
 
 Notify = Callable[[], None]
@@ -117,7 +118,7 @@ class NodeId(NamedTuple):
     @property
     def full_name(self) -> str:
         """The name with its namespace before it."""
-        return f"{self.namespace.rstrip('/')}/{self.name}"
+        return full_name(self.namespace, self.name)
 
     @property
     def owner(self) -> Owner:

@@ -131,6 +131,11 @@ def _validate_substitution(name: str, opened: int, index: int) -> Problem | None
     return None
 
 
+def full_name(namespace: str, name: str) -> str:
+    """The name of a node with its namespace before it."""
+    return f"{namespace.rstrip('/')}/{name}"
+
+
 def expand(name: str, node: str, namespace: str) -> str:
     """The full name of a valid name as typed; raises `ValueError` in rcl's words for an unknown substitution."""
     if name[0] == "/" and "{" not in name:

@@ -9,6 +9,7 @@ from types import TracebackType
 from typing import Any, NamedTuple
 
 import rclpy
+from bot_console.runtime.rmw.names import full_name
 from rclpy.clock import Clock, ClockType
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -70,9 +71,7 @@ class DirectNode:
 
 def node_names(node: Node, *, include_hidden: bool = False) -> list[NodeName]:
     """All nodes of the graph but the hidden ones."""
-    names = [
-        NodeName(name, space, f"{space.rstrip('/')}/{name}") for name, space in node.get_node_names_and_namespaces()
-    ]
+    names = [NodeName(name, space, full_name(space, name)) for name, space in node.get_node_names_and_namespaces()]
     return [each for each in names if include_hidden or not each.name.startswith(HIDDEN)]
 
 

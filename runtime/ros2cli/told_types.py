@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from bot_console.runtime.rmw.names import full_name
 from rclpy.node import Node
 from ros2cli.direct_node import spin_until
 from rosidl_runtime_py.utilities import get_message
@@ -33,7 +34,7 @@ def _asked(node: Node, endpoint: Any, type_name: str) -> Any:
     from bot_console.runtime.learned_interfaces import learn
     from type_description_interfaces.srv import GetTypeDescription
 
-    name = f"{endpoint.node_namespace.rstrip('/')}/{endpoint.node_name}"
+    name = full_name(endpoint.node_namespace, endpoint.node_name)
     wanted = str(endpoint.topic_type_hash)
     client = node.create_client(GetTypeDescription, f"{name}/get_type_description")
     try:

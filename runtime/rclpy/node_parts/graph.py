@@ -51,7 +51,7 @@ class NodeGraph:
 
     def get_fully_qualified_node_names(self) -> list[str]:
         """The full names of all nodes."""
-        return [f"{space.rstrip('/')}/{name}" for name, space in self.get_node_names_and_namespaces()]
+        return [names.full_name(space, name) for name, space in self.get_node_names_and_namespaces()]
 
     def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
         """Name and namespace of all nodes."""

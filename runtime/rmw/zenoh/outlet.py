@@ -9,6 +9,7 @@ from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
 from bot_console.runtime.rmw.endpoints import SubscriptionEndpoint, depth
 from bot_console.runtime.rmw.local import LocalPublisher
+from bot_console.runtime.rmw.names import full_name
 from bot_console.runtime.rmw.qos_matching import incompatible_policy
 from bot_console.runtime.rmw.zenoh.sender import Sender
 from bot_console.runtime.rmw.zenoh.session import Publisher, Session
@@ -99,7 +100,7 @@ class Outlet(deque[Any]):
 
 def mismatch(topic: str, type_name: str, token: Token) -> str:
     """What is said where two processes have different definitions of a type: they do not hear each other."""
-    node = f"{token.node.namespace.rstrip('/')}/{token.node.name}"
+    node = full_name(token.node.namespace, token.node.name)
     return (
         f"'{topic}': {type_name} is defined otherwise in node {node} (hash {token.type_hash}), "
         "so no messages pass: build both from the same definition"

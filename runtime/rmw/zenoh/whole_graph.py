@@ -58,7 +58,7 @@ class WholeGraph:
         found: dict[str, list[str]] = {}
         for session, row in list(self._nodes.values()):
             if session in sessions:
-                found.setdefault(session, []).append(f"{row.namespace.rstrip('/')}/{row.name}")
+                found.setdefault(session, []).append(row.full_name)
         return found
 
     def _enter(self, kind: Kind, row: Row, came: bool) -> None:

@@ -8,7 +8,8 @@ import time
 from typing import Any
 
 from bot_console.tui.cli.doctor.finding import Finding, Level
-from bot_console.tui.console.graph.pairs import hash_of, name_of, unheard
+from bot_console.tui.console.graph.full_name import name_of
+from bot_console.tui.console.graph.pairs import hash_of, unheard
 from bot_console.tui.console.robot.stop_link import FOLDER, STATUS
 
 TWISTS = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")

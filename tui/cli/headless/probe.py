@@ -23,8 +23,7 @@ class Probe(Observer):
         node.executor.create_task(self._describe(node))
 
     async def _describe(self, node: Node) -> None:
-        for name, space in node.get_node_names_and_namespaces():
-            full = f"{space.rstrip('/')}/{name}"
+        for full in node.get_fully_qualified_node_names():
             client = AsyncParameterClient(node, full)
             if not client.services_are_ready():
                 continue

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
+from bot_console.tui.console.graph.full_name import name_of
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from rclpy.node import Node
 from rclpy.qos import QoSCompatibility, qos_check_compatible
@@ -114,11 +115,6 @@ def otherwise_defined(topic: str, publisher: Any, subscription: Any) -> str:
 def _words(why: str) -> str:
     """The reasons of rclpy without their shouting, such as `Best effort publisher and reliable subscription`."""
     return ", ".join(each.removeprefix("ERROR: ").strip() for each in why.split(";") if each.strip())
-
-
-def name_of(endpoint: Any) -> str:
-    """The node of an endpoint."""
-    return f"{endpoint.node_namespace.rstrip('/')}/{endpoint.node_name}"
 
 
 def hash_of(endpoint: Any) -> str:

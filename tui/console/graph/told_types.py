@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any, Protocol
 
 from bot_console.tui.console.calls import Calls, NoAnswer
-from bot_console.tui.console.graph.pairs import name_of
+from bot_console.tui.console.graph.full_name import name_of
 from bot_console.tui.console.model import GraphInfo
 from rclpy.node import Node
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 from time import monotonic, thread_time
 from typing import Any
 
+from bot_console.tui.console.graph.full_name import full_name
 from bot_console.tui.console.graph.pairs import UnheardPairs
 from bot_console.tui.console.graph.silence import SilentNodes
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
@@ -202,7 +203,7 @@ def _described(owner: Owner, answer: Answer, before: NodeInfo, profiles: Profile
     publishers, subscriptions, services, clients = answer
     name, space = owner
     return NodeInfo(
-        f"{space.rstrip('/')}/{name}",
+        full_name(space, name),
         _with_qos(owner, publishers, before.publishers, profiles, publisher=True),
         _with_qos(owner, subscriptions, before.subscriptions, profiles, publisher=False),
         _endpoints(services),

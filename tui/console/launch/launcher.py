@@ -11,6 +11,7 @@ from typing import Any, Protocol
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.connection.no_console import done
+from bot_console.tui.console.graph.full_name import full_name
 from bot_console.tui.console.launch.arguments import read_arguments
 from bot_console.tui.console.launch.asked import AskedForProcesses
 from bot_console.tui.console.launch.process import ENDED, KILLED, LaunchedProcess, Order
@@ -346,7 +347,7 @@ def _node_names(action: Any) -> tuple[str, ...]:
     name, namespace = action.expanded_node_name, getattr(action, "expanded_node_namespace", "")
     if not name or "<" in name:
         return ()
-    return (f"{'' if '<' in namespace else namespace.rstrip('/')}/{name}",)
+    return (full_name("" if "<" in namespace else namespace, name),)
 
 
 def _full_node_name(action: Any) -> tuple[str, ...]:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+from bot_console.tui.console.graph.full_name import name_of
+
 SOURCES = {"/scan": "sensor_msgs/msg/LaserScan", "/odom": "nav_msgs/msg/Odometry"}
 """What a robot publishes, by resolved names; under another name or type our simulator cannot give it."""
 VELOCITY = "/cmd_vel"
@@ -55,7 +57,7 @@ def _both(node: Any, topic: str) -> Iterable[Any]:
 
 
 def _visible(found: Iterable[Any], kind: str) -> list[str]:
-    names = (f"{each.node_namespace.rstrip('/')}/{each.node_name}" for each in found if each.topic_type == kind)
+    names = (name_of(each) for each in found if each.topic_type == kind)
     return sorted({name for name in names if not name.rpartition("/")[2].startswith("_")})
 
 
