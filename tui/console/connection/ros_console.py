@@ -11,33 +11,21 @@ import threading
 import time
 import traceback
 from collections.abc import Callable, Container, Mapping, Sequence
-from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.connection.no_console import CLOSED, STARTING, NoConsole, NothingKnown
+from bot_console.tui.console.connection.relay import ConsoleRelay
 from bot_console.tui.console.model import (
     Capabilities,
-    Change,
-    ChangeSource,
     ConsoleSnapshot,
     LaunchInfo,
     LinkInfo,
-    LogFilter,
-    LogRecord,
-    ProfileDifference,
-    SetOutcome,
-    Severity,
     Value,
 )
 from bot_console.tui.console.parameters.provenance import Learn, Provenance
-from bot_console.tui.console.protocol import Console, LoggerLevel, LogSource, LogView, Samples
-from bot_console.tui.console.recording import Keeper, Recording
-from bot_console.tui.console.robot.robot_model import Pose
-from bot_console.tui.console.sights.model import Sights
-from bot_console.tui.console.traffic import Traffic
+from bot_console.tui.console.recording import Keeper
 
 if TYPE_CHECKING:
     from bot_console.tui.console.graph.told_types import TypeSource
@@ -52,7 +40,7 @@ NOTHING_LAUNCHED = LaunchInfo()
 NO_LINK = LinkInfo()
 
 
-class RosConsole:
+class RosConsole(ConsoleRelay):
     """The ROS system as the panes see it."""
 
     def __init__(
@@ -111,7 +99,7 @@ class RosConsole:
         self._provenance = Provenance(lambda path: self._profile_names.get(os.path.realpath(path), ""))
         self._learn: Learn = self._provenance.learn  # what is told before there is a node counts for it, too
         self._nothing = NothingKnown(self._snapshot, lambda which: self._views.open(which) if self._views else None)
-        self._now: Console = NoConsole(STARTING, self._nothing)
+        super().__init__(NoConsole(STARTING, self._nothing))
 
     def start(self) -> None:
         """Connect to the ROS system, in the background."""
@@ -201,161 +189,21 @@ class RosConsole:
             self._snapshot = replace(new, seq=old.seq + 1)
         return self._snapshot
 
-    @property
-    def recording(self) -> Recording:
-        """Records into bags."""
-        return self._now.recording
-
-    @property
-    def traffic(self) -> Traffic:
-        """Topics, services and actions."""
-        return self._now.traffic
-
-    @property
-    def sights(self) -> Sights:
-        """What the robot shows of itself."""
-        return self._now.sights
-
-    def log(self, seq: int) -> LogRecord | None:
-        """The log record of that number."""
-        return self._now.log(seq)
-
-    def matching_logs(self, which: LogFilter, after: int, limit: int | None = None) -> Sequence[int]:
-        """Numbers of the records that pass a filter."""
-        return self._now.matching_logs(which, after, limit)
-
-    def view_logs(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
-        """Search for what passes a filter."""
-        return self._now.view_logs(which, instead_of)
-
-    def open_log(self, path: str) -> LogSource:
-        """Read a saved log."""
-        return self._now.open_log(path)
-
-    def clear_logs(self) -> None:
-        """Forget all log records."""
-        self._now.clear_logs()
-
-    def changes(self, after: int = 0) -> Sequence[Change]:
-        """Journal entries from a number on."""
-        return self._now.changes(after)
-
-    def set_parameters(
-        self,
-        node: str,
-        values: Mapping[str, Value],
-        source: ChangeSource = ChangeSource.EDIT,
-        *,
-        atomically: bool = False,
-    ) -> Future[tuple[SetOutcome, ...]]:
-        """Ask a node to take values."""
-        return self._now.set_parameters(node, values, source, atomically=atomically)
-
-    def set_all(
-        self, values: Mapping[str, Mapping[str, Value]], source: ChangeSource = ChangeSource.EDIT, by: str = ""
-    ) -> Future[tuple[SetOutcome, ...]]:
-        """Ask nodes to take values, all of them or none."""
-        return self._now.set_all(values, source, by)
-
-    def undo(self) -> Future[Answer]:
-        """Take the last change of this console back."""
-        return self._now.undo()
-
-    def redo(self) -> Future[Answer]:
-        """Make the last undone change again."""
-        return self._now.redo()
-
-    def watch(self, path: str, asker: str = "") -> Answer:
-        """Collect a series."""
-        return self._now.watch(path, asker)
-
-    def unwatch(self, path: str, asker: str = "") -> None:
-        """Stop collecting a series."""
-        self._now.unwatch(path, asker)
-
-    def samples(self, path: str, after: int = 0) -> Samples:
-        """New samples of a series."""
-        return self._now.samples(path, after)
-
-    def plot_time(self, stamp: int | None = None) -> float:
-        """Where a moment lies on the time axis of all series."""
-        return self._now.plot_time(stamp)
-
-    def pose_at(self, stamp: int) -> Pose | None:
-        """Where the robot was at a moment."""
-        return self._now.pose_at(stamp)
-
-    def plottable(self) -> Sequence[str]:
-        """Paths that can be plotted."""
-        return self._now.plottable()
-
     def drive(self, linear: float, angular: float) -> None:
         """Send a velocity command."""
         if not self._link().silent_s:
             self._zero_again()
-            self._now.drive(linear, angular)
+            super().drive(linear, angular)
         elif not self._zeroed:
             # What waits in a link that is cut comes late: a zero is to be the last of it.
             self._zeroed = True
-            self._now.drive(0.0, 0.0)
+            super().drive(0.0, 0.0)
 
     def _zero_again(self) -> None:
         """After a long silence what had waited in the link is lost, the zero among it: it is said once more."""
         if self._zeroed:
             self._zeroed = False
-            self._now.drive(0.0, 0.0)
-
-    def all_stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
-        """Lock the robot's emergency stop, or take this console's stop back, and zero velocity now."""
-        self._now.all_stop(hold, reason)
-
-    def release(self, others: Sequence[str]) -> None:
-        """Take back this console's stop and the stops of others."""
-        self._now.release(others)
-
-    def choose_robot(self, robot: str) -> None:
-        """Steer another robot."""
-        self._now.choose_robot(robot)
-
-    def steer(self, hold: bool) -> None:
-        """Hold the steering, or hand it back."""
-        self._now.steer(hold)
-
-    def call(self, service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:
-        """Call any service."""
-        return self._now.call(service, type_name, fields)
-
-    def set_logger_level(self, node: str, severity: Severity, logger: str = "") -> Future[Answer]:
-        """Set a logger's level."""
-        return self._now.set_logger_level(node, severity, logger)
-
-    def logger_levels(self, node: str) -> Future[tuple[LoggerLevel, ...]]:
-        """The levels of a node's loggers."""
-        return self._now.logger_levels(node)
-
-    def profile_differences(self, name: str) -> Sequence[ProfileDifference]:
-        """What a profile would change."""
-        return self._now.profile_differences(name)
-
-    def apply_profile(self, name: str, *, reset_world: bool = False) -> Future[tuple[SetOutcome, ...]]:
-        """Set a profile's values live."""
-        return self._now.apply_profile(name, reset_world=reset_world)
-
-    def fetch_profile(self, address: str) -> Future[Answer]:
-        """Take in what stands at an address as a profile."""
-        return self._now.fetch_profile(address)
-
-    def open_profile(self, path: str) -> Answer:
-        """Take a file in as a profile."""
-        return self._now.open_profile(path)
-
-    def save_profile(self, name: str, description: str = "") -> Answer:
-        """Save what runs as a profile."""
-        return self._now.save_profile(name, description)
-
-    def save_parameters(self, path: str, nodes: Sequence[str] = (), *, only_changed: bool = False) -> Answer:
-        """Write parameters to a file."""
-        return self._now.save_parameters(path, nodes, only_changed=only_changed)
+            super().drive(0.0, 0.0)
 
     def close(self) -> None:
         """Zero velocity, then leave the ROS system; a second call does nothing."""
