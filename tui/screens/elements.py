@@ -11,6 +11,7 @@ from bot_console.tui.console.model import Kind, Value
 from bot_console.tui.console.query import Query, parse
 from bot_console.tui.format import counted, element_text, harmless, parse_element
 from bot_console.tui.screens.question import QuestionScreen
+from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.prompt.filtered import Findable
 from bot_console.tui.widgets.prompt.line import Prompt, asks
 from bot_console.tui.widgets.prompt.question import Elements, Line
@@ -20,7 +21,6 @@ from rich.segment import Segment
 from rich.text import Text
 from textual.app import ComposeResult
 from textual.binding import BindingType
-from textual.containers import Vertical
 
 Element: TypeAlias = "bool | int | float | str | bytes"
 HINT = "enter edit · i insert · a add · d delete · J K move · u undo · s set"
@@ -54,10 +54,7 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("elements")]
     DEFAULT_CSS = """
     ElementsScreen { align: center middle; }
-    ElementsScreen #elements { width: 90%; max-width: 90; height: 70%; background: $panel; border: round $primary;
-                               padding: 0 1; }
-    ElementsScreen RowList { background: $panel; }
-    ElementsScreen Words { background: $panel; padding: 0; }
+    ElementsScreen Box { width: 90%; max-width: 90; height: 70%; }
     """
 
     def __init__(self, question: Elements) -> None:
@@ -68,7 +65,7 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
 
     def compose(self) -> ComposeResult:
         """The list, what is said about it, a field for one element."""
-        with Vertical(id="elements") as box:
+        with Box() as box:
             box.border_title = Text(harmless(self._asked.label))
             box.border_subtitle = HINT
             yield ElementRows(self._asked.values)

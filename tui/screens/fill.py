@@ -11,6 +11,7 @@ from bot_console.tui import keymap
 from bot_console.tui.console.traffic import Field, Goal, Payload, Reply, Slot
 from bot_console.tui.format import cut, harmless, parse_number
 from bot_console.tui.screens.question import QuestionScreen
+from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Fill, Line
 from bot_console.tui.widgets.row_list import RowList
@@ -20,7 +21,6 @@ from rich.segment import Segment
 from rich.text import Text
 from textual.app import ComposeResult
 from textual.binding import BindingType
-from textual.containers import Vertical
 
 WORDS = {
     Payload.MESSAGE: ("Publish to", "s once · r at a rate"),
@@ -94,11 +94,8 @@ class FillScreen(QuestionScreen[None]):
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("fill")]
     DEFAULT_CSS = """
     FillScreen { align: center middle; }
-    FillScreen #fill { width: 94%; max-width: 120; height: 90%; background: $panel; border: round $primary;
-                       padding: 0 1; }
-    FillScreen RowList { background: $panel; }
+    FillScreen Box { width: 94%; max-width: 120; height: 90%; }
     FillScreen ReplyRows { height: 0; max-height: 50%; }
-    FillScreen Words { background: $panel; padding: 0; }
     FillScreen #fill-state.good { color: $success; }
     FillScreen #fill-state.wrong { color: $warning; }
     """
@@ -116,7 +113,7 @@ class FillScreen(QuestionScreen[None]):
     def compose(self) -> ComposeResult:
         """The form, what came back, what is said about it, a field for one value."""
         what, keys = WORDS[self._asked.payload]
-        with Vertical(id="fill") as box:
+        with Box() as box:
             box.border_title = Text(harmless(f"{what} {self._asked.name}  {self._asked.type}"))
             box.border_subtitle = f"enter edits · {keys} · [ ] earlier · y copies · esc"
             yield SlotRows()

@@ -8,6 +8,7 @@ from bot_console.tui import keymap
 from bot_console.tui.console.model import LaunchArgument
 from bot_console.tui.format import harmless
 from bot_console.tui.screens.question import QuestionScreen
+from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.prompt.question import Form
 from rich.text import Text
 from textual.app import ComposeResult
@@ -23,8 +24,7 @@ class ArgumentsScreen(QuestionScreen[dict[str, str]]):
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("form")]
     DEFAULT_CSS = """
     ArgumentsScreen { align: center middle; }
-    ArgumentsScreen #form { width: 90%; max-width: 100; height: auto; max-height: 90%; background: $panel;
-                            border: round $primary; padding: 0 1; }
+    ArgumentsScreen Box { width: 90%; max-width: 100; height: auto; max-height: 90%; }
     ArgumentsScreen VerticalScroll { height: auto; max-height: 100%; scrollbar-size-vertical: 1; }
     ArgumentsScreen .argument { height: auto; margin-bottom: 1; }
     ArgumentsScreen .name { text-style: bold; height: 1; }
@@ -42,7 +42,7 @@ class ArgumentsScreen(QuestionScreen[dict[str, str]]):
 
     def compose(self) -> ComposeResult:
         """Name, value and description of each argument."""
-        with Vertical(id="form") as box:
+        with Box() as box:
             box.border_title = Text(harmless(self._form.label))
             box.border_subtitle = "↑↓ move · enter launches · esc closes"
             with VerticalScroll(can_focus=False):

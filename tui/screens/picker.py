@@ -7,6 +7,7 @@ from typing import ClassVar
 from bot_console.tui import keymap
 from bot_console.tui.format import harmless
 from bot_console.tui.screens.question import QuestionScreen
+from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.item_list import ItemList
 from bot_console.tui.widgets.prompt.question import Choice, Option
 from bot_console.tui.widgets.words import Words
@@ -14,7 +15,6 @@ from rich.segment import Segment
 from rich.text import Text
 from textual.app import ComposeResult
 from textual.binding import BindingType
-from textual.containers import Vertical
 from textual.widgets import Input
 
 
@@ -41,12 +41,9 @@ class PickerScreen(QuestionScreen[str]):
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("picker")]
     DEFAULT_CSS = """
     PickerScreen { align: center middle; }
-    PickerScreen Vertical { width: 90%; max-width: 110; height: 70%; background: $panel; border: round $primary;
-                            padding: 0 1; }
+    PickerScreen Box { width: 90%; max-width: 110; height: 70%; }
     PickerScreen Input { border: none; height: 1; padding: 0; background: $panel; margin-bottom: 1; }
     PickerScreen Input:focus { border: none; }
-    PickerScreen RowList { background: $panel; }
-    PickerScreen Words { background: $panel; padding: 0; }
     """
 
     def __init__(self, choice: Choice) -> None:
@@ -56,7 +53,7 @@ class PickerScreen(QuestionScreen[str]):
 
     def compose(self) -> ComposeResult:
         """What is typed, and the options that match."""
-        with Vertical() as box:
+        with Box() as box:
             box.border_title = Text(harmless(self._choice.label))
             yield Input(placeholder=self._choice.hint)
             yield OptionRows()
@@ -78,7 +75,7 @@ class PickerScreen(QuestionScreen[str]):
 
     def _show(self, typed: str) -> None:
         found, shown = self._choice.find(typed), self._list
-        self.query_one(Vertical).border_subtitle = f"{len(found)} of {self._every} · enter takes it · esc closes"
+        self.query_one(Box).border_subtitle = f"{len(found)} of {self._every} · enter takes it · esc closes"
         shown.cursor = 0
         shown.exchange(found, stay=False)
         self.query_one(Words).say("" if found else self._choice.empty)

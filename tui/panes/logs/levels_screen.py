@@ -13,13 +13,13 @@ from bot_console.tui.console.model import GraphInfo, Severity
 from bot_console.tui.console.protocol import Console, LoggerLevel
 from bot_console.tui.format import LETTERS, cut, harmless
 from bot_console.tui.panes.pane import answer_of
+from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.item_list import ItemList
 from bot_console.tui.widgets.words import Words
 from rich.segment import Segment
 from rich.text import Text
 from textual.app import App, ComposeResult
 from textual.binding import BindingType
-from textual.containers import Vertical
 from textual.screen import ModalScreen
 
 HINT = "d i w e f level · u as its parent · esc closes"
@@ -48,10 +48,7 @@ class LevelsScreen(ModalScreen[None]):
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("levels")]
     DEFAULT_CSS = """
     LevelsScreen { align: center middle; }
-    LevelsScreen Vertical { width: 90%; max-width: 100; height: 60%; background: $panel; border: round $primary;
-                            padding: 0 1; }
-    LevelsScreen RowList { background: $panel; }
-    LevelsScreen Words { background: $panel; padding: 0; }
+    LevelsScreen Box { width: 90%; max-width: 100; height: 60%; }
     """
 
     def __init__(self, console: Console, graph: GraphInfo) -> None:
@@ -69,7 +66,7 @@ class LevelsScreen(ModalScreen[None]):
 
     def compose(self) -> ComposeResult:
         """The loggers, and what is said of those that are missing."""
-        with Vertical() as box:
+        with Box() as box:
             box.border_title = Text("Levels of loggers")
             box.border_subtitle = HINT
             yield LevelRows()

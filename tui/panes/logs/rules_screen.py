@@ -9,6 +9,7 @@ from typing import ClassVar
 from bot_console.tui import keymap
 from bot_console.tui.format import counted, harmless
 from bot_console.tui.panes.logs.rules import COLOURS, HIDE, Rule, RuleBook, turned
+from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.item_list import ItemList
 from bot_console.tui.widgets.prompt.common import wrong_filter
 from bot_console.tui.widgets.prompt.line import Prompt, asks
@@ -18,7 +19,6 @@ from rich.segment import Segment
 from rich.text import Text
 from textual.app import ComposeResult
 from textual.binding import BindingType
-from textual.containers import Vertical
 from textual.screen import ModalScreen
 
 HINT = "space on/off · enter words · c colour · a add · d delete · esc"
@@ -43,10 +43,7 @@ class RulesScreen(ModalScreen[None]):
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("rules")]
     DEFAULT_CSS = """
     RulesScreen { align: center middle; }
-    RulesScreen Vertical { width: 90%; max-width: 110; height: 60%; background: $panel; border: round $primary;
-                           padding: 0 1; }
-    RulesScreen RowList { background: $panel; }
-    RulesScreen Words { background: $panel; padding: 0; }
+    RulesScreen Box { width: 90%; max-width: 110; height: 60%; }
     """
 
     def __init__(self, book: RuleBook, changed: Callable[[], object]) -> None:
@@ -56,7 +53,7 @@ class RulesScreen(ModalScreen[None]):
 
     def compose(self) -> ComposeResult:
         """The rules, what is said of them, a field for words."""
-        with Vertical() as box:
+        with Box() as box:
             box.border_title = Text("Rules of the log")
             box.border_subtitle = HINT
             yield RuleRows(self._book.rules)

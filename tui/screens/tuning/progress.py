@@ -13,6 +13,7 @@ from bot_console.tui.tuning.dial import Setting
 from bot_console.tui.tuning.question import Question
 from bot_console.tui.tuning.study import Judged, Progress
 from bot_console.tui.tuning.tuner import Tuning
+from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.braille import BrailleCanvas
 from bot_console.tui.widgets.prompt.line import Prompt, asks
 from bot_console.tui.widgets.prompt.question import Line
@@ -22,7 +23,6 @@ from rich.segment import Segment
 from rich.text import Text
 from textual.app import ComposeResult
 from textual.binding import BindingType
-from textual.containers import Vertical
 from textual.screen import ModalScreen
 
 LOOKS = 4.0
@@ -84,9 +84,7 @@ class TuningScreen(ModalScreen[None]):
     AUTO_FOCUS = ""
     DEFAULT_CSS = """
     TuningScreen { align: center middle; }
-    TuningScreen #tuning { width: 94%; max-width: 120; height: 90%; background: $panel; border: round $primary;
-                           padding: 0 1; }
-    TuningScreen RowList, TuningScreen Words { background: $panel; padding: 0; }
+    TuningScreen Box { width: 94%; max-width: 120; height: 90%; }
     TuningScreen #tuning-curve { height: 5; color: $primary; }
     """
 
@@ -103,7 +101,7 @@ class TuningScreen(ModalScreen[None]):
     def compose(self) -> ComposeResult:
         """Progress, the curve, the table, what is said of it, a line for a name."""
         names = ", ".join(each.name for each in self._question.dials)
-        with Vertical(id="tuning") as box:
+        with Box() as box:
             box.border_title = Text(f"Tune {names} for {self._question.score.text}")
             box.border_subtitle = HINT
             yield Words(id="tuning-progress")
