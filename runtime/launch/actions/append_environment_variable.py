@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Any
 
-from launch.action import Action
 from launch.frontend.expose import expose_action
+from launch.named_value import NamedValue
 from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
@@ -18,13 +18,11 @@ if TYPE_CHECKING:
 
 
 @expose_action("append_env")
-class AppendEnvironmentVariable(Action):
+class AppendEnvironmentVariable(NamedValue):
     """Adds to a variable, behind what it has or before it."""
 
     def __init__(self, name: Any, value: Any, prepend: Any = False, separator: Any = os.pathsep, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.__name = normalize_to_list_of_substitutions(name)
-        self.__value = normalize_to_list_of_substitutions(value)
+        super().__init__(name, value, **kwargs)
         self.__prepend = normalize_typed_substitution(prepend, bool)
         self.__separator = normalize_to_list_of_substitutions(separator)
 
@@ -32,8 +30,6 @@ class AppendEnvironmentVariable(Action):
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[AppendEnvironmentVariable], dict[str, Any]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
-        kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
-        kwargs["value"] = parser.parse_substitution(entity.get_attr("value"))
         prepend = entity.get_attr("prepend", optional=True, data_type=bool, can_be_str=True)
         if prepend is not None:
             kwargs["prepend"] = parser.parse_if_substitutions(prepend)
@@ -41,16 +37,6 @@ class AppendEnvironmentVariable(Action):
         if separator is not None:
             kwargs["separator"] = parser.parse_substitution(separator)
         return cls, kwargs
-
-    @property
-    def name(self) -> list[Substitution]:
-        """Its name."""
-        return self.__name
-
-    @property
-    def value(self) -> list[Substitution]:
-        """What is added."""
-        return self.__value
 
     @property
     def prepend(self) -> Any:
@@ -64,8 +50,8 @@ class AppendEnvironmentVariable(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """Add it."""
-        name = perform_substitutions(context, self.__name)
-        value = perform_substitutions(context, self.__value)
+        name = perform_substitutions(context, self.name)
+        value = perform_substitutions(context, self.value)
         before = perform_typed_substitution(context, self.__prepend, bool)
         separator = perform_substitutions(context, self.__separator)
         if name in context.environment:

@@ -2,47 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from launch.action import Action
 from launch.frontend.expose import expose_action
-from launch.substitution import Substitution
-from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch.named_value import NamedValue
+from launch.utilities import perform_substitutions
 
 if TYPE_CHECKING:
-    from launch.frontend.entity import Entity
-    from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
 
 
 @expose_action("let")
-class SetLaunchConfiguration(Action):
+class SetLaunchConfiguration(NamedValue):
     """Sets a launch configuration from here on."""
-
-    def __init__(self, name: Any, value: Any, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.__name = normalize_to_list_of_substitutions(name)
-        self.__value = normalize_to_list_of_substitutions(value)
-
-    @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetLaunchConfiguration], dict[str, Any]]:
-        """From XML or YAML."""
-        _, kwargs = super().parse(entity, parser)
-        kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
-        kwargs["value"] = parser.parse_substitution(entity.get_attr("value"))
-        return cls, kwargs
-
-    @property
-    def name(self) -> list[Substitution]:
-        """Its name."""
-        return self.__name
-
-    @property
-    def value(self) -> list[Substitution]:
-        """Its value."""
-        return self.__value
 
     def execute(self, context: LaunchContext) -> None:
         """Set it."""
-        name = perform_substitutions(context, self.__name)
-        context.launch_configurations[name] = perform_substitutions(context, self.__value)
+        name = perform_substitutions(context, self.name)
+        context.launch_configurations[name] = perform_substitutions(context, self.value)
