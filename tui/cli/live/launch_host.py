@@ -43,6 +43,8 @@ def main(words: Sequence[str] | None = None) -> int:
     host = LaunchHost(launcher_here, past=past)
     host.connect(socket.socket(fileno=given.owner), owner=True)
     serve(host)
+    if past is not None:
+        past.close()
     return 0
 
 

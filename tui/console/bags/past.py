@@ -13,7 +13,7 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.needed import Missing
 from bot_console.tui.console.bags.qos import noted
 from bot_console.tui.console.bags.recorder import CLOCK, Ring, in_order
-from bot_console.tui.console.bags.tape import Tape
+from bot_console.tui.console.bags.tape import RingTape
 from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.console.recording import RingSize
 from bot_console.tui.files.save_file import NotSaved, typed_path
@@ -44,8 +44,7 @@ class Past:
         self.kept_s = size.seconds
         self._serialize = serialize
         self._hash_of = hash_of
-        self._ring = Ring(size.seconds, size.bytes)
-        self._tape = Tape(self._ring)
+        self._tape = RingTape(Ring(size.seconds, size.bytes))
         self._waiting: deque[tuple[Carried, bytes, int, int, Any]] = deque(maxlen=WAITING)
         self._numbers: dict[bytes, int] = {}
         self._known: set[str] = set()
@@ -75,7 +74,7 @@ class Past:
                 self._turn()
                 writer = BagWriter(typed_path(folder))
                 count = self._tape.pour(writer)
-                span = self._ring.span
+                span = self._tape.ring.span
             writer.close()
         except (Missing, NotSaved, OSError) as error:
             return Answer(False, f"not saved: {error}")

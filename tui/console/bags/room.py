@@ -13,7 +13,7 @@ import rclpy
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.needed import Missing
 from bot_console.tui.console.bags.recorder import CLOCK, PACE, Recorder
-from bot_console.tui.console.bags.tape import Tape
+from bot_console.tui.console.bags.tape import BagTape
 from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.console.connection.no_console import done
 from bot_console.tui.console.recording import Keeper, RecordingInfo
@@ -32,7 +32,7 @@ class Recordings:
     def __init__(self, past: Keeper | None = None) -> None:
         """`past` keeps the last minutes; None: nobody does. Before something is recorded there is no node."""
         self._past = past
-        self._tape = Tape(None)
+        self._tape = BagTape()
         self._info = RecordingInfo(kept_s=past.kept_s if past else 0.0)
         self._orders: queue.SimpleQueue[tuple[Callable[[], Answer], Future[Answer]]] = queue.SimpleQueue()
         self._closing = threading.Event()

@@ -1,10 +1,11 @@
-"""Where a recorder's messages go: into the ring of the last minutes, into a bag, both or neither."""
+"""Where what is recorded goes: into a bag that somebody begins and ends, or into the ring of the last minutes."""
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
-from bot_console.tui.console.bags.recorder import Ring
+from bot_console.tui.console.bags.recorder import Ring, Sink
 from bot_console.tui.console.bags.writer import BagWriter
 
 LOG = "/rosout"
@@ -12,36 +13,46 @@ LOG = "/rosout"
 
 
 class Tape:
-    """A sink that can be switched while a recorder runs, in the recorder's thread."""
+    """A sink that knows how a bag has to begin: with the topics, and with what latching publishers said before."""
 
-    def __init__(self, ring: Ring | None) -> None:
-        self.ring = ring
-        self.writer: BagWriter | None = None
-        self.problem = ""
-        """Why a bag has ended by itself, for instance that the disk is full."""
+    def __init__(self) -> None:
         self._topics: dict[str, tuple[Any, list[dict[str, Any]], str]] = {}
         self._latching: set[str] = set()
         self._latest: dict[str, tuple[bytes, int]] = {}
 
-    def begin(self, writer: BagWriter, now: int) -> None:
-        """Write a bag from now on (ns since the epoch); what latching publishers said last stands at its begin."""
-        for name, (kind, qos, type_hash) in self._topics.items():
-            writer.topic(name, kind, qos, type_hash)
-        for name, (data, _) in self._latest.items():
-            writer.write(name, data, now, 0)
-        self.writer, self.problem = writer, ""
+    def topic(self, name: str, kind: Any, qos: list[dict[str, Any]], type_hash: str = "") -> None:
+        """Begin a topic."""
+        self._topics[name] = kind, qos, type_hash
+        if name != LOG and any(each.get("durability") == "transient_local" for each in qos):
+            self._latching.add(name)
 
-    def pour(self, writer: BagWriter) -> int:
-        """Write what is kept in memory, with what latching publishers had said before it; the number of messages."""
-        if self.ring is None:
-            return 0
-        begin = self.ring.begin
+    def write(self, topic: str, data: bytes, received: int, sent: int) -> None:
+        """Add a message."""
+        if topic in self._latching:
+            self._latest[topic] = data, received
+
+    def _open(self, bag: Sink, begin: int, before: float = math.inf) -> None:
+        """Write how a bag begins: the topics, and what was said before a time (both in ns since the epoch)."""
         for name, (kind, qos, type_hash) in self._topics.items():
-            writer.topic(name, kind, qos, type_hash)
+            bag.topic(name, kind, qos, type_hash)
         for name, (data, received) in self._latest.items():
-            if received < begin:
-                writer.write(name, data, begin, 0)
-        return self.ring.pour(writer)
+            if received < before:
+                bag.write(name, data, begin, 0)
+
+
+class BagTape(Tape):
+    """Records into a bag while there is one, in the recorder's thread."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.writer: BagWriter | None = None
+        self.problem = ""
+        """Why a bag has ended by itself, for instance that the disk is full."""
+
+    def begin(self, writer: BagWriter, now: int) -> None:
+        """Write a bag from now on (ns since the epoch)."""
+        self._open(writer, now)
+        self.writer, self.problem = writer, ""
 
     def end(self) -> BagWriter | None:
         """Finish the bag and give it; raises `OSError` where the disk takes no more."""
@@ -52,19 +63,13 @@ class Tape:
 
     def topic(self, name: str, kind: Any, qos: list[dict[str, Any]], type_hash: str = "") -> None:
         """Begin a topic."""
-        self._topics[name] = kind, qos, type_hash
-        if name != LOG and any(each.get("durability") == "transient_local" for each in qos):
-            self._latching.add(name)
-        for each in (self.ring, self.writer):
-            if each is not None:
-                each.topic(name, kind, qos, type_hash)
+        super().topic(name, kind, qos, type_hash)
+        if self.writer is not None:
+            self.writer.topic(name, kind, qos, type_hash)
 
     def write(self, topic: str, data: bytes, received: int, sent: int) -> None:
         """Add a message."""
-        if self.ring is not None:
-            self.ring.write(topic, data, received, sent)
-        if topic in self._latching:
-            self._latest[topic] = data, received
+        super().write(topic, data, received, sent)
         if self.writer is not None:
             try:
                 self.writer.write(topic, data, received, sent)
@@ -83,3 +88,26 @@ class Tape:
         writer, self.writer = self.writer, None
         folder = writer.folder if writer is not None else ""
         self.problem = f"{folder} is recorded no further: {error.strerror or error}"
+
+
+class RingTape(Tape):
+    """Keeps the last minutes in memory until they are asked for."""
+
+    def __init__(self, ring: Ring) -> None:
+        super().__init__()
+        self.ring = ring
+
+    def pour(self, writer: BagWriter) -> int:
+        """Write what is kept as a bag; the number of messages."""
+        self._open(writer, self.ring.begin, before=self.ring.begin)
+        return self.ring.pour(writer)
+
+    def topic(self, name: str, kind: Any, qos: list[dict[str, Any]], type_hash: str = "") -> None:
+        """Begin a topic."""
+        super().topic(name, kind, qos, type_hash)
+        self.ring.topic(name, kind, qos, type_hash)
+
+    def write(self, topic: str, data: bytes, received: int, sent: int) -> None:
+        """Add a message."""
+        super().write(topic, data, received, sent)
+        self.ring.write(topic, data, received, sent)

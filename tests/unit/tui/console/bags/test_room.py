@@ -12,7 +12,7 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.console.bags.recorder import Ring
 from bot_console.tui.console.bags.room import Recordings
-from bot_console.tui.console.bags.tape import Tape
+from bot_console.tui.console.bags.tape import BagTape, RingTape
 from bot_console.tui.console.bags.writer import BagWriter
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.serialization import deserialize_message, serialize_message
@@ -72,7 +72,7 @@ def test_a_bag_is_recorded_from_begin_to_end(tmp_path: Path, node: rclpy.node.No
 
 
 def test_what_was_is_saved_afterwards_with_what_had_been_latched(tmp_path: Path) -> None:
-    tape = Tape(Ring(10.0, 10_000_000))
+    tape = RingTape(Ring(10.0, 10_000_000))
     tape.topic("/map_name", String, LATCHED)
     tape.topic("/rosout", String, LATCHED)
     tape.topic("/words", String, [])
@@ -89,8 +89,8 @@ def test_what_was_is_saved_afterwards_with_what_had_been_latched(tmp_path: Path)
     assert Bag(tmp_path / "bag").metadata.begin == 49 * 10**9
 
 
-def test_a_full_disk_ends_the_bag_and_not_the_ring(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    tape = Tape(Ring(10.0, 10_000))
+def test_a_full_disk_ends_the_bag(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    tape = BagTape()
     tape.topic("/words", String, [])
     tape.begin(BagWriter(tmp_path / "bag"), 10**9)
 
@@ -100,5 +100,3 @@ def test_a_full_disk_ends_the_bag_and_not_the_ring(tmp_path: Path, monkeypatch: 
     monkeypatch.setattr(tape.writer, "write", full)
     tape.write("/words", b"x", 10**9, 0)
     assert tape.writer is None and "No space left" in tape.problem and "bag" in tape.problem
-    tape.write("/words", b"y", 2 * 10**9, 0)
-    assert tape.ring is not None and tape.ring.span == 1.0
