@@ -249,6 +249,22 @@ def our_system_has_the_projects_nodes(page: Page, row: Row) -> None:
     assert row.number < 276 or row.command in page.ask(page.row(275).command).stdout.split()
 
 
+@row(185, complete=True)
+def the_whole_system_is_launched_for_the_tools(page: Page, row: Row) -> None:
+    launch = runs_all_four(page, page.row(272).command)
+    for name in PROJECT:
+        assert page.ask(f"ros2 param list /{name}").stdout.strip(), f"{name} cannot be tuned"
+    assert "robot_navigator" in {each.logger for each in logs(launch)}, "the console has nothing to show of it"
+
+
+@row(324, own=True)
+def our_system_is_launched_for_the_tools(page: Page, row: Row) -> None:
+    launch = runs_all_four(page, "ros2 launch intelligent_robot multi_node_system.launch.py")
+    assert launch.exit is None and {each.logger for each in logs(launch)} >= {*PROJECT}
+    moving = page.ask("ros2 topic echo /odom --field twist.twist.linear.x", stop_after=3.0).stdout
+    assert any(float(each) > 0.1 for each in moving.replace("---", "").split()), "the robot stands: nothing to plot"
+
+
 @row(273, 285, 286, 287, 288, own=True)
 def the_environment_is_switched(page: Page, row: Row) -> None:
     """The file is looked for where the command runs (N11): beside the share folder's `config`."""

@@ -35,6 +35,13 @@ PLUGINS = {
 }
 """Configuration > Dynamic Reconfigure, Introspection > Node Graph, Logging > Console, Visualization > Plot,
 Topics > Message Publisher, and the pane of each."""
+TYPES = {
+    "max_speed": "double · 0.1 .. 5.0",
+    "detection_threshold": "integer · 0 .. 255",
+    "enable_safety": "boolean · ",
+    "robot_name": "string · ",
+}
+"""Parameters of our robot, and what the console finds out about them."""
 EXAMPLE = Path(__file__).resolve().parents[2] / "docs" / "examples" / "my_robot_control"
 ROBOT = "ros2 run my_package simple_robot_step3 --ros-args -p speed:=1.0 -p robot_name:=TestBot"
 
@@ -77,6 +84,7 @@ def test_step_1_the_speed_is_tuned_while_the_robot_runs(page: Terminals, robot: 
         await screen.press("e")
         await screen.enter("3.0")
         await screen.until(lambda: "✓ Speed updated to 3.0 m/s" in robot.stderr, "line in the robot's terminal")
+        await screen.shows("•* speed 3.0 m/s")  # changed since the start, and in no file
         await screen.press("e")
         await screen.enter("10.0")
         await screen.shows("✗ 10.0", "Speed must be between 0.1 and 5.0")
@@ -296,6 +304,25 @@ def test_each_plug_in_of_the_menu_is_a_pane_and_messages_are_published(page: Ter
         await screen.press("q")
 
     page.show(play)
+
+
+def test_types_and_limits_are_found_out(page: Terminals) -> None:
+    robot = page.start("ros2 run bot_console_robot robot_node")  # the page's declares no range (N15)
+
+    async def play(screen: Screen) -> None:
+        await screen.line("ros2 run rqt_reconfigure rqt_reconfigure")
+        for name, facts in TYPES.items():
+            await go_to(screen, name)
+            await screen.shows(facts)
+        await go_to(screen, "max_speed")
+        await screen.press("e")
+        await screen.enter("99")
+        await screen.shows("✗ 99.0", "out of range Min: 0.1, Max: 5.0", "max_speed 1.0 m/s")
+
+    try:
+        page.show(play)
+    finally:
+        robot.process.kill()
 
 
 def test_a_plug_in_of_ones_own_starts_and_stops_the_robot(page: Terminals) -> None:
