@@ -11,8 +11,8 @@ from functools import lru_cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-CHAPTER, PARAMETERS = "tests/pilot/test_chapter_4.py", "tests/pilot/test_parameters_pane.py"
-LOGS, PLOT = "tests/pilot/test_logs_pane.py", "tests/pilot/test_plot_pane.py"
+CHAPTER, PARAMETERS = "tests/pilot/stories/test_chapter_4.py", "tests/pilot/panes/test_parameters_pane.py"
+LOGS, PLOT = "tests/pilot/panes/test_logs_pane.py", "tests/pilot/panes/test_plot_pane.py"
 TUNED = f"{CHAPTER}::test_step_1_the_speed_is_tuned_while_the_robot_runs"
 TYPES = f"{CHAPTER}::test_types_and_limits_are_found_out"
 FIELDS = f"{CHAPTER}::test_step_1_a_text_field_and_a_checkbox"
@@ -26,7 +26,7 @@ STEERED = f"{CHAPTER}::test_the_robot_is_steered_by_key"
 MENU = f"{CHAPTER}::test_each_plug_in_of_the_menu_is_a_pane_and_messages_are_published"
 OWN_PLUGIN = f"{CHAPTER}::test_a_plug_in_of_ones_own_starts_and_stops_the_robot"
 SLIDER = f"{PARAMETERS}::test_the_slider_stands_beside_its_value_and_the_description_fills_a_wide_row"
-OPENING, SECOND_TERMINAL = "tests/pilot/test_opening.py", "tests/acceptance/console/test_second_terminal.py"
+OPENING, SECOND_TERMINAL = "tests/pilot/screen/test_opening.py", "tests/acceptance/console/test_second_terminal.py"
 
 _SHOWN: tuple[tuple[str, Iterable[int]], ...] = (
     (TUNED, (134, 135, 136, *range(140, 144), 192, 193, 195, 283, 284, 325, 348, 388)),
@@ -47,11 +47,11 @@ _SHOWN: tuple[tuple[str, Iterable[int]], ...] = (
     (MENU, range(212, 217)),
     (OWN_PLUGIN, (*range(218, 222), 353, 390)),
     ("tests/unit/nodes/test_presets.py::test_the_modes_of_the_pages_robot_are_presets", (350,)),
-    ("tests/pilot/test_history_pane.py::test_all_changes_are_listed_the_newest_first_with_who_and_why", (352,)),
+    ("tests/pilot/panes/test_history_pane.py::test_all_changes_are_listed_the_newest_first_with_who_and_why", (352,)),
     (f"{SECOND_TERMINAL}::test_verbs_of_a_second_terminal_reach_the_robot", (386,)),
     (f"{SECOND_TERMINAL}::test_a_second_console_is_asked_for_and_does_not_take_the_robot_along", (387,)),
     (
-        "tests/pilot/test_opening.py::test_a_line_of_rqt_plot_replaces_the_curves_and_waits_for_what_is_not_there",
+        "tests/pilot/screen/test_opening.py::test_a_line_of_rqt_plot_replaces_the_curves_and_waits_for_what_is_not_there",
         (389,),
     ),
 )

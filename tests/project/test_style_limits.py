@@ -10,7 +10,7 @@ SOURCES = ("tui", "runtime", "nodes", "launch", "tools")
 FILE_LIMIT = 400
 FUNCTION_LIMIT = 60
 FOLDER_LIMIT = 15
-ROOMS = ("tui", "runtime/process", "nodes", "tests/helpers")
+ROOMS = ("tui", "runtime/process", "nodes", "tests/helpers", "tests/pilot")
 """Where a folder is a room that is looked over; what mirrors ROS 2's own layout is as full as upstream's."""
 FILES = sorted(
     path

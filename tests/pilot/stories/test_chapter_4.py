@@ -42,7 +42,7 @@ TYPES = {
     "robot_name": "string · ",
 }
 """Parameters of our robot, and what the console finds out about them."""
-EXAMPLE = Path(__file__).resolve().parents[2] / "docs" / "examples" / "my_robot_control"
+EXAMPLE = Path(__file__).resolve().parents[3] / "docs" / "examples" / "my_robot_control"
 ROBOT = "ros2 run my_package simple_robot_step3 --ros-args -p speed:=1.0 -p robot_name:=TestBot"
 
 
