@@ -12,17 +12,15 @@ from bot_console.tui.console.model import ConsoleSnapshot, LogFilter, LogState, 
 from bot_console.tui.console.protocol import LogFindings, LogSource, LogView
 from bot_console.tui.files.save_file import save_file
 from bot_console.tui.format import LETTERS, harmless
-from bot_console.tui.panes.list_pane import ListPane
-from bot_console.tui.panes.logs.before import happened_before, options_of
 from bot_console.tui.panes.logs.filtering import Filtering
 from bot_console.tui.panes.logs.levels_screen import LevelsScreen
 from bot_console.tui.panes.logs.likeness import options_like
+from bot_console.tui.panes.logs.line_pane import LinePane
 from bot_console.tui.panes.logs.rows import LogRows
 from bot_console.tui.panes.logs.rules import RuleBook
 from bot_console.tui.panes.logs.rules_screen import RulesScreen
 from bot_console.tui.panes.logs.seeking import Seeker
 from bot_console.tui.panes.logs.source import LiveLog
-from bot_console.tui.screens.detail import DetailScreen
 from bot_console.tui.widgets.prompt.common import wrong_filter, wrong_path
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Line
@@ -31,7 +29,7 @@ from bot_console.tui.widgets.words import Words
 from textual.app import ComposeResult
 
 
-class LogsPane(ListPane):
+class LogsPane(LinePane):
     """Log lines of all nodes, or those of a file."""
 
     TITLE = "Logs"
@@ -53,7 +51,6 @@ class LogsPane(ListPane):
         self._seeker = Seeker(self._view_of)
         self._sought_for = ""
         """What the seeker looks for, in words."""
-        self._following = True
         self._looked_for: int | None = None
         """The record that was gone to by what was looked for: to stand on it is to read, not to follow."""
         self._moment: int | None = None
@@ -80,10 +77,6 @@ class LogsPane(ListPane):
         """Read no file any more."""
         super().on_unmount()
         self._source.close()
-
-    @property
-    def _list(self) -> LogRows:
-        return self.query_one(LogRows)
 
     def focus_target(self) -> None:
         """The lines take the keys."""
@@ -311,48 +304,6 @@ class LogsPane(ListPane):
             self._list.cursor = self._list.place(target)
         return True
 
-    def action_detail(self) -> None:
-        """Show the whole message."""
-        record = self._list.named_record
-        if record is not None:
-            self.host.push_screen(DetailScreen(record))
-
-    def action_instant(self) -> None:
-        """Show the moment of the line in the plot, and in all panes that have time."""
-        record = self._list.record
-        if record is not None:
-            self._following = False
-            self.time_cursor.move(record.stamp, self)
-            self.post_message(self.PaneWanted("plot", ""))
-
-    def action_edit(self) -> None:
-        """Open the place that logged the line in the person's editor."""
-        record = self._list.record
-        if record is None or not record.file:
-            self.notify("Nothing tells where this was logged: it was printed, or comes from a file.")
-        else:
-            self.post_message(self.EditWanted(record.file, record.line))
-
-    def action_before(self) -> None:
-        """Show what happened just before the line, to go there."""
-        record = self._list.record
-        if record is None:
-            return
-        events = self.console.snapshot().launch.timeline
-        found = happened_before(record.stamp, self.console.changes(-(10**9)), events)
-        if not found:
-            self.notify("No parameter was changed and nothing launched before this line.")
-            return
-
-        def go(number: str) -> None:
-            happened = found[int(number)]
-            self._following = False
-            self.time_cursor.move(happened.stamp, self)
-            self.post_message(self.PaneWanted(happened.pane, ""))
-
-        find = partial(options_of, found, record.stamp)
-        self.ask(Choice(f"Before {record.text[:60]}", go, find=find, empty="Nothing of that kind happened before."))
-
     def action_open_file(self) -> None:
         """Ask for a saved log, or go back from one to what runs."""
         if self._source.name:
@@ -383,13 +334,6 @@ class LogsPane(ListPane):
         self._source.clear()
         self._seeker.forget()
         self._search()
-
-    def action_copy(self) -> None:
-        """Copy the message through the terminal (OSC 52)."""
-        record = self._list.record
-        if record is not None:
-            self.host.copy_to_clipboard(record.text)
-            self.notify("Copied.")
 
     def action_save(self) -> None:
         """Ask where to save."""

@@ -1,0 +1,74 @@
+"""What a person does with the log line at the cursor."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+from bot_console.tui.panes.list_pane import ListPane
+from bot_console.tui.panes.logs.before import happened_before, options_of
+from bot_console.tui.panes.logs.rows import LogRows
+from bot_console.tui.screens.detail import DetailScreen
+from bot_console.tui.widgets.prompt.question import Choice
+
+
+class LinePane(ListPane):
+    """Shows log lines, of which one is at the cursor."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self._following = True
+        """Whether the newest line is at the cursor, as lines come."""
+
+    @property
+    def _list(self) -> LogRows:
+        return self.query_one(LogRows)
+
+    def action_detail(self) -> None:
+        """Show the whole message."""
+        record = self._list.named_record
+        if record is not None:
+            self.host.push_screen(DetailScreen(record))
+
+    def action_instant(self) -> None:
+        """Show the moment of the line in the plot, and in all panes that have time."""
+        record = self._list.record
+        if record is not None:
+            self._following = False
+            self.time_cursor.move(record.stamp, self)
+            self.post_message(self.PaneWanted("plot", ""))
+
+    def action_edit(self) -> None:
+        """Open the place that logged the line in the person's editor."""
+        record = self._list.record
+        if record is None or not record.file:
+            self.notify("Nothing tells where this was logged: it was printed, or comes from a file.")
+        else:
+            self.post_message(self.EditWanted(record.file, record.line))
+
+    def action_before(self) -> None:
+        """Show what happened just before the line, to go there."""
+        record = self._list.record
+        if record is None:
+            return
+        events = self.console.snapshot().launch.timeline
+        found = happened_before(record.stamp, self.console.changes(-(10**9)), events)
+        if not found:
+            self.notify("No parameter was changed and nothing launched before this line.")
+            return
+
+        def go(number: str) -> None:
+            happened = found[int(number)]
+            self._following = False
+            self.time_cursor.move(happened.stamp, self)
+            self.post_message(self.PaneWanted(happened.pane, ""))
+
+        find = partial(options_of, found, record.stamp)
+        self.ask(Choice(f"Before {record.text[:60]}", go, find=find, empty="Nothing of that kind happened before."))
+
+    def action_copy(self) -> None:
+        """Copy the message through the terminal (OSC 52)."""
+        record = self._list.record
+        if record is not None:
+            self.host.copy_to_clipboard(record.text)
+            self.notify("Copied.")
