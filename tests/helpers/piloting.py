@@ -13,7 +13,8 @@ from bot_console.tui.panes.alarms.pane import AlarmsPane
 from bot_console.tui.panes.diagnostics.pane import DiagnosticsPane
 from bot_console.tui.panes.images.pane import ImagesPane
 from bot_console.tui.panes.steering.pane import SteeringPane
-from fakes.console import FakeCommandLine, FakeConsole
+from fakes.command_line import FakeCommandLine
+from fakes.console import FakeConsole
 from fakes.launcher import FakeLauncher
 from rest import at_rest
 from textual.pilot import Pilot

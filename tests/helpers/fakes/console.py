@@ -10,9 +10,8 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from bot_console.tui.commanding.completing import live_names
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.connection.no_console import refused_profile
+from bot_console.tui.console.connection.no_console import done, refused_profile
 from bot_console.tui.console.logs.file import open_log
 from bot_console.tui.console.logs.search import matching
 from bot_console.tui.console.logs.store import LogStore
@@ -32,7 +31,7 @@ from bot_console.tui.console.parameters.file.saving import save
 from bot_console.tui.console.parameters.journal import Journal, Move, Step
 from bot_console.tui.console.parameters.origin import origin_text
 from bot_console.tui.console.parameters.profiles import cannot_apply, differences
-from bot_console.tui.console.protocol import LoggerLevel, LogSource, LogView, Stream
+from bot_console.tui.console.protocol import LoggerLevel, LogSource, LogView
 from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.console.values import refusal
 
@@ -41,13 +40,6 @@ from fakes.recording import FakeRecording
 from fakes.series import START, FakeSeries
 from fakes.sights import FakeSights
 from fakes.traffic import FakeTraffic
-
-
-def done(value: Any) -> Future[Any]:
-    """A future that has its result."""
-    future: Future[Any] = Future()
-    future.set_result(value)
-    return future
 
 
 class FakeView(SearchedView):
@@ -377,25 +369,3 @@ class FakeConsole(FakeProfiles, FakeSeries):
         if not self.closed:
             self.sent.append((0.0, 0.0))
         self.closed = True
-
-
-class FakeCommandLine:
-    """Prints one node's name, whatever the line; what it was asked is kept with what the console was asked."""
-
-    def __init__(self, asked: list[tuple[Any, ...]]) -> None:
-        self._asked = asked
-
-    def stream(self, line: str) -> Stream | None:
-        return None
-
-    def commands(self) -> Sequence[str]:
-        return ("node", "topic", "param")
-
-    def complete(self, words: Sequence[str], snapshot: ConsoleSnapshot) -> Future[Sequence[str]]:
-        before = [*words[:-1]]
-        live = live_names(snapshot, ["topic", "list"]) or []
-        return done(live if before in (["topic", "echo"], ["topic", "hz"]) else ["echo", "hz", "list"])
-
-    def run(self, line: str) -> Future[str]:
-        self._asked.append(("run", line))
-        return done("/robot_navigator\n")

@@ -8,11 +8,11 @@ from dataclasses import replace
 from pathlib import Path
 
 from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.connection.no_console import done
 from bot_console.tui.console.model import Endpoint, Profile, SetOutcome
 from bot_console.tui.panes.profiles.pane import ProfilesPane
 from bot_console.tui.panes.profiles.rows import ProfileRows
 from bot_console.tui.screens.confirm import ConfirmScreen
-from fakes.console import done
 from piloting import Session, run
 from samples import differences, empty, live
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import pytest
 from bot_console.tui.console.protocol import Stream
 from bot_console.tui.widgets.stream_panel import StreamPanel
-from fakes.console import FakeCommandLine
+from fakes.command_line import FakeCommandLine
 from piloting import Session, run
 from samples import live
 
