@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import nav2_msgs.action  # pyright: ignore[reportMissingImports] -- made when it is imported
 import nav2_msgs.msg  # pyright: ignore[reportMissingImports] -- made when it is imported
@@ -29,6 +29,9 @@ from nav_msgs.msg import Path
 from rclpy.action import ActionServer, CancelResponse
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
+
+if TYPE_CHECKING:
+    from rclpy.action.server import ServerGoalHandle
 
 ACTIONS: Any = nav2_msgs.action  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- the same
 MESSAGES: Any = nav2_msgs.msg  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- the same
@@ -107,7 +110,7 @@ class Navigator(Node):
         message.header.stamp, message.header.frame_id = self.get_clock().now().to_msg(), "base_link"
         self._commands.publish(message)
 
-    def _begin(self, task: Task, handle: Any = None) -> Goal:
+    def _begin(self, task: Task, handle: ServerGoalHandle | None = None) -> Goal:
         """Take a task up; the one before it is given up."""
         before, self._current = self._current, None
         if before is not None:
@@ -155,7 +158,9 @@ class Navigator(Node):
             f"to ({pose.position.x:.2f}, {pose.position.y:.2f})"
         )
 
-    async def _travel(self, handle: Any, poses: Sequence[Pose], feedback: Callable[[Way, Any], None], kind: Any) -> int:
+    async def _travel(
+        self, handle: ServerGoalHandle, poses: Sequence[Pose], feedback: Callable[[Way, Any], None], kind: Any
+    ) -> int:
         """Go to poses one by one as one way; Nav2's error code, 0 for a goal that is reached."""
         try:
             points, heading = self._plan(poses)
@@ -170,11 +175,11 @@ class Navigator(Node):
         self.get_logger().info("Goal succeeded" if not code else f"Goal failed, error code {code}")
         return code
 
-    async def _to_pose(self, handle: Any) -> Any:
+    async def _to_pose(self, handle: ServerGoalHandle) -> Any:
         code = await self._travel(handle, [handle.request.pose.pose], self._tell_way, ACTIONS.NavigateToPose)
         return ACTIONS.NavigateToPose.Result(error_code=code)
 
-    async def _through_poses(self, handle: Any) -> Any:
+    async def _through_poses(self, handle: ServerGoalHandle) -> Any:
         poses = [each.pose for each in handle.request.poses]
 
         def tell(task: Way, message: Any) -> None:
@@ -196,7 +201,7 @@ class Navigator(Node):
         message.navigation_time.sec = int(self._current.age(self._seconds())) if self._current else 0
         message.estimated_time_remaining.sec = int(task.left(pose) / self._known.limits().speed)
 
-    async def _waypoints(self, handle: Any) -> Any:
+    async def _waypoints(self, handle: ServerGoalHandle) -> Any:
         result = ACTIONS.FollowWaypoints.Result()
         message = ACTIONS.FollowWaypoints.Feedback()
         for index, stamped in enumerate(handle.request.poses):
@@ -218,7 +223,7 @@ class Navigator(Node):
         handle.succeed()
         return result
 
-    async def _spin(self, handle: Any) -> Any:
+    async def _spin(self, handle: ServerGoalHandle) -> Any:
         task, message = Spin(handle.request.target_yaw, self._known.limits()), ACTIONS.Spin.Feedback()
 
         def tell() -> None:
@@ -228,7 +233,7 @@ class Navigator(Node):
         code = await run_goal(self, goal, tell, message)
         return ACTIONS.Spin.Result(error_code=code, total_elapsed_time=goal.duration(self._seconds()))
 
-    async def _straight(self, sign: float, handle: Any) -> Any:
+    async def _straight(self, sign: float, handle: ServerGoalHandle) -> Any:
         kind = ACTIONS.BackUp if sign < 0 else ACTIONS.DriveOnHeading
         asked, message = handle.request, kind.Feedback()
         distance = sign * abs(asked.target.x)
@@ -242,7 +247,7 @@ class Navigator(Node):
         code = await run_goal(self, goal, tell, message)
         return kind.Result(error_code=code, total_elapsed_time=goal.duration(self._seconds()))
 
-    async def _wait(self, handle: Any) -> Any:
+    async def _wait(self, handle: ServerGoalHandle) -> Any:
         asked, message = handle.request.time, ACTIONS.Wait.Feedback()
         task = Wait(asked.sec + asked.nanosec * 1e-9)
 
@@ -253,7 +258,7 @@ class Navigator(Node):
         code = await run_goal(self, goal, tell, message)
         return ACTIONS.Wait.Result(error_code=code, total_elapsed_time=goal.duration(self._seconds()))
 
-    def _compute(self, handle: Any) -> Any:
+    def _compute(self, handle: ServerGoalHandle) -> Any:
         asked = handle.request
         here = asked.start.pose.position
         start = (here.x, here.y) if asked.use_start else (self._known.pose or (math.nan, math.nan))[:2]

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bot_console_robot.navigation.tasks import Task
 from builtin_interfaces.msg import Duration
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.task import Future
+
+if TYPE_CHECKING:
+    from rclpy.action.server import ServerGoalHandle
 
 FEEDBACK = 0.2
 """Seconds between two messages of feedback."""
@@ -20,7 +23,7 @@ PREEMPTED = 1
 class Goal:
     """A task with the action's goal that it belongs to, if it belongs to one."""
 
-    def __init__(self, task: Task, handle: Any = None) -> None:
+    def __init__(self, task: Task, handle: ServerGoalHandle | None = None) -> None:
         self.task = task
         self.preempted = False
         self.done: Future[int] = Future()
@@ -30,7 +33,7 @@ class Goal:
     @property
     def cancelled(self) -> bool:
         """Whether somebody has asked to end it."""
-        return self._handle is not None and bool(self._handle.is_cancel_requested)
+        return self._handle is not None and self._handle.is_cancel_requested
 
     def age(self, now: float) -> float:
         """Seconds since it began."""
@@ -48,6 +51,8 @@ class Goal:
 
     def settle(self) -> None:
         """Tell the action how it ended."""
+        if self._handle is None:
+            return
         if self.cancelled and not self.preempted:
             self._handle.canceled()
         elif self.preempted or self.task.error_code:
@@ -57,7 +62,7 @@ class Goal:
 
     def tell(self, message: Any) -> None:
         """Publish feedback, while the goal is under way."""
-        if not self.done.done():
+        if self._handle is not None and not self.done.done():
             self._handle.publish_feedback(message)
 
 

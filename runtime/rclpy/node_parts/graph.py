@@ -13,6 +13,7 @@ from rclpy.impl.graph_wait import wait_until_there
 from rclpy.node_parts.topic_names import expand_name, remapped
 
 if TYPE_CHECKING:
+    from rclpy.topic_endpoint_info import TopicEndpointInfo
     from rclpy.type_hash import TypeHash
 
 
@@ -124,11 +125,11 @@ class NodeGraph:
         name = expand_name(self, service_name, service=True)
         return sum(len(each.servers.on(name)) for each in self._ros_bus.tables())
 
-    def get_publishers_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[Any]:
+    def get_publishers_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
         """The publishers of a topic; the name is remapped."""
         return self._ros_infos(topic_name, no_mangle, publisher=True)
 
-    def get_subscriptions_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[Any]:
+    def get_subscriptions_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
         """The subscriptions of a topic; the name is remapped."""
         return self._ros_infos(topic_name, no_mangle, publisher=False)
 

@@ -5,12 +5,16 @@ from __future__ import annotations
 import importlib
 import re
 import time
-from typing import Any
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 from bot_console.tui.cli.doctor.finding import Finding, Level
 from bot_console.tui.console.graph.full_name import name_of
 from bot_console.tui.console.graph.pairs import hash_of, unheard
 from bot_console.tui.console.robot.stop_link import FOLDER, STATUS
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
 
 TWISTS = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
 TIMEOUT = re.compile(r"(cmd|command|vel|twist|input|watchdog).*time_?out|time_?out.*(cmd|command|vel)|watchdog", re.I)
@@ -37,7 +41,7 @@ def node_findings() -> list[Finding]:
         rclpy.try_shutdown()
 
 
-def _spin(node: Any, seconds: float, until: Any = lambda: False) -> None:
+def _spin(node: Node, seconds: float, until: Callable[[], bool] = lambda: False) -> None:
     import rclpy
 
     end = time.monotonic() + seconds
@@ -45,7 +49,7 @@ def _spin(node: Any, seconds: float, until: Any = lambda: False) -> None:
         rclpy.spin_once(node, timeout_sec=0.05)
 
 
-def pair_findings(node: Any) -> list[Finding]:
+def pair_findings(node: Node) -> list[Finding]:
     """What keeps messages from passing."""
     found: list[Finding] = []
     for topic, _ in sorted(node.get_topic_names_and_types()):
@@ -59,7 +63,7 @@ def pair_findings(node: Any) -> list[Finding]:
     return found or [Finding(Level.OK, "topics", "types, hashes and QoS of all publishers and subscriptions fit")]
 
 
-def type_findings(node: Any) -> list[Finding]:
+def type_findings(node: Node) -> list[Finding]:
     """Types that are not known here, or are defined otherwise."""
     unknown: set[str] = set()
     other: set[str] = set()
@@ -97,7 +101,7 @@ def own_hash(type_name: str) -> str | None:
         return ""
 
 
-def base_finding(node: Any) -> Finding:
+def base_finding(node: Node) -> Finding:
     """Whether the robot stops by itself when its commands stay away."""
     bases = {
         name_of(each)
@@ -120,7 +124,7 @@ def base_finding(node: Any) -> Finding:
     return Finding(Level.OK, "time-out", f"{listed}: look that it is short (0.5 s)")
 
 
-def time_outs(node: Any, base: str) -> dict[str, float]:
+def time_outs(node: Node, base: str) -> dict[str, float]:
     """The numbers among a node's parameters whose names say that they are time-outs for commands."""
     from rcl_interfaces.srv import GetParameters, ListParameters
     from rclpy.parameter import parameter_value_to_python
@@ -136,7 +140,7 @@ def time_outs(node: Any, base: str) -> dict[str, float]:
     }
 
 
-def _answer(node: Any, kind: Any, service: str, request: Any) -> Any:
+def _answer(node: Node, kind: Any, service: str, request: Any) -> Any:
     """What a service answers; None where it does not."""
     client = node.create_client(kind, service)
     try:

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.process import NodeProcess
 from bot_console.runtime.workspace.own import ROOT
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.console.model import LaunchInfo, ProcessState
 from bot_console.tui.console.robot.robot_wanted import drives_stamped, endpoints, robot_wanted, visible_nodes
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
 
 LAUNCH_FILE = str(ROOT / "launch" / "simulator.launch.py")
 PERIOD = 0.25
@@ -71,7 +74,7 @@ class RobotBeside:
             node.destroy_node()
             rclpy.try_shutdown()
 
-    def _look(self, node: Any) -> None:
+    def _look(self, node: Node) -> None:
         running, delayed = processes = self._system.processes()
         seen = processes, endpoints(node)
         self._rested = self._rested + PERIOD if seen == self._seen else 0.0

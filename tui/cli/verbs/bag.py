@@ -11,12 +11,16 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.importer import install
 from bot_console.tui.cli.system.domain import take_part
 from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.format import harmless
+
+if TYPE_CHECKING:
+    from bot_console.tui.console.bags.recorder import Ring
+    from rclpy.node import Node
 
 RECORDER = "rosbag2_recorder"
 SNAPSHOT = f"/{RECORDER}/snapshot"
@@ -142,7 +146,7 @@ def _record(given: argparse.Namespace) -> int:
     return 0
 
 
-def _offer_snapshots(node: Any, ring: Any, output: Path | None) -> None:
+def _offer_snapshots(node: Node, ring: Ring, output: Path | None) -> None:
     from bot_console.tui.console.bags.writer import BagWriter
     from std_srvs.srv import Trigger
 
@@ -302,7 +306,7 @@ def _node(name: str) -> Any:
     return rclpy.create_node(name, start_parameter_services=False)
 
 
-def _spin(node: Any, duration: float | None, stopped: threading.Event | None = None) -> None:
+def _spin(node: Node, duration: float | None, stopped: threading.Event | None = None) -> None:
     """Spin until the time has come, or somebody stops it or ends the program in order."""
     from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 

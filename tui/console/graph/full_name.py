@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 
 def full_name(namespace: str, name: str) -> str:
@@ -10,6 +13,6 @@ def full_name(namespace: str, name: str) -> str:
     return f"{namespace.rstrip('/')}/{name}"
 
 
-def name_of(endpoint: Any) -> str:
+def name_of(endpoint: TopicEndpointInfo) -> str:
     """That of the node of an endpoint."""
     return full_name(endpoint.node_namespace, endpoint.node_name)

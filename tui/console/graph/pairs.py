@@ -6,14 +6,17 @@ Of the public rclpy API alone, so that it holds on every middleware.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING
 
 from bot_console.tui.console.graph.full_name import name_of
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from rclpy.node import Node
 from rclpy.qos import QoSCompatibility, qos_check_compatible
 
-Ask = Callable[[str], Sequence[Any]]
+if TYPE_CHECKING:
+    from rclpy.topic_endpoint_info import TopicEndpointInfo
+
+Ask = Callable[[str], "Sequence[TopicEndpointInfo]"]
 
 
 class UnheardPairs:
@@ -74,7 +77,9 @@ def _ends(node: NodeInfo | None) -> set[tuple[bool, Endpoint]]:
     return {(True, each) for each in node.publishers} | {(False, each) for each in node.subscriptions}
 
 
-def unheard(topic: str, publishers: Sequence[Any], subscriptions: Sequence[Any]) -> Iterable[str]:
+def unheard(
+    topic: str, publishers: Sequence[TopicEndpointInfo], subscriptions: Sequence[TopicEndpointInfo]
+) -> Iterable[str]:
     """What keeps messages of one topic from passing, each with what to do."""
     seen: set[str] = set()
     for publisher in publishers:
@@ -85,7 +90,7 @@ def unheard(topic: str, publishers: Sequence[Any], subscriptions: Sequence[Any])
                 yield text
 
 
-def _pair(topic: str, publisher: Any, subscription: Any) -> str:
+def _pair(topic: str, publisher: TopicEndpointInfo, subscription: TopicEndpointInfo) -> str:
     if _hidden(publisher) or _hidden(subscription):
         return ""  # tools, which choose for themselves
     one, other = name_of(publisher), name_of(subscription)
@@ -99,7 +104,7 @@ def _pair(topic: str, publisher: Any, subscription: Any) -> str:
     return f"{topic}: {other} hears nothing of {one}: {_words(why)}; change the QoS of one of them"
 
 
-def otherwise_defined(topic: str, publisher: Any, subscription: Any) -> str:
+def otherwise_defined(topic: str, publisher: TopicEndpointInfo, subscription: TopicEndpointInfo) -> str:
     """That two ends have another definition of the type; ROS passes that over in silence."""
     hashes = {hash_of(publisher), hash_of(subscription)} - {""}
     if _hidden(publisher) or _hidden(subscription) or len(hashes) < 2:
@@ -117,12 +122,12 @@ def _words(why: str) -> str:
     return ", ".join(each.removeprefix("ERROR: ").strip() for each in why.split(";") if each.strip())
 
 
-def hash_of(endpoint: Any) -> str:
+def hash_of(endpoint: TopicEndpointInfo) -> str:
     """The hash of its type; empty where this ROS, or that node's, has none."""
     text = str(getattr(endpoint, "topic_type_hash", None) or "")
     digest = text.removeprefix("RIHS01_")
     return text if digest != text and set(digest) != {"0"} else ""
 
 
-def _hidden(endpoint: Any) -> bool:
+def _hidden(endpoint: TopicEndpointInfo) -> bool:
     return str(endpoint.node_name).startswith("_")

@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from pathlib import Path
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.connection.no_console import done
@@ -21,6 +21,11 @@ from bot_console.tui.console.launch.run import LaunchRun, Listener
 from bot_console.tui.console.launch.timeline import LaunchTimeline
 from bot_console.tui.console.launch.vitals import FindVitals, Usage, Vitals
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo, ProcessState, Severity
+
+if TYPE_CHECKING:
+    from launch.events.process import ProcessExited, ProcessStarted
+
+    from launch import LaunchContext
 
 CLOSED = "the console is closing"
 BUSY_S = 6.0
@@ -236,7 +241,7 @@ class RosLauncher(AskedForProcesses):
         run.path, held.run = file, run
         self._begin(run, lambda: run.run_action(make, failed))
 
-    def _started(self, run: LaunchRun, event: Any, context: Any) -> None:
+    def _started(self, run: LaunchRun, event: ProcessStarted, context: LaunchContext) -> None:
         nodes = _node_names(event.action)
         vitals = self._find_vitals(event.pid)
         with self._lock:
@@ -251,7 +256,7 @@ class RosLauncher(AskedForProcesses):
         if outcome is not None:
             outcome.set_result(Answer(True, f"{run.title} runs"))
 
-    def _found(self, run: LaunchRun, event: Any, context: Any) -> _Held:
+    def _found(self, run: LaunchRun, event: ProcessStarted, context: LaunchContext) -> _Held:
         """A process that was not seen before."""
         key = f"{event.process_name}@{len(self._held)}"
         place = run.tree.place(event.action, context)
@@ -268,7 +273,7 @@ class RosLauncher(AskedForProcesses):
             text = event.text.decode("utf-8", "replace") if isinstance(event.text, bytes) else event.text
             held.output.feed(text, stderr=event.from_stderr)
 
-    def _exited(self, event: Any) -> None:
+    def _exited(self, event: ProcessExited) -> None:
         with self._lock:
             held = self._by_action.get(event.action)
             if held is None:
@@ -284,7 +289,7 @@ class RosLauncher(AskedForProcesses):
             self._tell(text, Severity.ERROR if bad else Severity.INFO)
             self._order(held, order)
 
-    def _missing(self, run: LaunchRun, event: Any, context: Any) -> None:
+    def _missing(self, run: LaunchRun, event: Any, context: LaunchContext) -> None:
         label = f"{event.package}/{event.executable}"
         with self._lock:
             key = f"{label}@{len(self._held)}"

@@ -11,7 +11,12 @@ import os
 import re
 import shlex
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from launch.events.process import ProcessStarted
+
+    from launch import LaunchContext
 
 
 @dataclass(frozen=True)
@@ -40,7 +45,7 @@ class Recipe:
         return Node(**where, arguments=arguments, prefix=self.prefix, exec_name=self.label, **self.options)
 
 
-def recipe(event: Any, context: Any) -> Recipe:
+def recipe(event: ProcessStarted, context: LaunchContext) -> Recipe:
     """What a process was started with, from its `ProcessStarted`."""
     from launch_ros.actions import Node
 
@@ -63,7 +68,7 @@ def recipe(event: Any, context: Any) -> Recipe:
     return Recipe(list(event.cmd), label, options, prefix, is_node, package)
 
 
-def _text(context: Any, substitutions: Any, otherwise: str | None) -> str | None:
+def _text(context: LaunchContext, substitutions: Any, otherwise: str | None) -> str | None:
     from launch.substitutions import SubstitutionFailure
     from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 

@@ -6,11 +6,17 @@ import contextlib
 import threading
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bot_console.tui.console.launch.delayed import delayed_starts
 from bot_console.tui.console.launch.fault import fault_text
 from bot_console.tui.console.launch.tree import LaunchTree
+
+if TYPE_CHECKING:
+    from launch.events import Shutdown
+    from launch.events.process import ProcessExited, ProcessStarted
+
+    from launch import LaunchContext
 
 MISSING = "launch_ros.events.NodeMissing"
 """The name of the event of a node that is left out; ROS 2 has none, so it is not imported."""
@@ -21,13 +27,13 @@ CAUGHT = "Caught exception in launch (see debug for traceback): "
 class Listener:
     """Called in the thread of a run, for all of its processes."""
 
-    started: Callable[[LaunchRun, Any, Any], None]
+    started: Callable[[LaunchRun, ProcessStarted, LaunchContext], None]
     """With `ProcessStarted` and the launch context."""
     printed: Callable[[Any], None]
     """With `ProcessIO`."""
-    exited: Callable[[Any], None]
+    exited: Callable[[ProcessExited], None]
     """With `ProcessExited`."""
-    missing: Callable[[LaunchRun, Any, Any], None]
+    missing: Callable[[LaunchRun, Any, LaunchContext], None]
     """With `NodeMissing`, where the launch has such events, and the launch context."""
     over: Callable[[Any], None]
     """With an action that has ended and that launch will not start again."""
@@ -138,7 +144,7 @@ class LaunchRun:
         )
         return [RegisterEventHandler(each) for each in handlers]
 
-    def _started(self, event: Any, context: Any) -> None:
+    def _started(self, event: ProcessStarted, context: LaunchContext) -> None:
         self._tell_when_over(event.action)
         self._listener.started(self, event, context)
 
@@ -150,7 +156,7 @@ class LaunchRun:
         if future is not None:
             future.add_done_callback(over)
 
-    def _ends(self, event: Any, context: Any) -> None:
+    def _ends(self, event: Shutdown, context: LaunchContext) -> None:
         self.ending = True
         self._reason = event.reason
         failed = event.reason.startswith(CAUGHT)  # which is told with file and line when it is over

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from launch import LaunchContext
 
 
 class LaunchTree:
@@ -44,7 +47,7 @@ class LaunchTree:
         includes = (each for each in self._chain(entity) if isinstance(each, IncludeLaunchDescription))
         return next((each.launch_description_source.location for each in includes), "")
 
-    def place(self, action: Any, context: Any) -> tuple[str, ...]:
+    def place(self, action: Any, context: LaunchContext) -> tuple[str, ...]:
         """Names of launch files and namespaces of groups, outermost first."""
         from launch.actions import GroupAction, IncludeLaunchDescription
 
@@ -67,7 +70,7 @@ def below(entity: Any) -> Iterator[Any]:
         yield from entities
 
 
-def _namespaces(group: Any, context: Any) -> list[str]:
+def _namespaces(group: Any, context: LaunchContext) -> list[str]:
     from launch.substitutions import SubstitutionFailure
     from launch.utilities import perform_substitutions
     from launch_ros.actions import PushRosNamespace

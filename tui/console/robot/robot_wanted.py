@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING
 
 from bot_console.tui.console.graph.full_name import name_of
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+    from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 SOURCES = {"/scan": "sensor_msgs/msg/LaserScan", "/odom": "nav_msgs/msg/Odometry"}
 """What a robot publishes, by resolved names; under another name or type our simulator cannot give it."""
@@ -14,7 +18,7 @@ TWIST, STAMPED = KINDS = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistSta
 """The types of velocities; a robot takes one of them."""
 
 
-def robot_wanted(node: Any) -> str:
+def robot_wanted(node: Node) -> str:
     """Why a robot is wanted in the system that `node` sees, for people; empty where one is there or nobody wants it.
 
     Who publishes one of a robot's topics is a robot, a bag or a stand-in: a second one would contradict it.
@@ -33,30 +37,30 @@ def robot_wanted(node: Any) -> str:
     return ", ".join(reasons)
 
 
-def drives_stamped(node: Any) -> bool:
+def drives_stamped(node: Node) -> bool:
     """Whether those who drive give their velocities with a time stamp, and none without."""
     found = node.get_publishers_info_by_topic(VELOCITY)
     return bool(_visible(found, STAMPED)) and not _visible(found, TWIST)
 
 
-def endpoints(node: Any) -> object:
+def endpoints(node: Node) -> object:
     """All of the graph that bears on `robot_wanted`: equal as long as nothing of that has changed."""
     topics = (*SOURCES, VELOCITY)
     found = [each for topic in topics for each in _both(node, topic)]
     return sorted(node.get_node_names_and_namespaces()), [(each.node_name, each.topic_type) for each in found]
 
 
-def visible_nodes(node: Any) -> int:
+def visible_nodes(node: Node) -> int:
     """How many nodes there are, without tools and the console."""
     return sum(not name.startswith("_") for name in node.get_node_names())
 
 
-def _both(node: Any, topic: str) -> Iterable[Any]:
+def _both(node: Node, topic: str) -> Iterable[TopicEndpointInfo]:
     yield from node.get_publishers_info_by_topic(topic)
     yield from node.get_subscriptions_info_by_topic(topic)
 
 
-def _visible(found: Iterable[Any], kind: str) -> list[str]:
+def _visible(found: Iterable[TopicEndpointInfo], kind: str) -> list[str]:
     names = (name_of(each) for each in found if each.topic_type == kind)
     return sorted({name for name in names if not name.rpartition("/")[2].startswith("_")})
 
