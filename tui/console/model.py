@@ -371,6 +371,7 @@ class Capabilities:
     world: str = ""
     pause_time: str = ""
     logger_levels: str = ""
+    change: str = ""
     others_refusals: str = "refusals of changes made elsewhere are not announced in ROS"
 
 

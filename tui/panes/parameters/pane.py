@@ -218,7 +218,9 @@ class ParametersPane(EditPane):
         if row is None:
             if self.words or self._view.only_changed:
                 return Text("Nothing matches. Press / to change the filter.", "dim")
-            return Text(harmless(self._snapshot.problem) or "Waiting for nodes with parameters ...", "dim")
+            fixed = self._snapshot.capabilities.change
+            waiting = f"No parameters; {fixed}." if fixed else "Waiting for nodes with parameters ..."
+            return Text(harmless(self._snapshot.problem) or waiting, "dim")
         if row.parameter is None:
             return Text(harmless(row.problem or f"{row.node}  {row.count} parameters"), "dim")
         key = (row.node, row.parameter.name)

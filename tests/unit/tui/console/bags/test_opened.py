@@ -12,6 +12,7 @@ from bot_console.tui.console.bags.opened import WHY, OpenedBag
 from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.console.robot.robot_model import Pose
+from bot_console.tui.widgets.status_bar import status_text
 from builtin_interfaces.msg import Time
 from nav_msgs.msg import MapMetaData, OccupancyGrid, Odometry
 from rcl_interfaces.msg import Log, Parameter, ParameterEvent, ParameterValue
@@ -109,6 +110,7 @@ def test_numbers_over_the_time_of_the_bag(console: OpenedBag) -> None:
 
 
 def test_nothing_can_be_done(console: OpenedBag) -> None:
+    assert "robot" not in status_text(console.snapshot()), "none is waited for"
     (outcome,) = console.set_parameters("/nav", {"max_speed": 1.0}).result()
     assert not outcome.accepted and outcome.reason == WHY
     assert console.undo().result().text == WHY and console.recording.start("x").result().text == WHY
