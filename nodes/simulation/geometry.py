@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 Point: TypeAlias = "tuple[float, float]"
 
+TURN = 2 * math.pi
+"""A full turn in rad."""
 CORNER_STEP = math.radians(22.5)
 """The bend between two pieces of a rounded corner."""
 
 
-@dataclass(frozen=True, slots=True)
-class Pose:
+class Pose(NamedTuple):
     """A pose in the plane: x and y in m, heading in rad counter-clockwise from +x."""
 
     x: float = 0.0

@@ -11,10 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 from bot_console_robot.simulation.arrays import Floats, Ints, table
-from bot_console_robot.simulation.geometry import Pose
+from bot_console_robot.simulation.geometry import TURN, Pose
 from bot_console_robot.simulation.world import World
 
-TURN = 2 * math.pi
 EDGE = 1e-9
 """Radians by which a span is widened, so that rounding never opens a slit between two walls."""
 FULL_SCALE = 255.0

@@ -12,15 +12,13 @@ from collections.abc import Callable
 from typing import Any
 
 import pymunk
+from bot_console_robot.simulation.engine import ffi, lib, pointer
 
-_engine: Any = __import__("pymunk._chipmunk_cffi", fromlist=["ffi", "lib"])
-
-_KINDS: tuple[tuple[type[Any], str, str], ...] = (
-    (pymunk.Space, "_space", "cpSpaceFree"),
-    (pymunk.Body, "_body", "cpBodyFree"),
-    (pymunk.Shape, "_shape", "cpShapeFree"),
+_FREE: tuple[tuple[type[Any], Callable[[Any], None]], ...] = (
+    (pymunk.Space, lib.cpSpaceFree),
+    (pymunk.Body, lib.cpBodyFree),
+    (pymunk.Shape, lib.cpShapeFree),
 )
-"""Where pymunk keeps the engine's object, and what frees it; the same in all of pymunk 7."""
 
 
 class Memory:
@@ -32,13 +30,12 @@ class Memory:
     def take(self, *items: pymunk.Space | pymunk.Body | pymunk.Shape) -> None:
         """Free these, the space first of all, when `free` is called and at no other time."""
         for item in items:
-            name, free = next((name, free) for kind, name, free in _KINDS if isinstance(item, kind))
-            pointer = getattr(item, name)
-            _engine.ffi.gc(pointer, None)
-            self._held.append((getattr(_engine.lib, free), pointer))
+            held = pointer(item)
+            ffi.gc(held, None)
+            self._held.append((next(free for kind, free in _FREE if isinstance(item, kind)), held))
 
     def free(self) -> None:
         """Give everything back; a second call does nothing."""
         held, self._held = self._held, []
-        for free, pointer in held:
-            free(pointer)
+        for free, item in held:
+            free(item)

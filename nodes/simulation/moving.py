@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pymunk
+from bot_console_robot.simulation.engine import Body
 from bot_console_robot.simulation.geometry import Mover, Point
 
 PATIENCE = 2.0
@@ -23,6 +24,7 @@ class MovingObstacle:
         self._direction = 1
         self._waited = 0.0
         self.body = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
+        self._body = Body(self.body)
         self.x, self.y = mover.route[0] if mover.route else self._random_place()
         self._target = mover.route[1] if mover.route else self._random_place()
         self.body.position = (self.x, self.y)
@@ -34,32 +36,26 @@ class MovingObstacle:
 
     def advance(self, dt: float, robot: Point, radius: float) -> None:
         """Go on for `dt` s, unless that comes too near to the robot's hull of `radius` m."""
-        x, y = self._next_place(dt)
-        if self._would_crowd(x, y, robot, radius):
+        mover, begin_x, begin_y = self.mover, self.x, self.y
+        x, y = self._next_place(mover.speed * dt)
+        distance = math.dist((x, y), robot)
+        if distance < radius + mover.radius + mover.keep_off and distance < math.dist((begin_x, begin_y), robot):
             self._wait(dt)
-            x, y = self.x, self.y
         else:
             self._waited = 0.0
+            self.x, self.y = x, y
         # The engine moves the body by its velocity; the place it moves from is set, so that rounding never adds up.
-        self.body.position = (self.x, self.y)
-        self.body.velocity = ((x - self.x) / dt, (y - self.y) / dt)
-        self.x, self.y = x, y
+        self._body.move(begin_x, begin_y, (self.x - begin_x) / dt, (self.y - begin_y) / dt)
 
-    def _next_place(self, dt: float) -> Point:
-        way = self.mover.speed * dt
-        left = math.dist((self.x, self.y), self._target)
+    def _next_place(self, way: float) -> Point:
+        x, y = self.x, self.y
+        target_x, target_y = target = self._target
+        left = math.dist((x, y), target)
         if left <= way:
-            place = self._target
             self._choose_next()
-            return place
+            return target
         share = way / left
-        return self.x + (self._target[0] - self.x) * share, self.y + (self._target[1] - self.y) * share
-
-    def _would_crowd(self, x: float, y: float, robot: Point, radius: float) -> bool:
-        distance = math.dist((x, y), robot)
-        return distance < radius + self.mover.radius + self.mover.keep_off and distance < math.dist(
-            (self.x, self.y), robot
-        )
+        return x + (target_x - x) * share, y + (target_y - y) * share
 
     def _wait(self, dt: float) -> None:
         self._waited += dt

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from bot_console_robot.simulation.geometry import Pose
+from bot_console_robot.simulation.geometry import TURN, Pose
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,20 +21,27 @@ class Odometry:
     """A pose summed up from noisy wheel turns; it drifts away from the truth for good."""
 
     def __init__(self, pose: Pose, noise: OdometryNoise, rng: np.random.Generator) -> None:
-        self.pose = pose
+        self._x, self._y, self._heading = pose
         self.noise = noise
-        self._rng = rng
+        self._draw = rng.standard_normal  # one number at a time: an array of two costs more than both
+
+    @property
+    def pose(self) -> Pose:
+        """Where the robot would be if its wheels never slipped (m, m, rad)."""
+        return Pose(self._x, self._y, self._heading)
+
+    @pose.setter
+    def pose(self, pose: Pose) -> None:
+        self._x, self._y, self._heading = pose
 
     def advance(self, way: float, turn: float) -> None:
         """Add a forward way in m and a turn in rad, driven as an arc."""
         if way == 0.0 and turn == 0.0:
             return
-        draw = self._rng.standard_normal  # one number at a time: an array of two costs more than both
-        way += self.noise.distance * math.sqrt(abs(way)) * draw()
-        turn += self.noise.heading * math.sqrt(abs(turn)) * draw()
-        middle = self.pose.heading + 0.5 * turn
-        self.pose = Pose(
-            self.pose.x + way * math.cos(middle),
-            self.pose.y + way * math.sin(middle),
-            math.remainder(self.pose.heading + turn, 2 * math.pi),
-        )
+        noise, draw = self.noise, self._draw
+        way += noise.distance * math.sqrt(abs(way)) * draw()
+        turn += noise.heading * math.sqrt(abs(turn)) * draw()
+        middle = self._heading + 0.5 * turn
+        self._x += way * math.cos(middle)
+        self._y += way * math.sin(middle)
+        self._heading = math.remainder(self._heading + turn, TURN)

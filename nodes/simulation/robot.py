@@ -23,39 +23,52 @@ class DifferentialDrive:
     """Speeds of the wheels, as linear (m/s) and angular (rad/s) velocity, one time step after the other."""
 
     def __init__(self, limits: DriveLimits) -> None:
-        self.limits = limits
+        self._limits = limits
         self.linear = 0.0
         self.angular = 0.0
-        self._asked = (0.0, 0.0)
+        self._asked = self._feasible = (0.0, 0.0)
         self._age = 0.0
+
+    @property
+    def limits(self) -> DriveLimits:
+        """What the drive can do."""
+        return self._limits
+
+    @limits.setter
+    def limits(self, limits: DriveLimits) -> None:
+        self._limits = limits
+        self._feasible = feasible(*self._asked, limits)
 
     def command(self, linear: float, angular: float) -> None:
         """Take a new command; it holds until the next one or until it is older than `command_timeout`."""
         self._asked = (linear, angular)
+        self._feasible = feasible(linear, angular, self._limits)
         self._age = 0.0
 
     @property
     def timed_out(self) -> bool:
         """Whether the last command is too old to be obeyed."""
-        return self._age > self.limits.command_timeout
+        return self._age > self._limits.command_timeout
 
     def advance(self, dt: float) -> None:
         """Let `dt` s pass: the wheels change speed towards the command as fast as they may."""
-        limits = self.limits
-        linear, angular = (0.0, 0.0) if self.timed_out else self._feasible()
+        limits, before = self._limits, self.linear
+        linear, angular = (0.0, 0.0) if self._age > limits.command_timeout else self._feasible
         self._age += dt
-        brakes = self.linear * linear < 0.0 or abs(linear) < abs(self.linear)
-        change = (limits.deceleration if brakes else limits.acceleration) * dt
-        self.linear += _clamp(linear - self.linear, change)
-        self.angular += _clamp(angular - self.angular, limits.turn_acceleration * dt)
+        if linear != before:
+            brakes = before * linear < 0.0 or abs(linear) < abs(before)
+            change = (limits.deceleration if brakes else limits.acceleration) * dt
+            self.linear += _clamp(linear - before, change)
+        if angular != self.angular:
+            self.angular += _clamp(angular - self.angular, limits.turn_acceleration * dt)
 
-    def _feasible(self) -> tuple[float, float]:
-        """The command within the speed limits, slowed on its own curve where the outer wheel could not keep up."""
-        limits = self.limits
-        linear, angular = _clamp(self._asked[0], limits.max_speed), _clamp(self._asked[1], limits.max_turn_rate)
-        outer = abs(linear) + 0.5 * limits.wheel_separation * abs(angular)
-        share = min(1.0, limits.max_speed / outer) if outer > 0.0 else 1.0
-        return linear * share, angular * share
+
+def feasible(linear: float, angular: float, limits: DriveLimits) -> tuple[float, float]:
+    """A command within the speed limits, slowed on its own curve where the outer wheel could not keep up."""
+    linear, angular = _clamp(linear, limits.max_speed), _clamp(angular, limits.max_turn_rate)
+    outer = abs(linear) + 0.5 * limits.wheel_separation * abs(angular)
+    share = min(1.0, limits.max_speed / outer) if outer > 0.0 else 1.0
+    return linear * share, angular * share
 
 
 def _clamp(value: float, limit: float) -> float:

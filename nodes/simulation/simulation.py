@@ -7,19 +7,21 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from bot_console_robot.simulation.arrays import Floats, table
-from bot_console_robot.simulation.collisions import CollisionLog
+from bot_console_robot.simulation.collisions import TOUCH, CollisionLog
 from bot_console_robot.simulation.figures.metrics import Metrics
-from bot_console_robot.simulation.geometry import Pose
+from bot_console_robot.simulation.geometry import TURN, Pose
 from bot_console_robot.simulation.lidar import Lidar, LidarSettings, Scan, Surfaces
 from bot_console_robot.simulation.moving import MovingObstacle
 from bot_console_robot.simulation.odometry import Odometry, OdometryNoise
 from bot_console_robot.simulation.robot import DifferentialDrive, DriveLimits
-from bot_console_robot.simulation.space import Space
+from bot_console_robot.simulation.space import FAR, Space
 from bot_console_robot.simulation.world import World, WorldError, inside, populated
 
 STEP = 0.01
 """The constant physics step in s. Elapsed wall time decides at most how many steps are made, never how long one is."""
 STEP_NS = 10_000_000
+SLACK = 1e-9
+"""Metres by which a gap that is reckoned from an earlier one may be off."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +58,8 @@ class Simulation:
         self.collisions = CollisionLog()
         self.metrics = Metrics(STEP)
         self.steps = 0
-        self.clearance = gap
+        self._least_gap = -math.inf
+        self._movers_way = STEP * max((each.speed for each in self.world.movers), default=0.0)
         self.speed = 0.0
         self.turn_rate = 0.0
 
@@ -81,23 +84,37 @@ class Simulation:
 
     def step(self) -> bool:
         """Let 10 ms pass; whether a collision began."""
-        pose, drive, space = self.pose, self.drive, self._space
+        pose, drive = self.pose, self.drive
         for mover in self._movers:
             mover.advance(STEP, (pose.x, pose.y), drive.limits.radius)
         drive.advance(STEP)
-        space.step(STEP, drive.linear, drive.angular)
+        x, y, angle = self._space.step(STEP, drive.linear, drive.angular)
         self.steps += 1
         self.odometry.advance(drive.linear * STEP, drive.angular * STEP)
-        x, y = space.body.position
-        heading = math.remainder(space.body.angle, 2 * math.pi)
-        middle = pose.heading + 0.5 * math.remainder(heading - pose.heading, 2 * math.pi)
-        self.speed = ((x - pose.x) * math.cos(middle) + (y - pose.y) * math.sin(middle)) / STEP
-        self.turn_rate = math.remainder(heading - pose.heading, 2 * math.pi) / STEP
+        heading = math.remainder(angle, TURN)
+        turn = math.remainder(heading - pose.heading, TURN)
+        middle = pose.heading + 0.5 * turn
+        dx, dy = x - pose.x, y - pose.y
+        self.speed = speed = (dx * math.cos(middle) + dy * math.sin(middle)) / STEP
+        self.turn_rate = turn / STEP
         self.pose = Pose(x, y, heading)
-        gap, what = space.nearest(x, y)
-        self.clearance = max(0.0, gap)
-        self.metrics.update(x, y, heading, self.speed, self.clearance)
+        self.metrics.update(x, y, heading, speed)
+        # Nothing comes nearer than by the way that was driven: most steps need no look at what is around.
+        self._least_gap -= math.hypot(dx, dy) + self._movers_way
+        return self._least_gap < max(TOUCH, self.metrics.min_clearance) and self._look_around()
+
+    def _look_around(self) -> bool:
+        """Whether a collision began; called whenever something may touch, or be nearer than anything was before."""
+        x, y, _ = self.pose
+        gap, what = self._space.nearest(x, y)
+        self._least_gap = min(gap, FAR - self.drive.limits.radius) - SLACK
+        self.metrics.pass_by(max(0.0, gap))
         return self.collisions.update(self.steps * STEP, gap, x, y, self.speed, what)
+
+    @property
+    def clearance(self) -> float:
+        """The room in m around the robot's hull now; 0 where it touches."""
+        return max(0.0, self._space.nearest(self.pose.x, self.pose.y)[0])
 
     def scan(self) -> Scan:
         """What the LIDAR reports now."""
@@ -120,6 +137,7 @@ class Simulation:
         if self.gap_at(pose.x, pose.y) <= 0.0:
             raise ValueError("the robot does not fit there")
         self._space.place(pose)
+        self._least_gap = -math.inf
         self.pose = pose
         self.odometry.pose = pose
         self.drive.linear = self.drive.angular = 0.0

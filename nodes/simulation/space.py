@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import itertools
 import math
+from typing import Any
 
 import pymunk
+from bot_console_robot.simulation.engine import Body, ffi, lib, pointer
 from bot_console_robot.simulation.geometry import Disc, Pose, closed
 from bot_console_robot.simulation.memory import Memory
 from bot_console_robot.simulation.moving import MovingObstacle
@@ -33,17 +35,21 @@ class Space:
         self._space = pymunk.Space()
         self._memory.take(self._space, self._space.static_body)
         self._space.collision_slop = SLOP
-        self._kinds: dict[pymunk.Shape, str] = {}
+        self._pointer = pointer(self._space)
+        self._kinds: dict[Any, str] = {}
         self._radius = radius
         self._reach = FAR
+        self._place, self._found = ffi.new("cpVect *"), ffi.new("cpPointQueryInfo *")
+        self._obstacles = ffi.new("cpShapeFilter *", tuple(OBSTACLES_ONLY))
         self._add_still(world)
         for mover in movers:
             self._add(pymunk.Circle(mover.body, mover.mover.radius), "a moving obstacle", mover.body)
-        self.body = pymunk.Body(MASS, pymunk.moment_for_circle(MASS, 0, radius))
-        hull = pymunk.Circle(self.body, radius)
+        self._robot = pymunk.Body(MASS, pymunk.moment_for_circle(MASS, 0, radius))
+        hull = pymunk.Circle(self._robot, radius)
         hull.filter = ROBOT
-        self._memory.take(self.body, hull)
-        self._space.add(self.body, hull)
+        self._memory.take(self._robot, hull)
+        self._space.add(self._robot, hull)
+        self._body, self._moment = Body(self._robot), self._robot.moment
         self.place(pose)
 
     def __del__(self) -> None:
@@ -62,40 +68,56 @@ class Space:
 
     def _add(self, shape: pymunk.Shape, kind: str, body: pymunk.Body | None = None) -> None:
         shape.filter = OBSTACLE
-        self._kinds[shape] = kind
+        self._kinds[pointer(shape)] = kind
         parts = (body, shape) if body else (shape,)
         self._memory.take(*parts)
         self._space.add(*parts)
 
     def place(self, pose: Pose) -> None:
         """Put the robot somewhere, at rest."""
-        self.body.position, self.body.angle = (pose.x, pose.y), pose.heading
-        self.body.velocity, self.body.angular_velocity = (0.0, 0.0), 0.0
-        self._space.reindex_shapes_for_body(self.body)
+        robot = self._robot
+        robot.position, robot.angle = (pose.x, pose.y), pose.heading
+        robot.velocity, robot.angular_velocity = (0.0, 0.0), 0.0
+        self._space.reindex_shapes_for_body(robot)
+        self._angle = pose.heading
 
-    def step(self, dt: float, linear: float, angular: float) -> None:
-        """Let `dt` s pass with the robot's wheels driving at m/s and rad/s; walls hold it back."""
-        body = self.body
+    def step(self, dt: float, linear: float, angular: float) -> tuple[float, float, float]:
+        """Let `dt` s pass with the robot's wheels driving at m/s and rad/s; walls hold it back.
+
+        Returns where it then is: x, y (m), and the angle (rad), which goes on growing beyond a turn.
+        """
+        body = self._body
+        vx, vy, turning = body.velocity()
         # A step moves bodies first and resolves contacts after, so a velocity set here would pass through walls.
         # As a force it is resolved against them; the heading is that of the middle of the move it leads to.
-        heading = body.angle + (body.angular_velocity + 0.5 * angular) * dt
-        vx, vy = body.velocity
-        push = body.mass / dt
-        body.force = ((linear * math.cos(heading) - vx) * push, (linear * math.sin(heading) - vy) * push)
-        body.torque = (angular - body.angular_velocity) * body.moment / dt
-        self._space.step(dt)
+        heading = self._angle + (turning + 0.5 * angular) * dt
+        push = MASS / dt
+        body.push(
+            (linear * math.cos(heading) - vx) * push,
+            (linear * math.sin(heading) - vy) * push,
+            (angular - turning) * self._moment / dt,
+        )
+        lib.cpSpaceStep(self._pointer, dt)
+        x, y, self._angle = body.pose()
+        return x, y, self._angle
 
     def nearest(self, x: float, y: float) -> tuple[float, str]:
         """The gap in m between a robot standing there and the nearest thing, negative within it, and its kind."""
         # What is found within a short reach is the nearest within any, and far fewer shapes are looked at for it.
-        found = self._space.point_query_nearest((x, y), self._reach, OBSTACLES_ONLY)
-        if found is None and self._reach < FAR:
-            found = self._space.point_query_nearest((x, y), FAR, OBSTACLES_ONLY)
-        if found is None:
+        found = self._find(x, y, self._reach)
+        if not found and self._reach < FAR:
+            found = self._find(x, y, FAR)
+        if not found:
             self._reach = FAR
             return math.inf, ""
-        self._reach = min(FAR, max(0.0, found.distance) + NEAR)
-        return found.distance - self._radius, self._kinds[found.shape]
+        distance: float = self._found.distance
+        self._reach = min(FAR, max(0.0, distance) + NEAR)
+        return distance - self._radius, self._kinds[found]
+
+    def _find(self, x: float, y: float, reach: float) -> Any:
+        """The nearest shape within a reach, or nothing; more of it is in `_found`."""
+        self._place.x, self._place.y = x, y
+        return lib.cpSpacePointQueryNearest(self._pointer, self._place[0], reach, self._obstacles[0], self._found)
 
     def distance_ahead(self, x: float, y: float, angle: float, reach: float) -> float:
         """The distance in m to the first surface in a direction, one beam at a time; `inf` beyond `reach`."""

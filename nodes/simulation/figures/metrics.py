@@ -26,22 +26,25 @@ class Metrics:
         self.stops = 0
         self._longest = 0
 
-    def update(self, x: float, y: float, heading: float, speed: float, clearance: float) -> None:
-        """Take the true state after a step: m, m, rad, m/s, and m from the hull to the nearest thing."""
+    def update(self, x: float, y: float, heading: float, speed: float) -> None:
+        """Take the true state after a step: m, m, rad, m/s."""
         self.steps += 1
         self._digest.add(x, y, heading)
         speed = abs(speed)
         self.distance += speed * self._dt
-        self.min_clearance = min(self.min_clearance, clearance)
-        if self._driving and speed < STANDING:
-            self._driving = False
-            self.stops += 1
-        elif not self._driving and speed > MOVING:
-            self._driving = True
         if speed >= STANDING:
             self._standing_since = self.steps
-        else:
-            self._longest = max(self._longest, self.steps - self._standing_since)
+            if speed > MOVING:
+                self._driving = True
+            return
+        if self._driving:
+            self._driving = False
+            self.stops += 1
+        self._longest = max(self._longest, self.steps - self._standing_since)
+
+    def pass_by(self, clearance: float) -> None:
+        """Take the room in m from the hull to the nearest thing, where it may be less than it ever was."""
+        self.min_clearance = min(self.min_clearance, clearance)
 
     @property
     def duration(self) -> float:

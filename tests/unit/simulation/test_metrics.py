@@ -7,7 +7,8 @@ from bot_console_robot.simulation.figures.metrics import Metrics
 def run(speeds: list[float], clearance: float = 1.0) -> Metrics:
     metrics = Metrics(0.1)
     for i, speed in enumerate(speeds):
-        metrics.update(float(i), 0.0, 0.0, speed, clearance)
+        metrics.update(float(i), 0.0, 0.0, speed)
+        metrics.pass_by(clearance)
     return metrics
 
 

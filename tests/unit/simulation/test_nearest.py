@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 
 import pytest
+from bot_console_robot.simulation.collisions import TOUCH
 from bot_console_robot.simulation.geometry import Pose
+from bot_console_robot.simulation.simulation import Simulation
 from bot_console_robot.simulation.space import Space
 from bot_console_robot.simulation.world_file import parse_world
 
@@ -38,3 +40,17 @@ def test_where_nothing_is_near_there_is_nothing() -> None:
     assert space.nearest(20.0, 20.0) == (math.inf, "")
     assert space.nearest(38.0, 20.0)[1] == "the boundary"
     assert space.nearest(20.0, 20.0) == (math.inf, "")
+
+
+@pytest.mark.parametrize("speed", [0.3, 1.5])
+def test_the_least_room_of_a_run_is_that_of_its_every_step(speed: float) -> None:
+    people = [{"radius": 0.3, "speed": 1.2, "keep_off": 0.05, "area": [1, 1, 7, 5]} for _ in range(3)]
+    world = parse_world("hall", {"size": [8, 6], "start": [4, 3, 0.3], "moving": people})
+    simulation = Simulation(world, 5)
+    rooms: list[float] = []
+    for step in range(500):
+        simulation.command(speed, math.sin(step / 40))
+        simulation.step()
+        rooms.append(simulation.clearance)
+        assert simulation.metrics.min_clearance == min(rooms)
+        assert simulation.collisions.touching == (rooms[-1] < TOUCH)
