@@ -1,7 +1,7 @@
 """A planar LIDAR: ray casting by angular spans in numpy, then noise, dropout and false returns.
 
-Each surface is tested only against the beams that can meet it. Ranges follow REP 117: no return is `+inf`, too near to
-measure is `-inf`.
+The angle that a surface fills says which beams meet it; only for these is it reckoned where. Ranges follow REP 117: no
+return is `+inf`, too near to measure is `-inf`.
 """
 
 from __future__ import annotations
@@ -10,12 +10,14 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from bot_console_robot.simulation.arrays import Floats, Ints, table
+from bot_console_robot.simulation.arrays import Floats, Ints
 from bot_console_robot.simulation.geometry import TURN, Pose
 from bot_console_robot.simulation.world import World
 
 EDGE = 1e-9
 """Radians by which a span is widened, so that rounding never opens a slit between two walls."""
+END_ON = 1e-6
+"""Radians; an edge that fills less is seen end-on, and where a ray would meet its line is mostly rounding."""
 FULL_SCALE = 255.0
 """The intensity of a white surface right in front of the sensor."""
 DUST = (10.0, 80.0)
@@ -56,17 +58,26 @@ class Scan:
 
 
 class Surfaces:
-    """What light can meet, as arrays: straight edges and circles that stand still."""
+    """What light can meet, as arrays: straight edges first, then circles that stand still, then those that move."""
 
     def __init__(self, world: World) -> None:
-        edges = np.asfortranarray(table([(*a, *b, shine) for a, b, shine in world.edges()], 5))
-        self.ax: Floats = edges[:, 0]
-        self.ay: Floats = edges[:, 1]
-        self.bx: Floats = edges[:, 2]
-        self.by: Floats = edges[:, 3]
-        self.edge_reflectivity: Floats = edges[:, 4]
-        self.circles = table([(each.x, each.y, each.radius) for each in world.discs], 3)
-        self.circle_reflectivity = np.array([each.reflectivity for each in world.discs], np.float64)
+        edges, circles = world.edges(), (*world.discs, *world.movers)
+        centres = [(each.x, each.y) for each in world.discs] + [(0.0, 0.0)] * len(world.movers)
+        points = [begin for begin, _, _ in edges] + [end for _, end, _ in edges] + centres
+        self.edges = len(edges)
+        self.points: Floats = np.array(([x for x, _ in points], [y for _, y in points]), np.float64)
+        """x and y (m) of where edges begin, of where they end, and of the circles' centres."""
+        self.radius: Floats = np.array([each.radius for each in circles], np.float64)
+        shine = [shine for _, _, shine in edges] + [each.reflectivity for each in circles]
+        self.reflectivity: Floats = np.array(shine, np.float64)
+        self._moving: Floats = self.points[:, len(points) - len(world.movers) :]
+
+    def __len__(self) -> int:
+        return self.edges + len(self.radius)
+
+    def move(self, places: Floats) -> None:
+        """Where the moving circles are now: rows that begin with x, y (m)."""
+        self._moving[:] = np.transpose(places[:, :2])
 
 
 class Lidar:
@@ -76,15 +87,22 @@ class Lidar:
         self.settings = settings
         self._surfaces = surfaces
         angles = settings.first_angle + settings.increment * np.arange(settings.beams)
-        self._cos, self._sin = np.cos(angles), np.sin(angles)
+        self._ahead = np.array((np.cos(angles), np.sin(angles)))
+        self._aside = np.array((-self._ahead[1], self._ahead[0]))
+        self._place: Floats = np.empty((2, 1))
+        self._step = settings.increment or 1.0
+        self._nothing: Floats = np.full(settings.beams, math.inf)
+        # A span that runs past a full turn comes round again at the first beams: each surface counts twice.
+        self._owners: Ints = np.arange(len(surfaces)).repeat(2)
 
-    def scan(self, pose: Pose, moving: Floats, reflectivity: Floats, rng: np.random.Generator) -> Scan:
-        """What the sensor reports from a pose; `moving` has a row x, y, radius per moving circle."""
+    def scan(self, pose: Pose, rng: np.random.Generator) -> Scan:
+        """What the sensor reports from a pose."""
         settings = self.settings
-        ranges, shine = self.cast(pose, moving, reflectivity)
+        ranges, intensities = self.cast(pose)
         if settings.noise > 0.0:
-            ranges = ranges + settings.noise * rng.standard_normal(settings.beams)
-        intensities = FULL_SCALE * shine * (1.0 - 0.5 * np.minimum(ranges / settings.range_max, 1.0))
+            ranges += settings.noise * rng.standard_normal(settings.beams)
+        intensities *= FULL_SCALE
+        intensities *= 1.0 - 0.5 * np.minimum(ranges / settings.range_max, 1.0)
         if settings.false_returns > 0.0:
             self._add_dust(ranges, intensities, rng)
         lost = ranges > settings.range_max
@@ -102,75 +120,78 @@ class Lidar:
         ranges[hit] = distance[hit]
         intensities[hit] = (DUST[0] + (DUST[1] - DUST[0]) * draw[2])[hit]
 
-    def cast(self, pose: Pose, moving: Floats, reflectivity: Floats) -> tuple[Floats, Floats]:
+    def cast(self, pose: Pose) -> tuple[Floats, Floats]:
         """True distances in m along each beam (`inf` beyond the last surface), and the reflectivity met there."""
-        surfaces = self._surfaces
-        circles = np.concatenate((surfaces.circles, moving)) if len(moving) else surfaces.circles
-        cx, cy, radius = circles[:, 0] - pose.x, circles[:, 1] - pose.y, circles[:, 2]
-        distance = np.hypot(cx, cy)
-        ax, ay = surfaces.ax - pose.x, surfaces.ay - pose.y
-        bx, by = surfaces.bx - pose.x, surfaces.by - pose.y
-        start, span = _spans(ax, ay, bx, by, cx, cy, radius, distance)
-        owner, beam = self._pairs(start - pose.heading, span)
-        cos, sin = math.cos(pose.heading), math.sin(pose.heading)
-        dx, dy = (self._cos * cos - self._sin * sin)[beam], (self._sin * cos + self._cos * sin)[beam]
-        edges = int(owner.searchsorted(len(ax)))  # pairs of edges come before those of circles
+        surfaces, edges = self._surfaces, self._surfaces.edges
+        self._place[:, 0] = pose.x, pose.y
+        points = surfaces.points - self._place
+        starts, ends, centres = points[:, :edges], points[:, edges : 2 * edges], points[:, 2 * edges :]
+        distance = np.hypot(centres[0], centres[1])
+        start, span = _spans(np.arctan2(points[1], points[0]), edges, surfaces.radius / np.maximum(distance, 1e-12))
+        owner, beam = self._pairs(start, span, pose.heading)
+        turned = self._ahead * math.cos(pose.heading) + self._aside * math.sin(pose.heading)
+        rays = turned.take(beam, 1)
+        split = owner.searchsorted(edges)  # pairs of edges come before those of circles
         depth = np.empty(len(owner))
-        with np.errstate(divide="ignore", invalid="ignore"):
-            o = owner[:edges]
-            depth[:edges] = _edge_depth((ax, ay, bx - ax, by - ay), o, dx[:edges], dy[:edges])
-            o = owner[edges:] - len(ax)
-            depth[edges:] = _circle_depth((cx, cy, radius, distance), o, dx[edges:], dy[edges:])
-        ranges = np.full(self.settings.beams, math.inf)
+        depth[:split] = _edge_depth(starts, ends - starts, owner[:split], rays[:, :split])
+        depth[split:] = _circle_depth(centres, surfaces.radius, distance, owner[split:] - edges, rays[:, split:])
+        ranges = np.array(self._nothing)
         np.minimum.at(ranges, beam, depth)
-        nearest = (depth == ranges[beam]).nonzero()[0]
+        nearest = (depth == ranges.take(beam)).nonzero()[0]
         shine = np.zeros(self.settings.beams)
-        shares = (surfaces.edge_reflectivity, surfaces.circle_reflectivity, reflectivity)
-        shine[beam[nearest]] = np.concatenate(shares)[owner[nearest]]
-        shine[np.isinf(ranges)] = 0.0
+        shine[beam.take(nearest)] = surfaces.reflectivity.take(owner.take(nearest))
         return ranges, shine
 
-    def _pairs(self, start: Floats, span: Floats) -> tuple[Ints, Ints]:
-        """Which surface can meet which beam: two arrays of indices in the order of surfaces, from their spans (rad)."""
-        settings = self.settings
-        step = settings.increment or 1.0
-        begin = np.mod(start - settings.first_angle, TURN)
-        # A span that runs past a full turn comes round again at the first beams.
-        begin = np.array((begin, begin - TURN))
-        first = np.maximum(np.ceil((begin - EDGE) / step), 0).astype(np.int64)
-        last = np.minimum(np.floor((begin + span + EDGE) / step), settings.beams - 1).astype(np.int64)
-        count = np.maximum(last - first + 1, 0).ravel("F")
+    def _pairs(self, start: Floats, span: Floats, heading: float) -> tuple[Ints, Ints]:
+        """Which surface is met by which beam: two arrays of indices in the order of surfaces, from spans in rad."""
+        settings, step = self.settings, self._step
+        past = np.empty((len(start), 2))  # the first beam past where a span begins
+        past[:, 0] = np.mod(start - (heading + settings.first_angle + EDGE), TURN) / step + 1.0
+        past[:, 1] = past[:, 0] - TURN / step
+        end = np.minimum(past + ((span + 2.0 * EDGE) / step)[:, None], settings.beams).astype(np.int64).ravel()
+        first = np.maximum(past, 0.0).astype(np.int64).ravel()
+        count = np.maximum(end - first, 0)
         # The place among all pairs, less that of the span's first pair, is how far on from its first beam it is.
-        beam = (first.ravel("F") - count.cumsum() + count).repeat(count)
-        return np.arange(len(span)).repeat(2).repeat(count), np.arange(len(beam)) + beam
+        beam = (first - count.cumsum() + count).repeat(count)
+        beam += np.arange(len(beam))
+        return self._owners.repeat(count), beam
 
 
-def _spans(
-    ax: Floats, ay: Floats, bx: Floats, by: Floats, cx: Floats, cy: Floats, radius: Floats, distance: Floats
-) -> tuple[Floats, Floats]:
-    """Start and width in rad of the angle that each edge, then each circle, fills."""
-    angle = np.arctan2(ay, ax)
-    width = np.mod(np.arctan2(by, bx) - angle + math.pi, TURN) - math.pi
-    ratio = np.minimum(1.0, radius / np.maximum(distance, 1e-12))
-    half = np.where(distance > radius, np.arcsin(ratio), math.pi)
-    start = np.concatenate((np.where(width >= 0, angle, angle + width), np.arctan2(cy, cx) - half))
-    return start, np.concatenate((np.abs(width), 2 * half))
+def _spans(angle: Floats, edges: int, ratio: Floats) -> tuple[Floats, Floats]:
+    """Start and width in rad of the angle that each edge, then each circle, fills; what is seen end-on fills none.
+
+    `angle` is that of where edges begin, of where they end, and of the circles' centres; `ratio` is that of a circle's
+    radius to its distance.
+    """
+    start, span = np.empty((2, edges + len(ratio)))
+    begin, centre = angle[:edges], angle[2 * edges :]
+    width = angle[edges : 2 * edges] - begin
+    width -= TURN * np.rint(width / TURN)
+    np.add(begin, np.minimum(width, 0.0), out=start[:edges])
+    np.abs(width, out=span[:edges])
+    half = np.arcsin(np.minimum(ratio, 1.0))
+    half[ratio >= 1.0] = math.pi
+    np.subtract(centre, half, out=start[edges:])
+    np.add(half, half, out=span[edges:])
+    span[span < END_ON] = -1.0
+    return start, span
 
 
-def _edge_depth(edges: tuple[Floats, Floats, Floats, Floats], owner: Ints, dx: Floats, dy: Floats) -> Floats:
-    """Where rays along (dx, dy) meet their edges, from (x, y) along (sx, sy): m, `inf` for a miss."""
-    x, y, sx, sy = edges
-    across = dx * sy[owner] - dy * sx[owner]
-    depth = (x * sy - y * sx)[owner] / across
-    share = (x[owner] * dy - y[owner] * dx) / across
-    return np.where((depth >= 0) & (share >= -EDGE) & (share <= 1 + EDGE), depth, math.inf)
+def _edge_depth(starts: Floats, along: Floats, owner: Ints, rays: Floats) -> Floats:
+    """Where rays along (x, y) meet the lines of their edges, in m."""
+    (x, y), (along_x, along_y) = starts, along
+    moment = x * along_y - y * along_x
+    (along_x, along_y), (dx, dy) = along.take(owner, 1), rays
+    return moment.take(owner) / (dx * along_y - dy * along_x)
 
 
-def _circle_depth(circles: tuple[Floats, Floats, Floats, Floats], owner: Ints, dx: Floats, dy: Floats) -> Floats:
-    """Where rays along (dx, dy) meet their circles (x, y, radius, distance): m, 0 from inside, `inf` for a miss."""
-    x, y, radius, distance = circles
-    along = x[owner] * dx + y[owner] * dy
-    inside = (radius * radius)[owner] - ((distance * distance)[owner] - along * along)
-    depth = along - np.sqrt(inside)
-    depth = np.where((inside >= 0) & (depth >= 0), depth, math.inf)
-    return np.where((distance <= radius)[owner], 0.0, depth)
+def _circle_depth(centres: Floats, radius: Floats, distance: Floats, owner: Ints, rays: Floats) -> Floats:
+    """Where rays along (x, y) meet their circles, in m; 0 from inside."""
+    (x, y), (dx, dy) = centres.take(owner, 1), rays
+    along = x * dx + y * dy
+    chord = (radius * radius).take(owner) - ((distance * distance).take(owner) - along * along)
+    depth = along - np.sqrt(np.maximum(chord, 0.0))  # at the rim rounding may have it just miss
+    around = distance <= radius
+    if np.count_nonzero(around):  # half of what `any` costs
+        depth[around.take(owner)] = 0.0
+    return depth

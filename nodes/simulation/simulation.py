@@ -45,7 +45,6 @@ class Simulation:
         self._rng = np.random.default_rng(seed)
         self.world = populated(world, self._rng)
         self._movers = [MovingObstacle(each, self._rng) for each in self.world.movers]
-        self._mover_shine = np.array([each.reflectivity for each in self.world.movers], np.float64)
         self._surfaces = Surfaces(self.world)
         self.pose = self.world.start
         self._space = Space(self.world, self._movers, self.pose, settings.limits.radius)
@@ -118,7 +117,9 @@ class Simulation:
 
     def scan(self) -> Scan:
         """What the LIDAR reports now."""
-        return self.lidar.scan(self.pose, self.moving(), self._mover_shine, self._rng)
+        if self._movers:
+            self._surfaces.move(self.moving())
+        return self.lidar.scan(self.pose, self._rng)
 
     def moving(self) -> Floats:
         """The moving obstacles now, one row x, y, radius (m) each."""

@@ -58,6 +58,15 @@ def test_moving_obstacles_are_seen() -> None:
     assert simulation.scan().ranges[179] == pytest.approx(1.7, abs=1e-3)
 
 
+def test_a_wall_seen_end_on_gives_no_return_from_elsewhere() -> None:
+    walls = [{"points": [[3.0, 2.0], [5.0, 2.0]]}, {"points": [[4.0, 1.0], [4.0, 1.7]]}]
+    simulation = simulate(
+        parse_world("w", {"size": [6, 4], "start": [1, 2, 0], "walls": walls}), replace(EXACT, beams=361)
+    )
+    ahead = simulation.scan().ranges[179:182]
+    assert ahead == pytest.approx([5.0] * 3, abs=2e-3) or ahead[1] == pytest.approx(2.0)
+
+
 def test_noise_has_the_asked_deviation(room: World) -> None:
     exact = simulate(room).scan().ranges
     simulation = simulate(room, replace(EXACT, noise=0.05))
