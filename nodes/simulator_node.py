@@ -242,8 +242,8 @@ class Simulator(Node):
     def _advance(self) -> None:
         simulation = self._simulation
         began = simulation.step()
-        stamp = messages.time_of(simulation.time_ns)
-        self._clock_messages.publish(ClockMessage(clock=stamp))
+        if self._clock_messages.get_subscription_count():
+            self._clock_messages.publish(ClockMessage(clock=messages.time_of(simulation.time_ns)))
         if simulation.collisions.touching != self._bumped:
             self._bumped = simulation.collisions.touching
             self._bumper.publish(Bool(data=self._bumped))
