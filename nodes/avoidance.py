@@ -71,7 +71,9 @@ class Avoidance:
         cos, sin = self._beams(len(ranges), first, increment)
         depth = ranges[seen]
         nearest = float(depth.min()) if len(depth) else math.inf
-        room = self._room(depth * cos[seen], depth * sin[seen], rules.safety_distance)
+        near = seen & (ranges < HORIZON + rules.safety_distance)  # what is beyond takes no room from any lane
+        depth = ranges[near]
+        room = self._room(depth * cos[near], depth * sin[near], rules.safety_distance)
         if rules.enable_safety and float(room[AHEAD]) <= rules.safety_distance:
             side = self._keep_side(np.where(seen, ranges, np.float32(HORIZON)))
             return Decision(0.0, side * rules.turn_rate, True, nearest)

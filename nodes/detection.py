@@ -43,19 +43,17 @@ def strong(ranges: Floats, intensities: Floats, threshold: int) -> Floats:
 
 def find(ranges: Floats, first: float, increment: float) -> list[Detection]:
     """Groups of returns, from right to left."""
-    index = np.flatnonzero(np.isfinite(ranges) & (ranges > 0.0))
+    index = (np.isfinite(ranges) & (ranges > 0.0)).nonzero()[0]
     if not len(index):
         return []
     angle = first + increment * index
     depth = ranges[index].astype(np.float64)
     x, y = depth * np.cos(angle), depth * np.sin(angle)
-    apart = (np.hypot(np.diff(x), np.diff(y)) > SAME_THING) | (np.diff(index) > 2)
-    starts = np.concatenate(([0], np.flatnonzero(apart) + 1))
+    apart = (np.hypot(x[1:] - x[:-1], y[1:] - y[:-1]) > SAME_THING) | (index[1:] - index[:-1] > 2)
+    starts = np.concatenate(([0], apart.nonzero()[0] + 1))
     ends = np.concatenate((starts[1:], [len(index)]))
-    found: list[Detection] = []
-    for start, end in zip(starts.tolist(), ends.tolist(), strict=True):
-        if end - start >= FEWEST:
-            width = math.hypot(float(x[end - 1] - x[start]), float(y[end - 1] - y[start]))
-            group = slice(start, end)
-            found.append(Detection(float(x[group].mean()), float(y[group].mean()), width, float(depth[group].min())))
-    return found
+    beams = ends - starts
+    middle_x, middle_y = np.add.reduceat(x, starts) / beams, np.add.reduceat(y, starts) / beams
+    width = np.hypot(x[ends - 1] - x[starts], y[ends - 1] - y[starts])
+    things = np.array((middle_x, middle_y, width, np.minimum.reduceat(depth, starts)), np.float64)
+    return [Detection(*map(float, thing)) for thing in np.transpose(things[:, beams >= FEWEST])]
