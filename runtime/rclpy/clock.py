@@ -135,7 +135,7 @@ class Clock(AnyClock):
 
     def now(self) -> Time:
         """The time now."""
-        return Time(nanoseconds=self._now_ns(), clock_type=self._clock_type)
+        return Time._of(self._now_ns(), self._clock_type)
 
     def _now_ns(self) -> int:
         if self._clock_type is ClockType.STEADY_TIME:

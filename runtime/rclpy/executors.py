@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-import threading
+from _thread import allocate_lock
 from collections import deque
 from collections.abc import Callable, Coroutine
 from operator import attrgetter
@@ -66,7 +66,7 @@ class Executor(ReadyCallbacks):
         self._held: list[Any] = []
         """Ready entities whose group, one of the program's own, did not let them begin."""
         self._timers = TimerHeap()
-        self._lock = threading.Lock()
+        self._lock = allocate_lock()  # of a few lines that never wait: also in a stepped run nobody is kept by it
         self._wakeup = self._clock.wakeup()
         self._waiting = 0
         self._is_shutdown = False
