@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+from bot_console_robot.common.demand import wanted
 from bot_console_robot.common.diagnostics import ERROR, OK, WARN, status
 from bot_console_robot.common.parameters import accepted, number, plain, proposed, refused
 from bot_console_robot.common.robot_time import RobotTime
@@ -160,6 +161,8 @@ class SafetyMonitor(Node):
             log.warning("Stopped: no velocity command for 0.5 s")
 
     def _publish_diagnostics(self) -> None:
+        if not wanted(self._diagnostics):
+            return
         verdict = self._verdict
         level = {"": OK, "warning_distance": WARN, NO_COMMAND: WARN, STEERED: OK}.get(verdict.limited_by, ERROR)
         message = f"limited by {verdict.limited_by}" if verdict.limited_by else "free"

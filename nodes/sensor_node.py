@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from bot_console_robot.common.demand import wanted
 from bot_console_robot.common.diagnostics import ERROR, OK
 from bot_console_robot.common.health import Health, HealthReport
 from bot_console_robot.common.parameters import number, plain, whole
@@ -16,7 +17,7 @@ from sensor_msgs.msg import LaserScan
 
 
 class SensorHandler(Node):
-    """Publishes `scan_filtered` and `detections`."""
+    """Publishes `scan_filtered` and `detections` to those who listen."""
 
     def __init__(self) -> None:
         super().__init__("sensor_handler", enable_logger_service=True)
@@ -63,7 +64,7 @@ class SensorHandler(Node):
 
     def _process(self) -> None:
         scan, self._newest = self._newest, None
-        if scan is None:
+        if scan is None or not (self._health.wanted or wanted(self._scans) or wanted(self._detections)):
             return
         ranges = strong(ranges_of(scan), intensities_of(scan), self._threshold)
         if self._filter:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 
+from bot_console_robot.common.demand import wanted
 from bot_console_robot.common.diagnostics import OK, WARN
 from bot_console_robot.common.health import Health, HealthReport
 from bot_console_robot.common.parameters import accepted, refused
@@ -268,10 +269,11 @@ class Simulator(Node):
         simulation, drive, frames = self._simulation, self._simulation.drive, self._frames
         stamp = messages.time_of(simulation.time_ns)
         wheels = (drive.linear, drive.angular)
-        truth = (simulation.speed, simulation.turn_rate)
-        told, true = frames.in_odom(simulation.odometry.pose), frames.in_map(simulation.pose)
+        told = frames.in_odom(simulation.odometry.pose)
         self._odometry.publish(messages.odometry_message(told, wheels, (messages.ODOM, self._model.footprint), stamp))
-        self._truth.publish(messages.odometry_message(true, truth, (messages.MAP, self._model.footprint), stamp))
+        if wanted(self._truth):
+            true, speeds = frames.in_map(simulation.pose), (simulation.speed, simulation.turn_rate)
+            self._truth.publish(messages.odometry_message(true, speeds, (messages.MAP, self._model.footprint), stamp))
         self._signals.publish(simulation, stamp)
 
     def _publish_scan(self) -> None:

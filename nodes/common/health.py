@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+from bot_console_robot.common.demand import wanted
 from bot_console_robot.common.diagnostics import status
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.node import Node
@@ -15,7 +16,7 @@ Health = tuple[bytes, str, Mapping[str, object]]
 
 
 class HealthReport:
-    """Tells `<node>: <part>` with what `look` gives."""
+    """Tells `<node>: <part>` with what `look` gives, to whom wants it; `look` is called once a second anyway."""
 
     def __init__(self, node: Node, part: str, look: Callable[[], Health]) -> None:
         self._node = node
@@ -26,4 +27,10 @@ class HealthReport:
 
     def _tell(self) -> None:
         level, message, values = self._look()
-        self._publisher.publish(status(self._name, level, message, values, self._node.get_clock().now().to_msg()))
+        if self.wanted:
+            self._publisher.publish(status(self._name, level, message, values, self._node.get_clock().now().to_msg()))
+
+    @property
+    def wanted(self) -> bool:
+        """Whether anybody gets it."""
+        return wanted(self._publisher)

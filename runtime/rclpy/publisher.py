@@ -112,6 +112,10 @@ class Publisher:
         self._use()
         return self._endpoint.matched_count()
 
+    def _is_heard(self) -> bool:
+        """Whether anybody gets what is published; other than subscriptions there may be who keeps what was."""
+        return self._endpoint.is_heard()
+
     def assert_liveliness(self) -> None:
         """Say that this publisher is alive, for MANUAL_BY_TOPIC liveliness."""
         self._use()

@@ -63,6 +63,10 @@ class PublisherEndpoint(Publisher, Protocol):
         """How many subscriptions receive."""
         ...
 
+    def is_heard(self) -> bool:
+        """Whether anybody gets what is published: a subscription, here or elsewhere, or who overhears all."""
+        ...
+
 
 Thing = PublisherEndpoint | SubscriptionEndpoint | ServiceEndpoint | ClientEndpoint
 """What a node has on a bus."""

@@ -120,6 +120,10 @@ class LocalPublisher:
         """How many subscriptions receive."""
         return len(self.targets) - (self._outlet is not None) + self.elsewhere
 
+    def is_heard(self) -> bool:
+        """Whether anybody gets what is published: a subscription, here or elsewhere, or who overhears all."""
+        return bool(self.targets) or self._tap.hear is not None
+
     def send_elsewhere(self, outlet: SubscriptionEndpoint | None) -> None:
         """Let a target take each message, serialized, for other processes; None where nobody wants it there."""
         with self._lock:

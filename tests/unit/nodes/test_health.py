@@ -15,13 +15,14 @@ class FakeNode:
     def __init__(self) -> None:
         self.sent: list[DiagnosticArray] = []
         self.timers: list[tuple[float, Any]] = []
+        self.listeners = 1
 
     def get_name(self) -> str:
         return "arm"
 
     def create_publisher(self, kind: Any, topic: str, depth: int) -> Any:
         assert (kind, topic) == (DiagnosticArray, "diagnostics")
-        return SimpleNamespace(publish=self.sent.append)
+        return SimpleNamespace(publish=self.sent.append, get_subscription_count=lambda: self.listeners)
 
     def create_timer(self, period: float, callback: Any) -> None:
         self.timers.append((period, callback))
@@ -41,3 +42,15 @@ def test_a_status_a_second_with_values_as_text() -> None:
     assert (first.name, first.level, first.message, node.sent[0].header.stamp.sec) == ("arm: motor", OK, "fine", 7)
     assert [(each.key, each.value) for each in first.values] == [("rate", "10"), ("on", "True")]
     assert (second.level, second.message) == (ERROR, "dead")
+
+
+def test_what_nobody_gets_is_not_made_but_looked_at() -> None:
+    node, looks = FakeNode(), [(OK, "fine", {"never shown": object()})] * 2
+    node.listeners = 0
+    HealthReport(node, "motor", looks.pop)
+    [(_, tell)] = node.timers
+    tell()
+    assert (len(looks), node.sent) == (1, [])
+    node.listeners = 1
+    tell()
+    assert (len(looks), len(node.sent)) == (0, 1)

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 import rclpy
 from bot_console.runtime.rmw.middleware import bus_of
+from bot_console_robot.common.demand import wanted
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.serialization import deserialize_message
 from std_msgs.msg import String
@@ -41,7 +42,9 @@ def test_it_hears_what_nobody_subscribes_and_is_not_counted(node: Any, heard: li
     publisher.publish(String(data="to nobody"))
     assert [(number, each.data) for number, each in heard] == [(1, "to nobody")]
     assert publisher.get_subscription_count() == node.count_subscribers("/words") == 0
+    assert wanted(publisher)
     bus_of(0).overhear(None)
+    assert not wanted(publisher)
     publisher.publish(String(data="again"))
     assert len(heard) == 1
 
