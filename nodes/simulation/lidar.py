@@ -139,7 +139,7 @@ class Lidar:
         np.minimum.at(ranges, beam, depth)
         nearest = (depth == ranges.take(beam)).nonzero()[0]
         shine = np.zeros(self.settings.beams)
-        shine[beam.take(nearest)] = surfaces.reflectivity.take(owner.take(nearest))
+        shine[beam.take(nearest)] = surfaces.reflectivity[owner[nearest]]
         return ranges, shine
 
     def _pairs(self, start: Floats, span: Floats, heading: float) -> tuple[Ints, Ints]:
