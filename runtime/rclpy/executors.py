@@ -227,17 +227,19 @@ class Executor(ReadyCallbacks):
     def _new_batch(self) -> bool:
         """Collect what is ready; whether there was anything."""
         ready, batch, timers = self._ready, self._batch, self._timers.entries
+        now = self._steady_ns() if timers else 0
+        due = bool(timers) and timers[0][0] <= now
+        if not (due or ready or self._ready_tasks):  # as before each wait
+            return bool(batch)
         entities: list[Any] = []
         while ready:
             entity = ready.popleft()
             entity.marked = None
             if entity.sink is self:
                 entities.append(entity)
-        if timers:
-            now = self._steady_ns()
-            if timers[0][0] <= now:
-                with self._lock:
-                    entities += self._timers.pop_due(now, self)
+        if due:
+            with self._lock:
+                entities += self._timers.pop_due(now, self)
         if self._ready_tasks:
             batch.extend(self._collect_tasks())
         if len(entities) > 1:

@@ -151,7 +151,8 @@ class ThreadState:
             self._thrown = False
             # What was thrown while it was busy is raised here, not later in the middle of the wait.
             _checkpoint()
-        self.deliver()
+        if self.killed or self._pending:
+            self.deliver()
 
     def end_wait(self) -> None:
         """The wait is over: from here on the thread counts as busy."""
