@@ -7,8 +7,9 @@ from bot_console.runtime.importer import install
 INTERFACES = ("action_msgs", "builtin_interfaces", "geometry_msgs", "nav_msgs", "rcl_interfaces", "sensor_msgs",
               "std_msgs", "std_srvs", "tf2_msgs")  # fmt: skip
 """Those whose messages, services and actions most nodes import."""
-MODULES = ("numpy", "launch_ros.node_program", "rclpy.action", "rclpy.executors", "rclpy.qos",
-           "bot_console.runtime.rmw.zenoh.domain.domain_bus")  # fmt: skip
+MODULES = ("numpy", "rclpy.action", "rclpy.executors", "rclpy.qos", "bot_console.runtime.own_processes",
+           "bot_console.runtime.workspace.launched", "bot_console.runtime.rmw.zenoh.bus",
+           "bot_console.runtime.rmw.zenoh.domain.domain_bus", "bot_console.runtime.rmw.zenoh.domain.mesh")  # fmt: skip
 
 
 def warm_up() -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import importlib
 import re
-from importlib.metadata import entry_points
 from typing import Any
 
 EXECUTABLES = ("component_container", "component_container_mt", "component_container_isolated")
@@ -118,6 +117,8 @@ def _with_options(component: type[Any], options: dict[str, Any]) -> type[Any]:
 
 def find_component(package: str, plugin: str) -> type[Any]:
     """A component's class: an entry point, `package::Class` or `package.module::Class`; raises `LookupError`."""
+    from importlib.metadata import entry_points  # takes 20 ms, and most launches have no container
+
     for each in entry_points(group=ENTRY_POINTS):
         if each.name == plugin:
             return each.load()

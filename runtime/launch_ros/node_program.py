@@ -11,70 +11,48 @@ from pathlib import Path
 from typing import Any
 
 from ament_index_python.packages import PackageNotFoundError, get_package_prefix
-from bot_console.runtime.importer import node_modules
-from bot_console.runtime.plain_file import examine, then_main
-from bot_console.runtime.process import entry_point_program, file_program
+from bot_console.runtime.plain_file import examine
 from bot_console.runtime.workspace.demos import IMPORT_NAME
-from bot_console.runtime.workspace.discover import Workspace, use, workspace
+from bot_console.runtime.workspace.discover import workspace
 from bot_console.runtime.workspace.executables import Executable, executables
+from bot_console.runtime.workspace.launched import Program, entry_point, find_packages_in, python_file
 from bot_console.runtime.workspace.own import ROOT, is_own
 from bot_console.runtime.workspace.program import source_folders
 from launch.child import PythonProgram
 from launch_ros import component_container
 from launch_ros.component_container import EXECUTABLES
 
-Program = Callable[[], object]
-
 
 def program_of(package: str | None, path: str) -> PythonProgram | None:
     """The program behind an executable's path; None where it is not Python."""
     if _is_container(package, path):
         threads = 1 if os.path.basename(path) == EXECUTABLES[0] else None
-        return _program("container", False, threads)
+        return _program(container, False, threads)
     executable = _known(package, path)
     if executable is not None and executable.entry_point is not None:
         entry = executable.entry_point
         found = workspace().find(executable.package)
         is_ours = (found is not None and is_own(found)) or entry.module.startswith(f"{IMPORT_NAME}.")
         function = f"{entry.module}:{entry.function}"
-        return _program("entry_point", is_ours, function, source_folders(executable.package))
+        return _program(entry_point, is_ours, function, source_folders(executable.package))
     if not _is_python(path):
         return None
     folders = [os.path.dirname(os.path.abspath(path)), *_above_packages(path), *_prefix_folders(package)]
     is_ours = os.path.realpath(path).startswith(str(ROOT / "nodes") + os.sep)
     only_a_file = package is None and path.endswith(".py")
     calls_main = only_a_file and examine(Path(path)).calls_main
-    return _program("python_file", is_ours, path, [*folders, *source_folders()], calls_main)
+    return _program(python_file, is_ours, path, [*folders, *source_folders()], calls_main)
 
 
-def _program(kind: str, is_ours: bool, *arguments: Any) -> PythonProgram:
+def _program(kind: Callable[..., Program], is_ours: bool, *arguments: Any) -> PythonProgram:
     workspace_folders = [str(each) for each in workspace().folders]
-    return PythonProgram(f"{__name__}:{kind}", (workspace_folders, *arguments), is_ours)
+    return PythonProgram(f"{kind.__module__}:{kind.__name__}", (workspace_folders, *arguments), is_ours)
 
 
 def container(workspace_folders: Sequence[str], threads: int | None) -> Program:
     """The program of a component container."""
-    _find_packages_in(workspace_folders)
+    find_packages_in(workspace_folders)
     return partial(component_container.main, threads=threads)
-
-
-def entry_point(workspace_folders: Sequence[str], function: str, folders: Sequence[str]) -> Program:
-    """The program of `module:function`, imported from folders."""
-    _find_packages_in(workspace_folders)
-    return entry_point_program(function, node_modules(folders))
-
-
-def python_file(workspace_folders: Sequence[str], path: str, folders: Sequence[str], calls_main: bool) -> Program:
-    """The program of a file whose modules lie in folders; where it only defines `main()`, that is called."""
-    _find_packages_in(workspace_folders)
-    runs = file_program(path, node_modules(folders))
-    return then_main(runs) if calls_main else runs
-
-
-def _find_packages_in(folders: Sequence[str]) -> None:
-    """In a process of its own: look where the launch looks."""
-    if [str(each) for each in workspace().folders] != list(folders):
-        use(Workspace([Path(each) for each in folders]))
 
 
 def is_this_python(words: Sequence[str]) -> bool:

@@ -66,6 +66,9 @@ def _run(words: Words) -> int:
 
 
 def _launch(words: Words) -> int:
+    from bot_console.tui.cli.system.own_processes import foresee
+
+    foresee(words)
     from bot_console.tui.cli.system.workspaces import tell_whose
 
     tell_whose(next((each for each in words if not each.startswith("-")), ""))

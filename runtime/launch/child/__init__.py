@@ -4,8 +4,8 @@ A process of the system (`os_child`), a node process, which is a thread of this 
 own for a Python program (`forked_child`).
 """
 
+from bot_console.runtime.own_processes import CAN_FORK, begin_children_with, close_fork_server, fork_server
 from launch.child.child import Child, Output
-from launch.child.forked_child import CAN_FORK, begin_children_with, close_fork_server, fork_server
 from launch.child.news import News, on_news, tell_news
 from launch.child.python_program import PythonProgram
 from launch.child.start import start_child

@@ -5,59 +5,22 @@ from __future__ import annotations
 import asyncio
 import operator
 import os
-import threading
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
-from typing import Any
 
-from bot_console.runtime.process.fork_server import ForkServer, Job, Report, function_named
+from bot_console.runtime.own_processes import beginnings, begun, fork_server
+from bot_console.runtime.process.fork_server import Job, Report
 from launch.child.child import Output
 from launch.child.news import NewsReader
 from launch.child.python_program import PythonProgram
 from launch.child.streamed_child import StreamedChild, read_stream
 
-WARM_UP = "bot_console.runtime.warm_up:warm_up"
 UNKNOWN = 255
 """The exit code of a process whose fork server was killed: nobody could ask the system for the real one."""
 UNKNOWN_TEXT = b"the fork server was killed, so the exit code of this process is not known\n"
 
 DATA = 3
 """Its data pipe, among its streams: what it has to tell of its end is waited for."""
-
-CAN_FORK = hasattr(os, "fork")
-
-_guard = threading.Lock()
-_beginnings: list[str] = []
-_servers: list[ForkServer] = []
-
-
-def fork_server() -> ForkServer:
-    """The fork server of this process, started when it is first asked for, and anew when it was killed."""
-    with _guard:
-        if not _servers or not _servers[0].is_alive:
-            _servers[:] = [ForkServer(WARM_UP)]
-        return _servers[0]
-
-
-def close_fork_server() -> None:
-    """End the server, and with it all that it has started; waits for that."""
-    with _guard:
-        servers, _servers[:] = list(_servers), []
-    for each in servers:
-        each.close()
-
-
-def begin_children_with(function: str) -> None:
-    """Let each process of its own call `package.module:function` before anything else, as to choose its middleware."""
-    if function not in _beginnings:
-        _beginnings.append(function)
-
-
-def begun(beginnings: Sequence[str], function: str, arguments: Sequence[Any]) -> Callable[[], object]:
-    """In the process: what it is to run, once the beginnings were called."""
-    for each in beginnings:
-        function_named(each)()
-    return PythonProgram(function, tuple(arguments)).load()
 
 
 class ForkedChild(StreamedChild):
@@ -153,8 +116,9 @@ async def start_forked_child(
 
     loop = asyncio.get_running_loop()
     child = ForkedChild(name, output, loop)
-    words = (list(_beginnings), program.function, program.arguments)
-    job = Job(name, f"{__name__}:begun", words, list(argv), dict(env), os.path.abspath(cwd or os.getcwd()))
+    words = (beginnings(), program.function, program.arguments)
+    first = f"{begun.__module__}:{begun.__name__}"
+    job = Job(name, first, words, list(argv), dict(env), os.path.abspath(cwd or os.getcwd()))
     with ExitStack() as kept, ExitStack() as given:
         out, error = open_terminals() if emulate_tty else open_pipes()
         child_input, own_input = os.pipe()

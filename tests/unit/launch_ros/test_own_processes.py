@@ -15,9 +15,10 @@ import pytest
 if not hasattr(os, "fork"):
     pytest.skip("needs fork", allow_module_level=True)
 
+from bot_console.runtime import own_processes
 from bot_console.runtime.process import stepped
 from launch.actions import EmitEvent, ExecuteProcess, RegisterEventHandler, Shutdown
-from launch.child import News, begin_children_with, close_fork_server, fork_server, forked_child, on_news
+from launch.child import News, begin_children_with, close_fork_server, fork_server, on_news
 from launch.event_handlers import OnProcessExit, OnProcessIO, OnProcessStart
 from launch.events import matches_action
 from launch.events.process import SignalProcess
@@ -65,12 +66,13 @@ IN_A_PROCESS = "import os, sys, threading; print(os.getpid() < 1 << 22, os.getpp
 
 
 def test_a_node_has_a_process_with_its_arguments_and_environment(run: Launch, script: Any) -> None:
-    path = script(IN_A_PROCESS.format(server=fork_server().pid) + "\nprint(os.environ['BC_A'])")
+    tells = "\nprint(os.environ['BC_A'], 'asyncio' in sys.modules)"
+    path = script(IN_A_PROCESS.format(server=fork_server().pid) + tells)
     pids: list[int] = []
     started = RegisterEventHandler(OnProcessStart(on_start=lambda event, context: pids.append(event.pid)))
     node = Node(executable=path, name="a", output="screen", arguments=["x"], additional_env={"BC_A": "b"})
     text = run([started, node], PROCESS).text
-    assert lines_of(text) == ["True True ['x', '--ros-args', '-r', '__node:=a']", "b"]
+    assert lines_of(text) == ["True True ['x', '--ros-args', '-r', '__node:=a']", "b False"]  # no launch in it
     assert len(pids) == 1 and pids[0] < 1 << 22 and f"process has finished cleanly [pid {pids[0]}]" in text
 
 
@@ -90,7 +92,7 @@ def test_who_gets_a_process(run: Launch, script: Any) -> None:
 
 def test_each_begins_with_what_the_composition_wants(run: Launch, script: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     path = script("import tracemalloc; print(tracemalloc.is_tracing())")
-    monkeypatch.setattr(forked_child, "_beginnings", [])
+    monkeypatch.setattr(own_processes, "_beginnings", [])
     begin_children_with("tracemalloc:start")
     assert lines_of(run([Node(executable=path, output="screen")], PROCESS).text) == ["True"]
 

@@ -2,9 +2,25 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Sequence
+
+from bot_console.runtime.own_processes import CAN_FORK, begin_children_with, fork_server
 from bot_console.runtime.rmw.zenoh.domain.domain_bus import is_in_range, share_domains
 
 SHARE = f"{share_domains.__module__}:{share_domains.__name__}"
+
+STARTS_NOTHING = {"-h", "--help", "-p", "--print", "--print-description", "-s", "--show-args", "--show-arguments",
+                  "isolation:=thread"}  # fmt: skip
+"""Words of `launch` with which it needs no process."""
+
+
+def foresee(words: Sequence[str]) -> None:
+    """Start the fork server of a `launch` with these words: it warms up while the launch file is found and read."""
+    places = [each for each in words if not each.startswith("-") and ":=" not in each]
+    names_file = len(places) > 1 or any(map(os.path.isfile, places))
+    if CAN_FORK and is_in_range() and names_file and not STARTS_NOTHING.intersection(words):
+        fork_server()
 
 
 def isolate() -> None:
@@ -13,7 +29,6 @@ def isolate() -> None:
     To be called by programs that take part in their domain, after the runtime was installed. Processes that the
     environment lets nobody find would be alone: there all nodes stay in this one.
     """
-    from launch.child import begin_children_with
     from launch.isolation import isolate_by_default
 
     if is_in_range():

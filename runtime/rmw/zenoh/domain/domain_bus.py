@@ -5,12 +5,14 @@ from __future__ import annotations
 import atexit
 import os
 import threading
+from typing import TYPE_CHECKING
 
 from bot_console.runtime.rmw.bus import Bus
 from bot_console.runtime.rmw.local import local_bus
 from bot_console.runtime.rmw.middleware import choose_middleware, is_chosen
-from bot_console.runtime.rmw.zenoh.bus import ZenohBus
-from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
+
+if TYPE_CHECKING:
+    from bot_console.runtime.rmw.zenoh.bus import ZenohBus
 
 RANGE_VARIABLE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
 
@@ -27,6 +29,10 @@ def shared_bus(domain: int) -> Bus:
         return local_bus(domain)
     with _lock:
         if domain not in _buses:
+            # Here, as a launch all of whose nodes are processes of their own opens no session.
+            from bot_console.runtime.rmw.zenoh.bus import ZenohBus
+            from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
+
             session = open_session(domain)
             session.watch()
             _buses[domain] = ZenohBus(session, local_bus(domain))

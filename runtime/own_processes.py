@@ -1,0 +1,54 @@
+"""The fork server of this process, and what each process that it makes does before anything else.
+
+Imports little: a program that will want processes starts the server first, which warms up while the rest is read.
+"""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from bot_console.runtime.process.fork_server import ForkServer, function_named
+
+CAN_FORK = hasattr(os, "fork")
+WARM_UP = "bot_console.runtime.warm_up:warm_up"
+
+_guard = threading.Lock()
+_beginnings: list[str] = []
+_servers: list[ForkServer] = []
+
+
+def fork_server() -> ForkServer:
+    """The fork server of this process, started when it is first asked for, and anew when it was killed."""
+    with _guard:
+        if not _servers or not _servers[0].is_alive:
+            _servers[:] = [ForkServer(WARM_UP)]
+        return _servers[0]
+
+
+def close_fork_server() -> None:
+    """End the server, and with it all that it has started; waits for that."""
+    with _guard:
+        servers, _servers[:] = list(_servers), []
+    for each in servers:
+        each.close()
+
+
+def begin_children_with(function: str) -> None:
+    """Let each process of its own call `package.module:function` before anything else, as to choose its middleware."""
+    if function not in _beginnings:
+        _beginnings.append(function)
+
+
+def beginnings() -> list[str]:
+    """What each process of its own is to call."""
+    return list(_beginnings)
+
+
+def begun(called: Sequence[str], function: str, arguments: Sequence[Any]) -> Callable[[], object]:
+    """In the process: what it is to run, once its beginnings were called."""
+    for each in called:
+        function_named(each)()
+    return function_named(function)(*arguments)

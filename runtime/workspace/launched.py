@@ -1,0 +1,32 @@
+"""What a launched Python node runs, as a thread or as a process; it finds the packages that its launch finds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from bot_console.runtime.importer import node_modules
+from bot_console.runtime.plain_file import then_main
+from bot_console.runtime.process import entry_point_program, file_program
+from bot_console.runtime.workspace.discover import Workspace, use, workspace
+
+Program = Callable[[], object]
+
+
+def entry_point(workspace_folders: Sequence[str], function: str, folders: Sequence[str]) -> Program:
+    """The program of `module:function`, imported from folders."""
+    find_packages_in(workspace_folders)
+    return entry_point_program(function, node_modules(folders))
+
+
+def python_file(workspace_folders: Sequence[str], path: str, folders: Sequence[str], calls_main: bool) -> Program:
+    """The program of a file whose modules lie in folders; where it only defines `main()`, that is called."""
+    find_packages_in(workspace_folders)
+    runs = file_program(path, node_modules(folders))
+    return then_main(runs) if calls_main else runs
+
+
+def find_packages_in(folders: Sequence[str]) -> None:
+    """In a process of its own: look where the launch looks."""
+    if [str(each) for each in workspace().folders] != list(folders):
+        use(Workspace([Path(each) for each in folders]))
