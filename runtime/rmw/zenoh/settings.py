@@ -15,11 +15,11 @@ SCHEME = "unixsock-stream/"
 OPEN_TIMEOUT = 500
 """How long one attempt to reach another process may take, in ms."""
 
-LEASE = 15_000
+LEASE = 60_000
 """After how long a link is given up on which nothing has come, in ms; a quarter of it goes by between signs of life.
 
-They are most of what fifty idle processes cost: 16.5 % of a core with the library's 10 s. That a process is frozen is
-known long before, from its state.
+They are most of what fifty idle processes cost: 13 % of a core with 15 s, 7 % with this. That a process is frozen is
+known long before, from its state, and one that ends closes its links.
 """
 
 WAIT_BEFORE_DROP = 50_000
