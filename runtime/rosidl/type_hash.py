@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from functools import cache
-from hashlib import sha256
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from bot_console.runtime.rosidl.type_description import Description, describe
+from bot_console.runtime.rosidl.conversion import type_name
+from bot_console.runtime.rosidl.known_hashes import KNOWN
+
+if TYPE_CHECKING:
+    from bot_console.runtime.rosidl.type_description import Description
 
 VERSION = 1
 
@@ -15,10 +17,19 @@ VERSION = 1
 @cache
 def digest(cls: Any) -> bytes:
     """The 32 bytes of the hash of a message, service or action class."""
-    return _digest(describe(cls))
+    known = KNOWN.get(type_name(cls))
+    if known:
+        return bytes.fromhex(known)
+    from bot_console.runtime.rosidl.type_description import describe
+
+    return digest_of_description(describe(cls))
 
 
-def _digest(description: Description) -> bytes:
+def digest_of_description(description: Description) -> bytes:
+    """The 32 bytes of the hash of an interface of which nothing but its description is known."""
+    import json
+    from hashlib import sha256  # which loads OpenSSL
+
     return sha256(json.dumps(description, separators=(", ", ": ")).encode()).digest()
 
 
@@ -29,7 +40,7 @@ def text(cls: Any) -> str:
 
 def text_of_description(description: Description) -> str:
     """The hash of an interface of which nothing but its description is known."""
-    return _text(_digest(description))
+    return _text(digest_of_description(description))
 
 
 def _text(hashed: bytes) -> str:

@@ -11,6 +11,7 @@ from functools import cache
 from typing import Any
 
 from rosidl_parser.definition import AbstractString, AbstractWString, Array, BasicType, BoundedSequence
+from rosidl_runtime_py.block_yaml import block_yaml
 
 
 @dataclass(frozen=True)
@@ -41,6 +42,9 @@ def message_to_yaml(
 
 def ordereddict_to_yaml(values: OrderedDict[str, Any], *, flow_style: bool = False) -> str:
     """Fields as YAML in their order; sequences in brackets where `flow_style`."""
+    quick = None if flow_style else block_yaml(values)
+    if quick is not None:
+        return quick
     import yaml
 
     return yaml.dump(values, Dumper=_dumper(), allow_unicode=True, width=sys.maxsize, default_flow_style=flow_style)

@@ -6,8 +6,9 @@ import importlib
 from typing import Any
 
 import pytest
+from bot_console.runtime.rosidl.known_hashes import KNOWN
 from bot_console.runtime.rosidl.type_description import describe
-from bot_console.runtime.rosidl.type_hash import text
+from bot_console.runtime.rosidl.type_hash import digest, digest_of_description, text
 from example_interfaces.action import Fibonacci
 from std_msgs.msg import Empty
 from std_srvs.srv import Trigger
@@ -70,3 +71,8 @@ def test_an_action_has_its_services() -> None:
     names = [each["type_name"] for each in description["referenced_type_descriptions"]]
     assert names == sorted(names)
     assert "example_interfaces/action/Fibonacci_SendGoal_Event" in names
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_the_hashes_that_are_written_down_are_what_would_be_computed(name: str) -> None:
+    assert digest_of_description(describe(class_of(name))).hex() == KNOWN[name] == digest(class_of(name)).hex()

@@ -1,0 +1,64 @@
+"""The YAML of most messages without the library, which takes longer to import than a short verb has to run.
+
+Writes what PyYAML would, or nothing: texts that might need quotes, and whatever else is rare, are left to it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+WORDS = frozenset({"yes", "no", "true", "false", "on", "off", "null"})
+"""Texts that YAML takes for something else."""
+SPECIAL = {"inf": ".inf", "-inf": "-.inf", "nan": ".nan"}
+
+
+class _UncommonError(Exception):
+    """Something that is left to the library."""
+
+
+def block_yaml(values: Mapping[str, Any]) -> str | None:
+    """The fields of a message, one per line; None where the library is to write them."""
+    try:
+        return "".join(_lines(values, "")) if values else None
+    except _UncommonError:
+        return None
+
+
+def _lines(values: Mapping[str, Any], indent: str) -> Iterator[str]:
+    for name, value in values.items():
+        if name in WORDS:
+            raise _UncommonError
+        if value and isinstance(value, dict):
+            yield f"{indent}{name}:\n"
+            yield from _lines(value, indent + "  ")
+        elif value and value.__class__ is list:
+            yield f"{indent}{name}:\n"
+            for each in value:
+                yield f"{indent}- {_scalar(each)}\n"
+        else:
+            yield f"{indent}{name}: {_scalar(value)}\n"
+
+
+def _scalar(value: Any) -> str:
+    kind = value.__class__
+    if kind is float:
+        text = repr(value)
+        return SPECIAL.get(text) or (text if "." in text else text.replace("e", ".0e"))
+    if kind is int:
+        return str(value)
+    if kind is bool:
+        return "true" if value else "false"
+    if kind is str and _is_plain(value):
+        return value or "''"
+    if kind is list and not value:
+        return "[]"
+    raise _UncommonError
+
+
+def _is_plain(text: str) -> bool:
+    """Whether a text is written as it is: ASCII words, a letter first, or nothing."""
+    if not text:
+        return True
+    words = text.replace("_", "a").split(" ")
+    return text.isascii() and text[0].isalpha() and all(map(str.isalnum, words)) and text.lower() not in WORDS
