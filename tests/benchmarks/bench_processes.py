@@ -38,7 +38,7 @@ SAMPLES = {
     "String": (String(data="sixteen letters!"), 1),
     "Twist": (Twist(), 1),
     "LaserScan": (LaserScan(ranges=[1.0] * 360, intensities=[2.0] * 360), 2),
-    "Image": (Image(height=1000, width=1000, step=1000, data=bytes(1_000_000)), 100),
+    "Image": (Image(height=1000, width=1000, step=1000, data=bytes(1_000_000)), 250),
 }
 """Messages, and by how much their number is divided."""
 
