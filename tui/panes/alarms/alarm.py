@@ -56,6 +56,10 @@ class Alarm:
     """How often it has begun to hold."""
     values: dict[str, float] = field(default_factory=dict[str, float])
     problem: str = ""
+    untold: list[float] = field(default_factory=list[float])
+    """The values at which it has begun to hold, of the times that nobody was told of."""
+    told: float = float("-inf")
+    """When somebody was told last, in s of the pane's clock."""
     _cursors: dict[str, int] = field(default_factory=dict[str, int])
 
     @classmethod

@@ -25,6 +25,8 @@ ASKER = "alarms"
 KEPT = "alarms"
 PERIOD, SHOWN, AGAIN = 0.2, 0.5, 1.0
 """Seconds between two looks at the samples, at the list, and at paths that are not there yet."""
+NOTICE = 8.0
+"""Seconds that a notice stands; the times that an alarm begins to hold meanwhile are told with its next one."""
 MOST = 100
 """Alarms that there can be."""
 EXAMPLE = "/battery/percentage < 0.2"
@@ -87,8 +89,12 @@ class AlarmsPane(ListPane):
                 self._watch(self._waiting)
             for alarm in self._alarms:
                 began = alarm.look(self.console)
-                if began:
-                    self._tell(alarm, began[-1], len(began))
+                if began and alarm.text.bell:
+                    self.host.bell()
+                alarm.untold += began
+                if alarm.untold and now - alarm.told >= NOTICE:
+                    self._tell(alarm, alarm.untold[-1], len(alarm.untold))
+                    alarm.told, alarm.untold = now, []
         holding = [each.text.name for each in self._alarms if each.holds]
         if holding != self._holding:
             self._holding = holding
@@ -110,10 +116,8 @@ class AlarmsPane(ListPane):
             f"{alarm.text.name}: {value:.4g}{often}\n{alarm.text.condition}",
             title="Alarm",
             severity="warning",
-            timeout=8,
+            timeout=NOTICE,
         )
-        if alarm.text.bell:
-            self.host.bell()
 
     def _arrange(self) -> None:
         self._drawn = self.clock()
