@@ -19,6 +19,7 @@ from tf2_py.rigid import IDENTITY, Rigid, compose
 DEFAULT_CACHE_TIME = Duration(seconds=10)
 NORM_TOLERANCE = 1e-2
 """How far the length of a rotation quaternion may be from 1."""
+_EMPTY = TransformStamped()
 
 
 class BufferCore:
@@ -221,12 +222,12 @@ def _problem(child: str, parent: str, place: Rigid, authority: str) -> str | Non
 
 
 def _message(target: str, source: str, time: int, place: Rigid) -> TransformStamped:
-    message = TransformStamped()
+    message = _EMPTY._copy_()  # in less time than a new one
     header, transform = message._header, message._transform  # past the properties: half the time of filling it in
     header._frame_id = target
     message._child_frame_id = source
     stamp = header._stamp
-    stamp._sec, stamp._nanosec = time // NANO, time % NANO
+    stamp._sec, stamp._nanosec = divmod(time, NANO)
     move, turn = transform._translation, transform._rotation
     move._x, move._y, move._z, turn._x, turn._y, turn._z, turn._w = place
     return message

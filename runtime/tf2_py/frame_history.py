@@ -98,11 +98,11 @@ class FrameHistory:
         if not entries:
             raise LookupError("")
         newest = stamps[-1]
-        if time in (newest, 0) or self.is_static:
+        if self.is_static or not time or time == newest:
             _, parent, place, _ = entries[-1]
             return parent, place
         after = bisect_right(stamps, time)
-        if time > newest or after == 0 or stamps[after - 1] < newest - self._keep:
+        if time > newest or not after or stamps[after - 1] < newest - self._keep:
             raise LookupError(self._outside(time, self.first))
         stamp, parent, place, _ = entries[after - 1]
         if stamp == time:

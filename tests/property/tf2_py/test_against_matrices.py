@@ -19,7 +19,12 @@ PARENTS = {"a": "root", "b": "a", "c": "a", "d": "c", "e": "root"}
 Entry = tuple[str, int, list[float], list[float]]
 
 moves = st.lists(st.floats(-10, 10), min_size=3, max_size=3)
-turns = st.lists(st.floats(-1, 1), min_size=4, max_size=4).filter(lambda each: math.hypot(*each) > 0.1)
+numbers = st.floats(-1, 1)
+any_turns = st.lists(numbers, min_size=4, max_size=4)
+turns_about_an_axis = st.tuples(st.sampled_from((0, 1, 2, 2, 2)), numbers, numbers).map(
+    lambda each: [each[1] if axis == each[0] else 0.0 for axis in range(3)] + [each[2]]
+)
+turns = st.one_of(any_turns, turns_about_an_axis).filter(lambda each: math.hypot(*each) > 0.1)
 
 
 def told_until(latest: int) -> st.SearchStrategy[list[Entry]]:

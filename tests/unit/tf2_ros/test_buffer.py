@@ -53,6 +53,8 @@ def test_places(buffer: Buffer, target: str, source: str, seconds: float, expect
     found = buffer.lookup_transform(target, source, at(seconds))
     assert place(found) == pytest.approx(expected, abs=1e-8)
     assert (found.header.frame_id, found.child_frame_id) == (target, source)
+    turn = found.transform.rotation
+    assert turn.x**2 + turn.y**2 + turn.z**2 + turn.w**2 == pytest.approx(1.0)
 
 
 def test_the_newest_is_the_newest_that_all_frames_have(buffer: Buffer) -> None:

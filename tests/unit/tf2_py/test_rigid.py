@@ -1,0 +1,48 @@
+"""Rigid transforms: what is written out for speed gives what the whole formulas give."""
+
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from tf2_py.rigid import IDENTITY, SMALL, Rigid, compose, interpolate, inverse
+from tf_transformations import quaternion_matrix
+
+HALF = math.sin(0.4), math.cos(0.4)
+TURNS = {
+    "none": (0.0, 0.0, 0.0, 1.0),
+    "x": (HALF[0], 0.0, 0.0, HALF[1]),
+    "y": (0.0, HALF[0], 0.0, HALF[1]),
+    "z": (0.0, 0.0, HALF[0], HALF[1]),
+    "back about z": (0.0, 0.0, -0.6, 0.8),
+    "any": (0.1, -0.5, 0.7, 0.5),
+}
+LEAST = 2.0 * math.asin(math.sqrt(SMALL))
+"""The turn (rad) from which on the interpolation is no longer by its series."""
+
+
+def matrix(of: Rigid) -> np.ndarray:
+    found = quaternion_matrix(of[3:])
+    found[:3, 3] = of[:3]
+    return found
+
+
+@pytest.mark.parametrize(("first", "second"), itertools.product(TURNS, repeat=2))
+def test_one_after_another_is_the_product_of_matrices(first: str, second: str) -> None:
+    one: Rigid = (1.0, 2.0, 3.0, *TURNS[first])
+    other: Rigid = (-4.0, 0.5, 0.25, *TURNS[second])
+    np.testing.assert_allclose(matrix(compose(one, other)), matrix(one) @ matrix(other), atol=1e-12)
+    np.testing.assert_allclose(matrix(inverse(one)) @ matrix(one), matrix(IDENTITY), atol=1e-12)
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0], ids=["", "the quaternion's other sign"])
+@pytest.mark.parametrize("turn", [0.0, 1e-4, LEAST * 0.999, LEAST * 1.001, 0.2, 3.0])
+def test_a_share_of_a_turn_is_that_share_of_its_angle(turn: float, sign: float) -> None:
+    first = (0.0, 0.0, 0.0, math.sin(0.3), 0.0, 0.0, math.cos(0.3))
+    second = (1.0, 2.0, 4.0, sign * math.sin(0.3 + turn / 2), 0.0, 0.0, sign * math.cos(0.3 + turn / 2))
+    for share in (0.0, 0.25, 0.5, 1.0):
+        angle = 0.3 + turn / 2 * share
+        expected = (share, 2.0 * share, 4.0 * share, math.sin(angle), 0.0, 0.0, math.cos(angle))
+        assert interpolate(first, second, share) == pytest.approx(expected, abs=1e-11)
