@@ -26,7 +26,7 @@ class Frame:
     late: float | None = None
     """How old (s) the transform was when it came, by its own stamp; None where the clocks are not the same."""
     others: tuple[str, ...] = ()
-    """Other parents that it was told to have of late."""
+    """Other parents that it was told to have, of late or for good."""
 
     def silent(self, clock: float) -> bool:
         """Whether it moves, and has not been told for too long."""
@@ -72,7 +72,8 @@ def findings(info: Frames, clock: float) -> Iterator[tuple[str, str]]:
     for each in info.frames:
         if each.others:
             several = " and ".join(sorted((each.parent, *each.others)))
-            yield each.name, f"{each.name} has more than one parent: {several}; it jumps from one to the other"
+            what = "the one that is heard last counts" if each.fixed else "it jumps from one to the other"
+            yield each.name, f"{each.name} has more than one parent: {several}; {what}"
         loop = loop_of(each.name, parents)
         if loop and each.name not in told:
             told.update(loop)

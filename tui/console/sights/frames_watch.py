@@ -27,7 +27,7 @@ DEPTH = {MOVING: 100, FIXED: 1000}
 MOST = 2000
 """Frames that are kept."""
 REMEMBERED = 5.0
-"""Seconds for which another parent counts."""
+"""Seconds for which another parent counts that was told on `/tf`; one on `/tf_static` is told once, and holds."""
 WINDOW = 2.0
 """Seconds over which a rate is measured."""
 SAME_CLOCK = 60.0
@@ -115,7 +115,7 @@ class FramesWatch:
             seen.transform, seen.fixed, seen.heard = each, fixed, now
             seen.late = wall - stamp.sec - stamp.nanosec * 1e-9
             seen.count += 1
-            seen.parents[each.header.frame_id.lstrip("/")] = now
+            seen.parents[each.header.frame_id.lstrip("/")] = math.inf if fixed else now
 
     def frames(self) -> Frames:
         """What was told last; from any thread."""

@@ -36,12 +36,13 @@ class Bench:
         self.topics.append(topic)
         return topic
 
-    def told(self, parent: str, child: str, x: float = 0.0, yaw: float = 0.0) -> None:
+    def told(self, parent: str, child: str, x: float = 0.0, yaw: float = 0.0, *, fixed: bool = False) -> None:
         message = TransformStamped(child_frame_id=child)
         message.header.frame_id = parent
         message.transform.translation.x = x
         message.transform.rotation.z, message.transform.rotation.w = math.sin(yaw / 2), math.cos(yaw / 2)
-        self.watch.take_moving(TFMessage(transforms=[message]))
+        take = self.watch.take_fixed if fixed else self.watch.take_moving
+        take(TFMessage(transforms=[message]))
 
     def frame(self, name: str) -> Frame:
         return next(each for each in self.watch.frames().frames if each.name == name)
@@ -91,6 +92,17 @@ def test_two_parents_within_some_seconds() -> None:
     bench.now += 10.0
     bench.told("odom", "base")
     assert bench.frame("base").others == ()
+
+
+def test_two_parents_that_are_told_once_stay_two() -> None:
+    bench = Bench()
+    bench.told("base", "laser", fixed=True)
+    bench.told("mast", "laser", fixed=True)
+    bench.now += 60.0
+    assert bench.frame("laser").others == ("base",)
+    assert [text for _, text in findings(bench.watch.frames(), bench.now)][0] == (
+        "laser has more than one parent: base and mast; the one that is heard last counts"
+    )
 
 
 def test_what_is_wrong_in_words() -> None:
