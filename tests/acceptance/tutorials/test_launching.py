@@ -1,4 +1,7 @@
-"""Launch files as the tutorials build them up: two simulators, a mimic between them, arguments, events and timers."""
+"""Launch files as the tutorials build them up: two simulators, a mimic between them, arguments, events and timers.
+
+And a project of several files in all three languages, with namespaces, files of parameters and a frame that is added.
+"""
 
 from __future__ import annotations
 
@@ -41,6 +44,56 @@ def generate_launch_description():
     ])
 """
 
+PROJECT = {
+    "project.launch.xml": """
+        <launch>
+          <arg name="target" default="turtle1"/>
+          <include file="$(dirname)/world.launch.yaml"><arg name="red" value="200"/></include>
+          <group>
+            <push_ros_namespace namespace="second"/>
+            <include file="$(dirname)/world.launch.yaml"><arg name="red" value="10"/></include>
+          </group>
+          <include file="$(dirname)/frames.launch.py"><arg name="target_frame" value="$(var target)"/></include>
+        </launch>
+    """.strip(),
+    "world.launch.yaml": """
+launch:
+- arg: {name: red}
+- node:
+    pkg: turtlesim
+    exec: turtlesim_node
+    name: sim
+    param:
+    - from: $(dirname)/world.yaml
+    - {name: background_r, value: $(var red)}
+""",
+    "world.yaml": "/**: {ros__parameters: {background_r: 1, background_g: 2}}",
+    "frames.launch.py": """
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration, TextSubstitution
+from launch_ros.actions import Node
+
+
+def broadcaster(name):
+    turtle = [TextSubstitution(text="turtle"), name]
+    return Node(package="turtle_tf2_py", executable="turtle_tf2_broadcaster", name=["of_", name],
+                parameters=[{"turtlename": turtle}])
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        DeclareLaunchArgument("target_frame", choices=["turtle1", "carrot1"]),
+        broadcaster("1"),
+        broadcaster("2"),
+        Node(package="tf2_ros", executable="static_transform_publisher",
+             arguments=["--y", "2", "--frame-id", "turtle1", "--child-frame-id", "carrot1"]),
+        Node(package="turtle_tf2_py", executable="turtle_tf2_listener",
+             parameters=[{"target_frame": LaunchConfiguration("target_frame")}]),
+    ])
+""",
+}
+
 
 @pytest.fixture
 def running() -> Iterator[System]:
@@ -48,8 +101,8 @@ def running() -> Iterator[System]:
         yield found
 
 
-def pose(running: System, who: str) -> list[float]:
-    text = running.ask("topic", "echo", "--once", f"/{who}/turtle1/pose").stdout
+def pose(running: System, who: str, turtle: str = "turtle1") -> list[float]:
+    text = running.ask("topic", "echo", "--once", f"/{who}/{turtle}/pose".replace("//", "/")).stdout
     return [float(re.findall(rf"^{axis}: ([-\d.e]+)", text, re.M)[0]) for axis in ("x", "y", "theta")]
 
 
@@ -74,3 +127,18 @@ def test_its_arguments_are_shown(running: System, tmp_path: Path) -> None:
     file.write_text(LAUNCH_FILE)
     shown = running.ask("launch", str(file), "--show-args").stdout
     assert "'red':" in shown and "How red the follower's field is" in shown and "(default: '120')" in shown
+
+
+def test_a_project_of_several_files(running: System, tmp_path: Path) -> None:
+    for name, text in PROJECT.items():
+        (tmp_path / name).write_text(text)
+    running.ros2("launch", str(tmp_path / "project.launch.xml"), "target:=carrot1")
+    running.run(25.0)
+    colours = {
+        (name, colour): running.ask("param", "get", name, f"background_{colour}").stdout.split()[-1]
+        for name in ("/sim", "/second/sim")
+        for colour in "rg"
+    }
+    assert list(colours.values()) == ["200", "2", "10", "2"]
+    x, y, _ = pose(running, "")
+    assert pose(running, "", "turtle2")[:2] == pytest.approx([x, y + 2.0], abs=0.2)
