@@ -28,10 +28,9 @@ def transform(find: Find, target: str, source: str, time: int) -> Rigid:
         except LookupError as error:
             problem = str(error)
             break
-        place = step if place is IDENTITY else compose(step, place)
-        above[frame] = place
-        if len(above) > MAX_DEPTH:
+        if frame in above:
             raise LookupException(LOOP)
+        above[frame] = place = step if place is IDENTITY else compose(step, place)
     if frame == target:
         return place
     return _down(find, above, target, source, time, problem)

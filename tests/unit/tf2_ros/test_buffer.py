@@ -63,6 +63,26 @@ def test_the_newest_is_the_newest_that_all_frames_have(buffer: Buffer) -> None:
     assert buffer.lookup_transform("base", "laser", Time()).header.stamp.sec == 0
 
 
+def test_a_frame_in_itself_has_its_newest_time(buffer: Buffer) -> None:
+    assert buffer.lookup_transform("odom", "odom", Time()).header.stamp.sec == 3
+    assert buffer.lookup_transform("odom", "odom", at(2)).header.stamp.sec == 2
+    assert buffer.lookup_transform("map", "map", Time()).header.stamp.sec == 0
+
+
+def test_clear_leaves_what_is_fixed(buffer: Buffer) -> None:
+    buffer.clear()
+    assert buffer.can_transform("base", "laser", at(9)) and not buffer.can_transform("map", "odom", at(2))
+
+
+def test_names_that_are_not_known_are_refused_by_each_question(buffer: Buffer) -> None:
+    with pytest.raises(LookupException, match='"x" passed to lookupTransform argument fixed_frame does not exist'):
+        buffer.lookup_transform_full("map", at(2), "odom", at(2), "x")
+    for names, which in ((("x", "map"), "target_frame"), (("map", "x"), "source_frame")):
+        with pytest.raises(LookupException, match=f"passed to getLatestCommonTime argument {which} does not exist"):
+            buffer.get_latest_common_time(*names)
+    assert buffer.can_transform("map", "odom", at(2), return_debug_tuple=True) == (True, "")
+
+
 REFUSALS: list[tuple[tuple[Any, ...], type[Exception], str]] = [
     (
         ("map", "odom", at(0.5)),
@@ -145,6 +165,30 @@ def test_what_makes_no_sense_is_ignored(capfd: pytest.CaptureFixture[str], wrong
     buffer.set_transform(wrong, "me")
     assert words in capfd.readouterr().err
     assert not buffer.can_transform("a", "b", Time())
+
+
+@pytest.mark.parametrize(("length", "taken"), [(0.994, False), (0.997, True), (1.003, True), (1.006, False)])
+@pytest.mark.parametrize("axis", "xyzw")
+def test_how_far_from_one_a_quaternion_may_be(
+    capfd: pytest.CaptureFixture[str], axis: str, length: float, taken: bool
+) -> None:
+    buffer, message = Buffer(), frame("a", "b", 1.0)
+    message.transform.rotation.w = 0.0
+    setattr(message.transform.rotation, axis, length)
+    buffer.set_transform(message, "me")
+    assert buffer.can_transform("a", "b", Time()) is taken
+    numbers = " ".join(f"{length if each == axis else 0.0:f}" for each in "xyzw")
+    words = f"because of an invalid quaternion in the transform ({numbers})"
+    assert (words in capfd.readouterr().err) is not taken
+
+
+def test_what_is_told_twice_is_told_once(capfd: pytest.CaptureFixture[str], buffer: Buffer) -> None:
+    buffer.set_transform(frame("map", "odom", 3.0, 9.0), "you")
+    assert place(buffer.lookup_transform("map", "odom", Time()))[0] == 3.0
+    assert (
+        "TF_REPEATED_DATA ignoring data with redundant timestamp for frame odom (parent map) at time 3.000000 "
+        "according to authority you"
+    ) in capfd.readouterr().err
 
 
 def test_a_loop_is_told() -> None:
