@@ -133,16 +133,11 @@ class BufferCore:
 
     def all_frames_as_string(self) -> str:
         """All frames with their parents, one a line."""
-        return descriptions.as_string(self._all())
+        return descriptions.as_string(dict(self._histories))
 
     def all_frames_as_yaml(self) -> str:
         """All frames with parent, broadcaster, rate and times, as YAML."""
-        return descriptions.as_yaml(self._all())
-
-    def _all(self) -> dict[str, FrameHistory]:
-        for each in list(self._histories.values()):
-            each.digest()
-        return dict(self._histories)
+        return descriptions.as_yaml(dict(self._histories))
 
     def _frameExists(self, frame_id: str) -> bool:
         return frame_id in self._histories or frame_id in self._parents
@@ -151,7 +146,7 @@ class BufferCore:
         return sorted({*self._histories, *self._parents})
 
     def _allFramesAsDot(self, current_time: float = 0.0) -> str:
-        return descriptions.as_dot(self._all())
+        return descriptions.as_dot(dict(self._histories))
 
     def _check(self, frame: str, where: str) -> None:
         """Raise for a name that can be no frame's, or is not known."""

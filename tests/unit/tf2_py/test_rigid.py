@@ -19,8 +19,15 @@ TURNS = {
     "back about z": (0.0, 0.0, -0.6, 0.8),
     "any": (0.1, -0.5, 0.7, 0.5),
 }
+AXIS = 0.36, 0.48, 0.8
 LEAST = 2.0 * math.asin(math.sqrt(SMALL))
 """The turn (rad) from which on the interpolation is no longer by its series."""
+
+
+def turned(x: float, half: float, sign: float = 1.0) -> Rigid:
+    """At a place, turned about the axis by twice an angle (rad)."""
+    a, b, c = (sign * math.sin(half) * each for each in AXIS)
+    return x, 2.0 * x, 4.0 * x, a, b, c, sign * math.cos(half)
 
 
 def matrix(of: Rigid) -> np.ndarray:
@@ -31,7 +38,7 @@ def matrix(of: Rigid) -> np.ndarray:
 
 @pytest.mark.parametrize(("first", "second"), itertools.product(TURNS, repeat=2))
 def test_one_after_another_is_the_product_of_matrices(first: str, second: str) -> None:
-    one: Rigid = (1.0, 2.0, 3.0, *TURNS[first])
+    one: Rigid = (1.5, 2.0, 3.0, *TURNS[first])
     other: Rigid = (-4.0, 0.5, 0.25, *TURNS[second])
     np.testing.assert_allclose(matrix(compose(one, other)), matrix(one) @ matrix(other), atol=1e-12)
     np.testing.assert_allclose(matrix(inverse(one)) @ matrix(one), matrix(IDENTITY), atol=1e-12)
@@ -40,9 +47,7 @@ def test_one_after_another_is_the_product_of_matrices(first: str, second: str) -
 @pytest.mark.parametrize("sign", [1.0, -1.0], ids=["", "the quaternion's other sign"])
 @pytest.mark.parametrize("turn", [0.0, 1e-4, LEAST * 0.999, LEAST * 1.001, 0.2, 3.0])
 def test_a_share_of_a_turn_is_that_share_of_its_angle(turn: float, sign: float) -> None:
-    first = (0.0, 0.0, 0.0, math.sin(0.3), 0.0, 0.0, math.cos(0.3))
-    second = (1.0, 2.0, 4.0, sign * math.sin(0.3 + turn / 2), 0.0, 0.0, sign * math.cos(0.3 + turn / 2))
+    first, second = turned(0.0, 0.3), turned(1.0, 0.3 + turn / 2, sign)
     for share in (0.0, 0.25, 0.5, 1.0):
-        angle = 0.3 + turn / 2 * share
-        expected = (share, 2.0 * share, 4.0 * share, math.sin(angle), 0.0, 0.0, math.cos(angle))
+        expected = turned(share, 0.3 + turn / 2 * share)
         assert interpolate(first, second, share) == pytest.approx(expected, abs=1e-11)

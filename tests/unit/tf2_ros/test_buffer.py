@@ -10,6 +10,7 @@ from frames import frame, place
 from geometry_msgs.msg import PointStamped, PoseStamped, PoseWithCovarianceStamped, Vector3Stamped
 from rclpy.duration import Duration
 from rclpy.time import Time
+from tf2_py.frame_history import DIGEST_AFTER
 from tf2_ros import (
     Buffer,
     ConnectivityException,
@@ -66,7 +67,7 @@ def test_the_newest_is_the_newest_that_all_frames_have(buffer: Buffer) -> None:
 def test_a_frame_in_itself_has_its_newest_time(buffer: Buffer) -> None:
     assert buffer.lookup_transform("odom", "odom", Time()).header.stamp.sec == 3
     assert buffer.lookup_transform("odom", "odom", at(2)).header.stamp.sec == 2
-    assert buffer.lookup_transform("map", "map", Time()).header.stamp.sec == 0
+    assert buffer.lookup_transform("map", "map", Time()).header.stamp == Time().to_msg()
 
 
 def test_clear_leaves_what_is_fixed(buffer: Buffer) -> None:
@@ -142,12 +143,28 @@ def test_what_is_too_old_is_forgotten() -> None:
         buffer.set_transform(frame("a", "b", second), "me")
     assert buffer.can_transform("a", "b", at(4))
     assert not buffer.can_transform("a", "b", at(3.9))
+    usual = Buffer()
+    for second in (1, 5, 15):
+        usual.set_transform(frame("a", "b", second), "me")
+    assert usual.can_transform("a", "b", at(5)) and not usual.can_transform("a", "b", at(4.9))
+
+
+def test_what_waits_for_nobody_is_let_go() -> None:
+    buffer = Buffer(cache_time=Duration(seconds=2))
+    for tenth in range(10 * DIGEST_AFTER):
+        buffer.take_messages([frame("a", "b", tenth / 10)])
+    assert len(buffer._histories["b"].waiting) <= DIGEST_AFTER + 20
+    newest = (10 * DIGEST_AFTER - 1) / 10
+    assert buffer.can_transform("a", "b", at(newest - 2)) and not buffer.can_transform("a", "b", at(newest - 2.1))
 
 
 def test_between_two_times_by_way_of_a_frame_that_stays(buffer: Buffer) -> None:
     found = buffer.lookup_transform_full("odom", at(3), "odom", at(1), "map")
     assert place(found) == (-3.0, 0.0, 0.0)
     assert found.header.stamp.sec == 3
+    assert buffer.can_transform_full("odom", at(3), "odom", at(1), "map")
+    answer = buffer.can_transform_full("odom", at(9), "odom", at(1), "map", return_debug_tuple=True)
+    assert answer[0] is False and answer[1].startswith("Lookup would require extrapolation into the future.")
 
 
 @pytest.mark.parametrize(
@@ -167,7 +184,7 @@ def test_what_makes_no_sense_is_ignored(capfd: pytest.CaptureFixture[str], wrong
     assert not buffer.can_transform("a", "b", Time())
 
 
-@pytest.mark.parametrize(("length", "taken"), [(0.994, False), (0.997, True), (1.003, True), (1.006, False)])
+@pytest.mark.parametrize(("length", "taken"), [(0.994, False), (0.9955, True), (1.0045, True), (1.006, False)])
 @pytest.mark.parametrize("axis", "xyzw")
 def test_how_far_from_one_a_quaternion_may_be(
     capfd: pytest.CaptureFixture[str], axis: str, length: float, taken: bool
