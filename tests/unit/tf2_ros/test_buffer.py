@@ -144,7 +144,7 @@ def test_what_is_too_old_is_forgotten() -> None:
     assert buffer.can_transform("a", "b", at(4))
     assert not buffer.can_transform("a", "b", at(3.9))
     usual = Buffer()
-    for second in (1, 5, 15):
+    for second in (1, 4.5, 5, 15):
         usual.set_transform(frame("a", "b", second), "me")
     assert usual.can_transform("a", "b", at(5)) and not usual.can_transform("a", "b", at(4.9))
 
