@@ -33,6 +33,7 @@ PARTS = {
     "launch_testing": "actions that run GTest or pytest, JUnit files; `bot-console test` runs test files",
     "message_filters": "`LatestTimeSynchronizer`, input aligner",
     "tf2_geometry_msgs": "`PyKDL` types",
+    "turtlebot3_msgs": "`Patrol` as examples since 2025 use it; `bot-console interface add FOLDER` takes a checkout",
     "tf_transformations": "`Arcball`, `clip_matrix`, `orthogonalization_matrix`",
 }
 """What is missing of packages that are here."""
