@@ -100,7 +100,7 @@ def test_two_parents_that_are_told_once_stay_two() -> None:
     bench.told("mast", "laser", fixed=True)
     bench.now += 60.0
     assert bench.frame("laser").others == ("base",)
-    assert [text for _, text in findings(bench.watch.frames(), bench.now)][0] == (
+    assert next(text for _, text in findings(bench.watch.frames(), bench.now)) == (
         "laser has more than one parent: base and mast; the one that is heard last counts"
     )
 
