@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from contextlib import suppress
 
 from bot_console.runtime.rmw.zenoh.session import Session, Watch
 from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
@@ -17,8 +16,16 @@ Listener = Callable[[Token, bool], None]
 class SeenTokens:
     """The tokens of other sessions under one key; a listener hears of those that are there and of every change."""
 
-    def __init__(self, session: Session, key: str, *, apart: bool = False) -> None:
-        """`apart`: as in `Session.watch_tokens`."""
+    def __init__(
+        self,
+        session: Session,
+        key: str,
+        *,
+        apart: bool = False,
+        refused: Callable[[str], None] = lambda key: None,
+    ) -> None:
+        """`apart`: as in `Session.watch_tokens`; `refused` is called with a key that came and is no token."""
+        self._refused = refused
         self._own = session.zid
         self._lock = threading.RLock()
         self._tokens: dict[str, Token] = {}
@@ -27,20 +34,24 @@ class SeenTokens:
 
     def saw(self, key: str, came: bool) -> None:
         """A token came or went; one that is no token of the format is ignored, as are those of this session."""
-        with suppress(FormatError):
+        try:
             token = parse_token(key)
-            if token.node.zid == self._own:
+        except FormatError:
+            if came:
+                self._refused(key)
+            return
+        if token.node.zid == self._own:
+            return
+        with self._lock:
+            if came == (key in self._tokens):
                 return
-            with self._lock:
-                if came == (key in self._tokens):
-                    return
-                if came:
-                    self._tokens[key] = token
-                else:
-                    del self._tokens[key]
-                for listener in tuple(self._listeners):
-                    # With the lock held, so that nobody hears of a change before the state that it changes.
-                    listener(token, came)
+            if came:
+                self._tokens[key] = token
+            else:
+                del self._tokens[key]
+            for listener in tuple(self._listeners):
+                # With the lock held, so that nobody hears of a change before the state that it changes.
+                listener(token, came)
 
     def listen(self, listener: Listener) -> None:
         """Tell a listener of what is there, and of all changes from now on."""

@@ -32,7 +32,8 @@ class WholeGraph:
             if each.is_stopped():
                 notify(current(), f"process {each.pid} is stopped, so its nodes are not seen: `kill -CONT {each.pid}`")
         key, answered = all_tokens(session.domain), threading.Event()
-        self._seen = SeenTokens(session, key, apart=True)
+        self._process, self._has_refused = current(), False
+        self._seen = SeenTokens(session, key, apart=True, refused=self._refused)
         self._seen.listen(self._saw)
         # Watching brings what is there some time; only a question says when all of it has come.
         session.ask_tokens(key, lambda found: self._seen.saw(found, True), answered.set, session.patience)
@@ -42,6 +43,13 @@ class WholeGraph:
             notify(
                 current(), f"process {pid} of the robot is stopped, so its nodes are silent: `kill -CONT {pid}` there"
             )
+
+    def _refused(self, key: str) -> None:
+        """Tell the first of what stands in the graph and is no token."""
+        if not self._has_refused:
+            self._has_refused = True
+            text = f"what stands in the graph as {key[:120]!r} is not of the format of rmw_zenoh, and is ignored"
+            notify(self._process, f"{text}: `bot-console doctor` counts and lists such tokens")
 
     def _saw(self, token: Token, came: bool) -> None:
         row = self._rows.setdefault(token.key, _row(token)) if came else self._rows.pop(token.key, None)

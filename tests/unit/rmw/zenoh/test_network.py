@@ -7,12 +7,15 @@ import threading
 from pathlib import Path
 
 import pytest
+from bot_console.runtime.process import on_notice
 from bot_console.runtime.rmw.zenoh.link_probe import LinkProbe
 from bot_console.runtime.rmw.zenoh.network.client import Way, client_settings, open_network_session, with_environment
 from bot_console.runtime.rmw.zenoh.network.reach import Tls, place_of
 from bot_console.runtime.rmw.zenoh.network.router import Router
 from bot_console.runtime.rmw.zenoh.session import SessionError
 from bot_console.runtime.rmw.zenoh.settings import Serving
+from bot_console.runtime.rmw.zenoh.whole_graph import WholeGraph
+from bot_console.runtime.rmw.zenoh.wire.tokens import TokenNode, node_token
 from processes.certificates import make_certificates
 from processes.ports import free_port
 
@@ -110,6 +113,22 @@ def test_variables_that_mean_nothing_are_refused(monkeypatch, name, value, told)
     monkeypatch.setenv(name, value)
     with pytest.raises(SessionError, match=told):
         with_environment(Way(("tcp/robot:7447",)))
+
+
+def test_what_is_no_token_is_ignored_and_the_first_is_told():
+    serving = Serving((f"tcp/127.0.0.1:{free_port()}",))
+    router, way, told = Router(serving), Way(serving.endpoints), []
+    robot, client = open_network_session(0, way), open_network_session(0, way)
+    robot.declare_token(node_token(0, TokenNode(robot.zid, 0, "", "/", "robot")))
+    for each in ("XX/%/%/robot", "NN/%"):
+        robot.declare_token(f"@ros2_lv/0/{robot.zid}/1/2/{each}")
+    forget = on_notice(lambda process, text: told.append(text))
+    graph = WholeGraph(client, lambda node: None)
+    forget()
+    assert [each.name for each in graph.tables.nodes()] == ["robot"]
+    assert len(told) == 1 and "is not of the format of rmw_zenoh" in told[0]
+    for each in (client, robot, router):
+        each.close()
 
 
 def test_a_setting_that_zenoh_does_not_know_is_refused():
