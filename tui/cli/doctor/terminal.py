@@ -21,6 +21,8 @@ PATIENCE = 3.0
 BURST = b"\x1b[0m" * 4096
 """16 kB that show nothing."""
 SLOW_DELAY_MS, SLOW_KB_S = 300, 20
+TOLD_KB_S = 3000
+"""More than this a burst cannot tell: it takes no longer than the answers differ."""
 
 
 def terminal_findings(environment: Mapping[str, str]) -> list[Finding]:
@@ -66,7 +68,8 @@ def link_finding(delay: float | None, bytes_per_s: float | None) -> Finding:
     """How far away it is: seconds for an answer, and what it takes in between."""
     if delay is None or bytes_per_s is None:
         return Finding(Level.NOTE, ABOUT, f"it did not say within {PATIENCE:g} s where its cursor is: delay unknown")
-    text = f"answers after {delay * 1000:.0f} ms, takes {bytes_per_s / 1000:,.0f} kB/s"
+    rate = f"{bytes_per_s / 1000:,.0f}" if bytes_per_s <= TOLD_KB_S * 1000 else f"more than {TOLD_KB_S:,}"
+    text = f"answers after {delay * 1000:.0f} ms, takes {rate} kB/s"
     if delay * 1000 > SLOW_DELAY_MS or bytes_per_s < SLOW_KB_S * 1000:
         return Finding(Level.WARN, ABOUT, text, "over a slow link, show one pane: `bot-console --pane parameters`")
     return Finding(Level.OK, ABOUT, text)

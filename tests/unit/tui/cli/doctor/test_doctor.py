@@ -65,6 +65,11 @@ def test_what_is_wrong_has_a_mend(finding: Finding, level: Level) -> None:
     assert exit_code([finding]) == (level is Level.FAIL)
 
 
+def test_a_terminal_is_not_called_faster_than_can_be_told() -> None:
+    assert terminal_link(0.02, 1.5e6).text == "answers after 20 ms, takes 1,500 kB/s"
+    assert terminal_link(0.02, 1.6e8).text == "answers after 20 ms, takes more than 3,000 kB/s"
+
+
 def test_sockets_left_over_are_counted(socket_folder: str) -> None:
     assert [each.level for each in sockets_findings()] == [Level.OK]
     for name in ("99999999.0123abcd", "99999999.0123abcd.lock"):
