@@ -21,6 +21,8 @@ def stop_text(drive: DriveInfo) -> str:
     if not drive.stop_confirmed:
         return "STOP SENT, NOT CONFIRMED (! sends it again)"
     key = "! releases" if drive.stopped_here else "! holds it too, once more releases"
+    if drive.refused:
+        key = "released elsewhere: this console only looks on"
     return f"ALL STOP held{held_by(drive)} ({key})"
 
 

@@ -46,4 +46,5 @@ class Stopping:
             self._console.release([each.key for each in others])
         else:
             self._console.all_stop(False)
-        self._app.notify("The robot may move again.")
+        if not self._console.snapshot().drive.refused:
+            self._app.notify("The robot may move again.")

@@ -184,6 +184,18 @@ def test_a_robot_without_a_lock_that_stands_after_the_dead_man_time_is_steered_o
     run(live(), play)
 
 
+def test_a_console_that_only_looks_on_does_not_arm_and_stops_nothing_by_leaving() -> None:
+    async def play(session: Session) -> None:
+        session.console.change(drive=replace(driving(), refused="this console only looks on"))
+        await session.settle()
+        await session.press("6", "enter")
+        assert "this console only looks on" in session.text() and not steering(session).state.armed
+        await session.press("1")
+        assert stops(session) == []
+
+    run(live(), play)
+
+
 def test_a_screen_over_the_pane_disarms() -> None:
     async def play(session: Session) -> None:
         await session.press("6", "enter", "W", "question_mark")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import shlex
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
+from dataclasses import replace
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.connection.no_console import NoConsole, done
@@ -38,6 +39,15 @@ class ReadOnlyConsole(NoConsole):
         super().__init__(WHY, console)
         self._console = console
         self._tell = tell
+        self._seen = self._shown = ConsoleSnapshot()
+        self.snapshot = self._looked_at
+
+    def _looked_at(self) -> ConsoleSnapshot:
+        """The newest, which says that nothing is steered from here; the same object when nothing changed."""
+        seen = self._console.snapshot()
+        if seen is not self._seen:
+            self._seen, self._shown = seen, replace(seen, drive=replace(seen.drive, refused=WHY))
+        return self._shown
 
     @property
     def recording(self) -> Recording:

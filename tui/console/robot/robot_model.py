@@ -131,6 +131,8 @@ class DriveInfo:
     """Whether the robot has an emergency stop that acknowledges."""
     steered_by: str = ""
     """Who holds the steering, as the robot says."""
+    refused: str = ""
+    """Why nothing is steered or released from this console; empty where it may."""
 
     @property
     def nothing_to_stop(self) -> bool:

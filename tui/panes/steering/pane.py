@@ -210,6 +210,8 @@ class SteeringPane(Pane):
         """Arm, or disarm."""
         if self.state.armed:
             self._disarm()
+        elif self._snapshot.drive.refused:
+            self.notify(self._snapshot.drive.refused, severity="warning")
         elif not self._snapshot.drive.topic:
             self.notify(
                 "No node subscribes to cmd_vel or cmd_vel_teleop: there is nothing to steer.", severity="warning"

@@ -21,7 +21,8 @@ def fake() -> FakeConsole:
 def test_it_reads_what_there_is_and_changes_nothing(fake: FakeConsole) -> None:
     told: list[str] = []
     console = ReadOnlyConsole(fake, told.append)
-    assert console.snapshot() is fake.snapshot()
+    assert console.snapshot() is console.snapshot() and console.snapshot().graph is fake.snapshot().graph
+    assert console.snapshot().drive.refused == WHY
     node = next(iter(fake.snapshot().parameters))
     name = fake.snapshot().parameters[node].parameters[0].name
     before = fake.snapshot().parameters

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import MappingProxyType
 
 from bot_console.tui.console.model import ConsoleSnapshot, LaunchInfo, LogState, Severity
@@ -29,6 +30,12 @@ def test_a_stop_where_no_robot_is_says_that_nothing_is_there_to_stop() -> None:
     assert "nothing is here to stop" in status_text(ConsoleSnapshot(drive=nobody))
     for robot in (DriveInfo(stopped=True, topic="/cmd_vel"), DriveInfo(stopped=True, lockable=True)):
         assert "STOP SENT, NOT CONFIRMED" in status_text(ConsoleSnapshot(drive=robot))
+
+
+def test_a_console_that_only_looks_on_promises_no_release() -> None:
+    held = DriveInfo(stopped=True, stop_confirmed=True, lockable=True, stopped_here=True, refused="it only looks on")
+    assert "released elsewhere" in status_text(ConsoleSnapshot(drive=held))
+    assert "! releases" in status_text(ConsoleSnapshot(drive=replace(held, refused="")))
 
 
 def test_a_robot_that_has_told_nothing_yet_is_one() -> None:
