@@ -21,10 +21,13 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.node import Node
 from rclpy.parameter import Parameter, parameter_value_to_python
 from rclpy.parameter_client import AsyncParameterClient
+from rclpy.task import Future
 from std_srvs.srv import Trigger
 
 LEFT_OUT = ("use_sim_time", "start_type_description_service")
 """What every node has and no preset is about."""
+LOOK, LOOKS = 0.05, 40
+"""Seconds between two looks whether a new client has found its services, and how many: on a network that takes time."""
 
 
 class Presets(Node):
@@ -119,22 +122,39 @@ class Presets(Node):
         own = self.get_fully_qualified_name()
         return sorted({each for each in known if f"{each}/set_parameters" in offered and each != own})
 
-    def _client(self, node: str) -> AsyncParameterClient:
+    async def _client(self, node: str) -> AsyncParameterClient:
+        """A client of a node, as soon as it has found the node's services; raises `PresetError`."""
         if node not in self._clients:
             self._clients[node] = AsyncParameterClient(self, node, callback_group=self._group)
         client = self._clients[node]
-        if not client.services_are_ready():
-            raise PresetError(f"{node} does not run, or offers no parameter services")
-        return client
+        for _ in range(LOOKS):
+            if client.services_are_ready():
+                return client
+            if not self.count_services(f"{node}/set_parameters"):
+                break
+            await self._moment()
+        raise PresetError(f"{node} does not run, or offers no parameter services")
+
+    async def _moment(self) -> None:
+        """Let other callbacks run until the next look."""
+        over: Future[None] = Future()
+
+        def end() -> None:
+            timer.cancel()
+            over.set_result(None)
+
+        timer = self.create_timer(LOOK, end, callback_group=self._group)
+        await over
+        self.destroy_timer(timer)
 
     async def _values(self, node: str, names: list[str]) -> dict[str, Any]:
         """The values of some parameters of a node; None for one that it does not have."""
-        answer = await self._client(node).get_parameters(names)
+        answer = await (await self._client(node)).get_parameters(names)
         found = [parameter_value_to_python(each) for each in answer.values] if answer else []
         return dict(zip(names, found or [None] * len(names), strict=False))
 
     async def _all_values(self, node: str) -> dict[str, Any]:
-        answer = await self._client(node).list_parameters()
+        answer = await (await self._client(node)).list_parameters()
         names = [each for each in answer.result.names if each not in LEFT_OUT] if answer else []
         values = await self._values(node, names) if names else {}
         return {name: list(value) if _is_array(value) else value for name, value in values.items() if value is not None}
@@ -142,7 +162,7 @@ class Presets(Node):
     async def _set(self, node: str, values: Mapping[str, Any]) -> str:
         """Set values of one node together; why it refused, empty when it did not."""
         parameters = [Parameter(name, value=value) for name, value in values.items()]
-        answer = await self._client(node).set_parameters_atomically(parameters)
+        answer = await (await self._client(node)).set_parameters_atomically(parameters)
         result = answer.result if answer else None
         return "" if result and result.successful else (result.reason if result else "") or "no reason was given"
 

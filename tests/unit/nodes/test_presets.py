@@ -14,6 +14,7 @@ from diagnostic_msgs.srv import AddDiagnostics
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
+from rclpy.parameter_client import AsyncParameterClient
 from std_srvs.srv import Trigger
 
 DOMAINS = itertools.count(8200)
@@ -102,6 +103,14 @@ def test_where_one_node_refuses_no_node_is_changed(bench: Bench, tmp_path: Path)
     write(folder, "wild", {"/arm": {"reach": [9.0], "length": 1}})
     assert "/arm has no parameter length" in bench.ask("apply", "wild")[1]
     assert list(bench.arm.get_parameter("reach").value) == [1.0, 2.0]
+
+
+def test_a_client_that_is_still_looking_for_its_services_is_given_time(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    looks = itertools.count()
+    monkeypatch.setattr(AsyncParameterClient, "services_are_ready", lambda client: next(looks) > 2)
+    assert bench.ask("save", "normal")[0] and next(looks) > 4
 
 
 @pytest.mark.parametrize("name", ["", "../x", "a/b", ".hidden"])
