@@ -9,6 +9,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from bot_console.tui.cli.lint.finding import Finding
+from bot_console.tui.cli.lint.launch_file import dead_parameters
 from bot_console.tui.cli.lint.python_file import Declared
 from bot_console.tui.cli.lint.python_file import lint as lint_python
 
@@ -68,10 +69,11 @@ def files_of(what: str) -> list[Path]:
 
 
 def lint_files(files: Iterable[Path]) -> list[Finding]:
-    """The faults of files; parameter files are held to what the Python files among them declare."""
+    """The faults of files; parameter and launch files are held to what the Python files among them declare."""
     found: list[Finding] = []
     declared = Declared()
     parameters: list[Path] = []
+    launches: list[Path] = []
     for path in files:
         if path.suffix != ".py":
             parameters.append(path)
@@ -83,11 +85,14 @@ def lint_files(files: Iterable[Path]) -> list[Finding]:
             declared.whole = False
             continue
         found += own
+        launches += [path] if path.stem.endswith("launch") else []
         declared.nodes |= names.nodes
         declared.parameters |= names.parameters
         declared.whole = declared.whole and names.whole
     for path in parameters if declared.nodes else ():
         found += _of_parameter_file(path, declared)
+    for path in launches if declared.parameters and declared.whole else ():
+        found += dead_parameters(path, frozenset(declared.parameters))
     return sorted(found)
 
 

@@ -71,6 +71,29 @@ def test_each_fault_is_found_in_its_line(package: Path) -> None:
     }
 
 
+LAUNCH = """\
+def generate_launch_description():
+    return LaunchDescription([
+        Node(package='mine', executable='robot', parameters=[file, {'speed': 2, 'spead': 2,
+             'pid': {'kp': 1.0}}]),
+        Node(package='turtlesim', executable='turtlesim_node', parameters=[{'background_r': 2}]),
+    ])
+"""
+
+
+def test_what_a_launch_file_gives_to_a_node_of_its_package_is_declared_there(package: Path) -> None:
+    (package / "launch").mkdir()
+    (package / "launch" / "all.launch.py").write_text(LAUNCH)
+
+    def dead() -> list[tuple[int, str]]:
+        found = lint_files(files_of(str(package)))
+        return [(each.line, each.subject) for each in found if each.place.endswith("all.launch.py")]
+
+    assert dead() == [], "whose nodes they are is not known"
+    (package / "package.xml").write_text("<package><name>mine</name></package>")
+    assert dead() == [(3, "spead"), (4, "pid.kp")]
+
+
 def test_a_callback_that_can_refuse_is_no_fault(tmp_path: Path) -> None:
     text = NODE.replace("successful=True", "successful=parameters[0].value > 0")
     (tmp_path / "robot.py").write_text(text)

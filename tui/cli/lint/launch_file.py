@@ -1,0 +1,57 @@
+"""Parameters that a Python launch file gives to nodes of its own package, read without running it."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from xml.etree import ElementTree
+
+from bot_console.tui.cli.lint.finding import Finding
+
+MANIFEST = "package.xml"
+
+
+def dead_parameters(path: Path, declared: frozenset[str]) -> Iterator[Finding]:
+    """The names in literal `parameters=[{...}]` of `Node(...)` that none of its package's nodes declares.
+
+    Nodes of other packages declare what cannot be seen here; raises `SyntaxError` for a text that is no Python.
+    """
+    package = _package_of(path)
+    for call in ast.walk(ast.parse(path.read_text(encoding="utf-8"), str(path))) if package else ():
+        if not isinstance(call, ast.Call):
+            continue
+        given = {each.arg: each.value for each in call.keywords}
+        whose = given.get("package")
+        if isinstance(whose, ast.Constant) and whose.value == package:
+            for name, line in _names(given):
+                if name not in declared and name != "use_sim_time" and not name.startswith("qos_overrides."):
+                    yield Finding(str(path), line, "dead parameter", name)
+
+
+def _package_of(path: Path) -> str:
+    """The name of the package that a file lies in; empty where it lies in none."""
+    manifest = next((each / MANIFEST for each in path.resolve().parents if (each / MANIFEST).is_file()), None)
+    try:
+        name = ElementTree.parse(manifest).getroot().findtext("name") if manifest else ""
+    except (ElementTree.ParseError, OSError):
+        return ""
+    return (name or "").strip()
+
+
+def _names(given: Mapping[str | None, ast.expr]) -> Iterator[tuple[str, int]]:
+    parameters = given.get("parameters")
+    for each in parameters.elts if isinstance(parameters, ast.List) else ():
+        if isinstance(each, ast.Dict):
+            yield from _flat(each, "")
+
+
+def _flat(found: ast.Dict, above: str) -> Iterator[tuple[str, int]]:
+    """Names with the names that they stand below, each with its line."""
+    for key, value in zip(found.keys, found.values, strict=True):
+        if not isinstance(key, ast.Constant) or not isinstance(key.value, str):
+            continue
+        if isinstance(value, ast.Dict):
+            yield from _flat(value, f"{above}{key.value}.")
+        else:
+            yield f"{above}{key.value}", key.lineno
