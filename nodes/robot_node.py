@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from bot_console_robot.avoidance import Avoidance, Rules
+from bot_console_robot.common.checking import offer_check
 from bot_console_robot.common.parameters import accepted, number, plain, refused, whole
 from bot_console_robot.common.running import run
 from bot_console_robot.common.scans import intensities_of, ranges_of
@@ -34,6 +35,7 @@ class RobotNavigator(Node):
         self.declare_parameter("enable_safety", True, plain("Slow down and stop for obstacles"))
         self.declare_parameter("robot_name", "IntelligentRobot", plain("Robot identifier"))
         self.add_on_set_parameters_callback(self._check)
+        offer_check(self, self._check)
         self.add_post_set_parameters_callback(self._apply)
         self._avoidance = Avoidance()
         self._rules = self._read_rules()

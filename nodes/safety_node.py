@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+from bot_console_robot.common.checking import offer_check
 from bot_console_robot.common.demand import wanted
 from bot_console_robot.common.diagnostics import ERROR, OK, WARN, status
 from bot_console_robot.common.parameters import accepted, number, plain, proposed, refused
@@ -72,6 +73,7 @@ class SafetyMonitor(Node):
         self.declare_parameter("warning_distance", 0.7, number("Slower from this distance on (m)", 0.1, 5.0))
         self.declare_parameter("start_locked", False, plain("Begin with the emergency stop locked"))
         self.add_on_set_parameters_callback(self._check)
+        offer_check(self, self._check)
         self.add_post_set_parameters_callback(self._apply)
         self._read()
         problem = _problem(self._emergency, self._warning)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 
+from bot_console_robot.common.checking import offer_check
 from bot_console_robot.common.demand import wanted
 from bot_console_robot.common.diagnostics import OK, WARN
 from bot_console_robot.common.health import Health, HealthReport
@@ -55,6 +56,7 @@ class Simulator(Node):
             raise CannotStart(trouble)
         self._model = MODELS[str(self.get_parameter("model").value)]
         self.add_on_set_parameters_callback(self._check)
+        offer_check(self, self._check)
         self.add_post_set_parameters_callback(self._apply)
         self._steady = Clock(clock_type=ClockType.STEADY_TIME)
         try:

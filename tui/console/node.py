@@ -44,6 +44,7 @@ from bot_console.tui.console.robot.world_watch import WorldWatch
 from bot_console.tui.console.sights.room import NodeSights
 from bot_console.tui.console.topics.room import NodeTraffic
 from bot_console.tui.files.save_file import NotSaved, typed_path
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 
@@ -162,6 +163,9 @@ class ConsoleNode:
             return Answer(False, f"{type_name} cannot be called so: {error}")
         except NoAnswer as error:
             return Answer(False, str(error))
+        result = getattr(response, "result", None)
+        if isinstance(result, SetParametersResult):
+            return Answer(result.successful, result.reason)
         message = getattr(response, "message", None)
         return Answer(bool(getattr(response, "success", True)), repr(response) if message is None else str(message))
 

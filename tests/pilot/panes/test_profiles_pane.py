@@ -119,6 +119,47 @@ def test_a_changed_parameter_changes_the_differences() -> None:
     run(live(), play, (120, 40))
 
 
+def test_a_node_that_can_be_asked_without_setting_is_asked_before_anything_is_applied() -> None:
+    console, *rest = live()
+    console.differences["competition"] = (HARMLESS, replace(HARMLESS, node="/safety_monitor", name="warning_distance"))
+    check = Endpoint(f"{HARMLESS.node}/check_parameters", ("rcl_interfaces/srv/SetParametersAtomically",))
+    console.change(graph=replace(console.current.graph, services=(*console.current.graph.services, check)))
+    questions: list[tuple[str, Mapping[str, object]]] = []
+    answers: list[Future[Answer]] = []
+
+    def call(service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:
+        questions.append((service, fields))
+        answers.append(Future())
+        return answers[-1]
+
+    console.call = call  # type: ignore[method-assign]
+
+    async def play(session: Session) -> None:
+        await session.press("7", "down")
+        value = {"type": 3, "double_value": HARMLESS.then}
+        assert questions == [(check.name, {"parameters": [{"name": HARMLESS.name, "value": value}]})]
+        assert f"{HARMLESS.node}  asking ..." in session.text()
+        assert "/safety_monitor  cannot be asked without setting" in session.text()
+        answers[0].set_result(Answer(False, "not in this hall"))
+        await session.settle()
+        assert (
+            "✗ asked:" in session.text()
+            and "not in this hall" in session.text()
+            and "1 node against it" in session.text()
+        )
+        await session.press("a")
+        assert "and with it every other value" in session.text() and applied(session) == []
+        await session.press("n", "up", "down")
+        assert len(questions) == 2, "another time it is looked at is another question"
+        answers[1].set_result(Answer(True, ""))
+        await session.settle()
+        assert "asked: would take it" in session.text()
+        await session.press("a")
+        assert applied(session) == [("competition", False)]
+
+    run((console, *rest), play, (120, 40))
+
+
 def test_without_profiles_it_says_so() -> None:
     async def play(session: Session) -> None:
         await session.press("7", "a", "w", "down", "r", "u")

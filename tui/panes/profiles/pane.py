@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from functools import partial
 from typing import Any
@@ -18,6 +18,7 @@ from bot_console.tui.format import counted, value_text
 from bot_console.tui.kept import LAST_FILE
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.pane import answer_of
+from bot_console.tui.panes.profiles.asking import Asking
 from bot_console.tui.panes.profiles.presets import PresetMenu
 from bot_console.tui.panes.profiles.replacement import Replacement
 from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, entries, outcome_text
@@ -38,10 +39,11 @@ class ProfilesPane(ListPane):
 
     TITLE = "Profiles"
     HELP = (
-        "A profile is a ROS parameter file with the settings for one environment. Below the list stands what it would\n"
-        "change, and what would be refused. a sets the values live, all or nothing over all nodes; w also resets the\n"
-        "simulator into the profile's world. o opens any parameter file the same way, S saves what runs as a profile.\n"
-        "A launch profile takes the place of the running system, after a question. p shows the presets that nodes keep."
+        "A profile is a ROS parameter file with the settings for one environment. Below the list stands what it\n"
+        "would change, and what would be refused: by descriptors, and by nodes that can be asked without setting.\n"
+        "a sets the values live, all or nothing over all nodes; w also resets the simulator into the profile's world.\n"
+        "o opens any parameter file the same way, S saves what runs as a profile. A launch profile takes the place of\n"
+        "the running system, after a question. p shows the presets that nodes keep."
     )
     BINDINGS = keymap.bindings("profiles")
 
@@ -53,6 +55,10 @@ class ProfilesPane(ListPane):
         self._told = ""
         self._held = False
         self._query = Query()
+        self._asking = Asking(self.console, self._later, self._compare)
+
+    def _later(self, work: Callable[..., object], *given: object) -> None:
+        self.host.call_later(work, *given)
 
     def compose(self) -> ComposeResult:
         """The profiles, the differences, a line that sums them up."""
@@ -97,7 +103,8 @@ class ProfilesPane(ListPane):
         profile = self._list.current
         if profile is not None and not self._held:
             self._differences = () if profile.problem else self.console.profile_differences(profile.name)
-        self.query_one(DifferenceRows).exchange(entries(self._differences, self._outcomes))
+            self._asking.ask(self._differences, self._snapshot)
+        self.query_one(DifferenceRows).exchange(entries(self._differences, self._outcomes, self._asking))
         self.query_one("#profile-head", Words).say(self._head(profile))
         self.query_one("#profile-status", Words).say(self._told or self._summary(profile))
 
@@ -123,13 +130,16 @@ class ProfilesPane(ListPane):
             said = "Nothing to change: the robot runs on these values." if running else "None of its nodes is running."
             return f"{said} Not running: {', '.join(absent)}" if absent and running else said
         unknown = sum(each.unknown for each in self._differences)
-        refused = sum(1 for each in self._differences if each.refusal and not each.unknown)
+        refused = sum(bool(each.refusal and not each.unknown) for each in self._differences)
+        refusing = len(self._asking.refusals())
         reset = any(each.needs_reset for each in self._differences)
         text = f"{counted(len(self._differences) - unknown, 'change')}"
         text += f", {refused} would be refused" if refused else ""
+        text += f", {counted(refusing, 'node')} against it" if refusing else ""
         text += f", {unknown} unknown to its node and left out" if unknown else ""
         text += f", not running: {', '.join(absent)}" if absent else ""
-        text += "; own rules of nodes are asked when it is applied"
+        unasked = len(self._asking.unasked)
+        text += f", {counted(unasked, 'node')} cannot be asked before" if unasked else ""
         return text + ("; w also resets the simulator into its world" if reset and profile.world else "")
 
     def _absent(self, profile: Profile) -> list[str]:
@@ -167,6 +177,7 @@ class ProfilesPane(ListPane):
             for each in self._differences
             if each.refusal and not each.unknown
         ]
+        reasons += [f"{node}: {reason}" for node, reason in self._asking.refusals().items()]
         if reasons:
             reasons.insert(0, "Would be refused, and with it every other value:")
         reasons += [
@@ -285,9 +296,13 @@ class ProfilesPane(ListPane):
         keys = [each.key for each in self._snapshot.launch.processes if each.state not in ended]
         self._told = f"stopping {counted(len(keys), 'process').replace('processs', 'processes')} ..."
         self._compare()
-        Replacement(launcher, keys, profile, lambda answer: self.host.call_later(self._replaced, answer)).begin()
+        Replacement(
+            launcher, keys, profile, lambda answer: self.host.call_later(self._replaced, profile, answer)
+        ).begin()
 
-    def _replaced(self, answer: Answer) -> None:
+    def _replaced(self, profile: Profile, answer: Answer) -> None:
+        if answer.ok:
+            self.console.apply_profile(profile.name)  # it has no values; the one of before is not in force any more
         self._told = answer.text
         self._compare()
 

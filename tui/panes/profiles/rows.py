@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from bot_console.tui.console.model import Profile, ProfileDifference, SetOutcome, Value
 from bot_console.tui.format import counted, cut, harmless, value_text
+from bot_console.tui.panes.profiles.asking import Asking
 from bot_console.tui.widgets.item_list import ItemList
 from rich.cells import cell_len
 from rich.segment import Segment
@@ -70,15 +71,16 @@ class ProfileRows(ItemList[Profile]):
 
 @dataclass(frozen=True)
 class Entry:
-    """A line of the differences: a node, one value of it, or below that the reason of a refusal.
+    """A line of the differences: a node, one value of it, or below either the reason of a refusal.
 
-    `outcome` is what became of the value when it was applied.
+    `outcome` is what became of the value when it was applied, `said` what the node says to it, with its style.
     """
 
     node: str
     difference: ProfileDifference | None = None
     outcome: SetOutcome | None = None
     reason: str = ""
+    said: tuple[str, str] = ("", "dim")
 
 
 class DifferenceRows(ItemList[Entry]):
@@ -96,7 +98,8 @@ class DifferenceRows(ItemList[Entry]):
         if entry.reason:
             return [Segment(f"    {harmless(entry.reason)}", self._style("error"))]
         if change is None:
-            return [Segment(harmless(entry.node), self._style("head"))]
+            said, style = entry.said
+            return [Segment(f"{harmless(entry.node)}  ", self._style("head")), Segment(said, self._style(style))]
         longest = max(cell_len(harmless(each.difference.name)) for each in self.rows if each.difference) + 4
         names = max(min(max(longest, NAMES), width - NOTE - 3 * VALUES), 12)
         now = cut(harmless(value_text(change.now)), VALUES) if change.now is not None else "?"
@@ -135,15 +138,20 @@ def outcome_text(name: str, outcomes: Sequence[SetOutcome], unknown: int) -> str
 
 
 def entries(
-    differences: Sequence[ProfileDifference], outcomes: Mapping[tuple[str, str], SetOutcome]
+    differences: Sequence[ProfileDifference],
+    outcomes: Mapping[tuple[str, str], SetOutcome],
+    asking: Asking,
 ) -> tuple[Entry, ...]:
-    """The lines, each node once and its values below it."""
+    """The lines, each node once and its values below it; what the nodes say stands there until it is applied."""
+    refusals: Mapping[str, str] = {} if outcomes else asking.refusals()
     found: list[Entry] = []
     node: Value = None
     for each in sorted(differences, key=lambda one: (one.node, one.name)):
         if each.node != node:
             node = each.node
-            found.append(Entry(each.node))
+            found.append(Entry(each.node, said=("", "dim") if outcomes else asking.words(each.node)))
+            if each.node in refusals:
+                found.append(Entry(each.node, reason=refusals[each.node]))
         outcome = outcomes.get((each.node, each.name))
         found.append(Entry(each.node, each, outcome))
         reason = each.refusal if outcome is None else outcome.reason

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pytest
 from bot_console.tui.console.model import Profile, ProfileDifference, SetOutcome
+from bot_console.tui.panes.profiles.asking import Asking
 from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, entries, outcome_text
+from fakes.console import FakeConsole
 from rich.cells import cell_len
 from rich.style import Style
 from textual.widget import Widget
@@ -38,7 +40,7 @@ def test_where_there_is_no_room_an_ellipsis_stands() -> None:
 
 def differences(name: str, now: str, then: str) -> DifferenceRows:
     rows = DifferenceRows()
-    rows.rows = entries([ProfileDifference("/node", name, now, then)], {})
+    rows.rows = entries([ProfileDifference("/node", name, now, then)], {}, Asking(FakeConsole(), print, print))
     return rows
 
 

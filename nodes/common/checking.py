@@ -1,0 +1,39 @@
+"""A node's own rules, asked without anything being set: the service `~/check_parameters`.
+
+ROS 2 has no service that asks a node's callback what it would say to values; this one answers as
+`set_parameters_atomically` would, and changes nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from bot_console_robot.common.parameters import refused
+from rcl_interfaces.msg import SetParametersResult
+from rcl_interfaces.srv import SetParametersAtomically
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
+SERVICE = "check_parameters"
+
+
+def offer_check(node: Node, check: Callable[[list[Parameter]], SetParametersResult]) -> None:
+    """Let anybody ask for the verdict of `check`, the node's callback before a set, which itself changes nothing.
+
+    Ranges are not looked at: they stand in the descriptors, which anybody can read.
+    """
+
+    def answer(
+        request: SetParametersAtomically.Request, response: SetParametersAtomically.Response
+    ) -> SetParametersAtomically.Response:
+        asked = [Parameter.from_parameter_msg(each) for each in request.parameters]
+        strange = next((each for each in asked if not _fits(node, each)), None)
+        response.result = refused(f"{strange.name} has another type, or is unknown") if strange else check(asked)
+        return response
+
+    node.create_service(SetParametersAtomically, f"~/{SERVICE}", answer)
+
+
+def _fits(node: Node, asked: Parameter) -> bool:
+    """Whether a callback that relies on the declared types can be given it."""
+    return node.has_parameter(asked.name) and node.get_parameter(asked.name).type_ == asked.type_
