@@ -285,7 +285,8 @@ class Console(ConsoleReading, Protocol):
         ...
 
     def apply_profile(self, name: str, *, reset_world: bool = False) -> Future[tuple[SetOutcome, ...]]:
-        """Set a profile's values live, all or nothing. It is the active one when nothing was refused.
+        """Set a profile's values live, all or nothing. It is the active one when nothing was refused; a launch profile
+        that has been launched has no values, and is the active one.
 
         The future raises `ValueError`, with the reason, for a profile that is not there or cannot be used.
         """

@@ -252,6 +252,7 @@ def test_a_launch_profile_asks_stops_what_runs_and_then_launches() -> None:
         verbs = [each[0] for each in launcher.asked]
         assert verbs == ["stop"] * (len(verbs) - 1) + ["launch"] and len(verbs) > 2
         assert launcher.asked[-1][1:] == ("/p/two.launch.py", {"robots": "2"})
+        assert console.current.active_profile == "two"
 
     run((console, launcher), play, (120, 40))
 

@@ -133,7 +133,12 @@ def _given(profile: Profile, node: str) -> dict[str, tuple[str, Value]]:
 
 
 def cannot_apply(profile: Profile, trees: Mapping[str, ParameterTree]) -> str:
-    """Why a profile has nobody to go to; empty where it has. Without this its name would stand for values it is not."""
+    """Why a profile has nobody to go to; empty where it has. Without this its name would stand for values it is not.
+
+    A launch profile has no values: whoever has launched it applies it, so that it is the one in force.
+    """
+    if profile.launch:
+        return ""
     keys = {key for key, _ in profile.values}
     return "none of its nodes is running" if len(unmatched(profile, trees)) == len(keys) else ""
 

@@ -296,9 +296,7 @@ class ProfilesPane(ListPane):
         keys = [each.key for each in self._snapshot.launch.processes if each.state not in ended]
         self._told = f"stopping {counted(len(keys), 'process').replace('processs', 'processes')} ..."
         self._compare()
-        Replacement(
-            launcher, keys, profile, lambda answer: self.host.call_later(self._replaced, profile, answer)
-        ).begin()
+        Replacement(launcher, keys, profile, partial(self._later, self._replaced, profile)).begin()
 
     def _replaced(self, profile: Profile, answer: Answer) -> None:
         if answer.ok:
