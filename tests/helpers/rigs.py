@@ -7,6 +7,7 @@ a logger service.
 from __future__ import annotations
 
 import contextlib
+import inspect
 import itertools
 import sys
 import threading
@@ -55,6 +56,10 @@ from std_msgs.msg import Float64, String
 from std_srvs.srv import Trigger
 
 ROBOT, ARM = "/robot", "/arm"
+LOGGER_SERVICE: dict[str, Any] = {
+    name: True for name in ("enable_logger_service",) if name in inspect.signature(rclpy.create_node).parameters
+}
+"""What a node is given so that levels of its loggers can be set; Humble has no such service."""
 PATIENCE = 10.0
 """Seconds after which a test gives up; nothing is measured by it."""
 TOO_FAST = "too fast for indoors"
@@ -217,7 +222,7 @@ class RosRig:
         self._speed_rule = ""
         self._context = Context()
         rclpy.init(args=[], context=self._context, domain_id=domain)
-        self._node = rclpy.create_node("robot", context=self._context, enable_logger_service=True)
+        self._node = rclpy.create_node("robot", context=self._context, **LOGGER_SERVICE)
         self._declare()
         self._level = self._node.create_publisher(Float64, "level", 10)
         self._node.create_publisher(String, "words", 10)
