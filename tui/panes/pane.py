@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar, TypeVar
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import ConsoleSnapshot
@@ -28,8 +28,7 @@ from textual.geometry import Region
 from textual.message import Message
 from textual.widget import Widget
 
-if TYPE_CHECKING:
-    from typing_extensions import Self
+P = TypeVar("P", bound="Pane")
 
 
 class Pane(Container):
@@ -135,7 +134,7 @@ class Pane(Container):
         finally:
             self._only_edge = False
 
-    def refresh(self, *regions: Region, repaint: bool = True, layout: bool = False, recompose: bool = False) -> Self:
+    def refresh(self: P, *regions: Region, repaint: bool = True, layout: bool = False, recompose: bool = False) -> P:
         """As of Textual, which draws the whole pane and all in it where a caption changes: there the edge is enough."""
         size = self.outer_size
         if self._only_edge and size:
