@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -17,6 +18,7 @@ if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
 
 CONSOLE = ["-m", "bot_console.tui"]
+SOCKETS = f"/tmp/bct-{os.getpid()}"
 
 
 def typed(*words: str) -> subprocess.CompletedProcess[str]:
@@ -30,12 +32,22 @@ def eventually(terminal: Terminal, condition, what: str) -> None:
     terminal.read_until(condition, what)
 
 
-@pytest.fixture
-def console(tmp_path: Path) -> Iterator[Terminal]:
-    terminal = Terminal([*CONSOLE, "--seed", "1"], tmp_path)
-    eventually(terminal, lambda: "/simulator" in typed("node", "list").stdout, "the robot in a second terminal")
-    yield terminal
-    terminal.close()
+@pytest.fixture(scope="module")
+def console(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
+    """One console with its robot; each test leaves it as it was."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("BOT_CONSOLE_SOCKET_DIR", SOCKETS)
+        terminal = Terminal([*CONSOLE, "--seed", "1"], tmp_path_factory.mktemp("console"))
+        eventually(terminal, lambda: b"robot_navigator" in terminal.output, "the robot's nodes")
+        yield terminal
+        terminal.close()
+    shutil.rmtree(SOCKETS, ignore_errors=True)
+
+
+@pytest.fixture(autouse=True)
+def same_folder(console: Terminal, monkeypatch: pytest.MonkeyPatch, socket_folder: str) -> None:
+    """Verbs meet the console of this file."""
+    monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", SOCKETS)
 
 
 def speed() -> float:
@@ -47,6 +59,7 @@ def test_verbs_of_a_second_terminal_reach_the_robot(console: Terminal) -> None:
     assert "out of range" in refused.stderr + refused.stdout
     assert typed("param", "set", "/robot_navigator", "max_speed", "2.0").stdout == "Set parameter successful\n"
     assert typed("param", "get", "/robot_navigator", "max_speed").stdout == "Double value is: 2.0\n"
+    console.output = b""
     assert typed("stop", "a test").returncode == 0
     console.read_until(lambda: b"ALL STOP" in console.output, "the lock on the first screen")
     assert abs(speed()) < 0.05
@@ -64,6 +77,7 @@ def test_a_second_console_is_asked_for_and_does_not_take_the_robot_along(console
 
     attached = Terminal([*CONSOLE, "attach"], tmp_path)
     attached.read_until(lambda: b"robot_navigator" in attached.output, "the robot's nodes in an attached console")
+    console.output = b""
     attached.type("!")
     console.read_until(lambda: b"ALL STOP" in console.output, "the lock of another console on the first screen")
     attached.type("!")

@@ -25,8 +25,8 @@ def ends(rounds: int, seed: int, patience: float) -> None:
 
 
 @pytest.mark.timeout(120)
-def test_a_few_of_each_kind() -> None:
-    ends(16, 1, 100.0)
+def test_one_of_each_kind() -> None:
+    ends(KINDS, 1, 100.0)
 
 
 @pytest.mark.soak
