@@ -40,8 +40,9 @@ atexit.register(shutil.rmtree, _sockets, ignore_errors=True)
 if os.environ.pop("PYTHONDONTWRITEBYTECODE", None):
     os.environ.setdefault("PYTHONPYCACHEPREFIX", os.path.join(_sockets, "compiled"))
 
-# The default run tries the same examples each time, so that red means a change: HYPOTHESIS_PROFILE=explore tries more.
-settings.register_profile("repeatable", derandomize=True, deadline=None, database=None)
+# The default run tries the same few examples each time, so that red means a change: HYPOTHESIS_PROFILE=explore tries
+# many others.
+settings.register_profile("repeatable", derandomize=True, deadline=None, database=None, max_examples=50)
 settings.register_profile("explore", deadline=None, max_examples=1000)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
 

@@ -10,7 +10,7 @@ from bot_console.tui.console.logs.store import LogStore
 from bot_console.tui.console.logs.view import SearchedView
 from bot_console.tui.console.model import LogFilter, LogRecord, Severity
 from bot_console.tui.console.query import parse
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 LEVELS = [each for each in Severity if each is not Severity.UNSET]
@@ -117,13 +117,11 @@ def holds_all(words, line):
 words_and_lines = given(records, filters, st.integers(1, 4))
 
 
-@settings(deadline=None, max_examples=200)
 @words_and_lines
 def test_the_log_finds_what_the_words_say(lines, words, times):
     the_log_finds(lines, words, times)
 
 
-@settings(deadline=None, max_examples=50)
 @words_and_lines
 def test_it_finds_the_same_without_re2(lines, words, times):
     with pytest.MonkeyPatch.context() as patch:
@@ -172,7 +170,6 @@ def test_rules_hide_and_show(lines, words, hidden, only, minimum):
     assert matching(stored(lines), which) == wanted
 
 
-@settings(max_examples=300)
 @given(st.lists(st.sampled_from("aab"), max_size=60), st.integers(2, 40), st.integers(1, 5), st.data())
 def test_rows_of_equal_lines_are_one_however_they_come(said, capacity, slice_of, data):
     """Older lines are found in slices, newer ones come between, the oldest fall out of a small store."""

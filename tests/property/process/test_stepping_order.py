@@ -7,7 +7,7 @@ import threading
 import time
 
 from bot_console.runtime.process import NodeProcess, stepped
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 DOORS = 3
@@ -86,7 +86,6 @@ class Run:
         return thread.is_alive()
 
 
-@settings(max_examples=60, deadline=None)
 @given(programs)
 def test_same_program_same_trace(threads):
     first, second = Run(threads), Run(threads)
@@ -97,7 +96,6 @@ def test_same_program_same_trace(threads):
     assert first.trace[-1][2] == [0] * len(threads)
 
 
-@settings(max_examples=60, deadline=None)
 @given(st.lists(st.lists(durations, min_size=1, max_size=6), min_size=1, max_size=5))
 def test_sleepers_wake_at_their_times_in_order_of_creation(threads):
     """A model without threads: every wake-up at the sum of its sleeps, ties in order of creation."""

@@ -7,7 +7,7 @@ from array import array
 from typing import Any
 
 from geometry_msgs.msg import Point, Pose, PoseArray, PoseWithCovariance
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import JointState, LaserScan
@@ -51,7 +51,6 @@ def shown(message: Any) -> str:
     return repr(message)
 
 
-@settings(max_examples=100, deadline=None)
 @given(messages)
 def test_the_sender_may_change_its_message_at_once(message: Any) -> None:
     before, got = shown(copy.deepcopy(message)), []
@@ -63,7 +62,6 @@ def test_the_sender_may_change_its_message_at_once(message: Any) -> None:
     assert shown(got[0]) == before
 
 
-@settings(max_examples=100, deadline=None)
 @given(messages)
 def test_a_receiver_may_change_what_it_got(message: Any) -> None:
     before, got = shown(message), []
@@ -82,7 +80,6 @@ def test_a_receiver_may_change_what_it_got(message: Any) -> None:
     assert shown(message) == before
 
 
-@settings(max_examples=60, deadline=None)
 @given(messages)
 def test_what_is_kept_for_late_joiners_is_a_copy(message: Any) -> None:
     latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)

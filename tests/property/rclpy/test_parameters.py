@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor, ParameterEvent
 from rclpy.context import Context
@@ -146,7 +146,6 @@ def act(node: Node, operation: Any) -> None:
         assert not isinstance(error, (AttributeError, KeyError))
 
 
-@settings(max_examples=100, deadline=None)
 @given(operations, st.booleans())
 def test_who_hears_all_events_knows_all_parameters(context: Context, steps: Any, undeclared: bool) -> None:
     watcher = Node("watcher", context=context)

@@ -7,7 +7,7 @@ from typing import Any
 
 import yaml
 from bot_console.runtime.rmw.parameter_precedence import ParameterTable, key_matches
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 tokens = st.sampled_from(["a", "b", "ab"])
@@ -24,7 +24,6 @@ def spelled_out(pattern: list[str], parts: list[str]) -> bool:
     return bool(parts) and pattern[0] in ("*", parts[0]) and spelled_out(pattern[1:], parts[1:])
 
 
-@settings(max_examples=400)
 @given(keys, nodes, st.booleans())
 def test_keys_match_token_by_token(key: str, node: str, absolute: bool) -> None:
     assert key_matches(f"/{key}" if absolute else key, node) == spelled_out(key.split("/"), node.split("/")[1:])
@@ -68,7 +67,6 @@ def expected(given_files: Any, node: str) -> dict[str, Any]:
     return found
 
 
-@settings(max_examples=200, deadline=None)
 @given(files, nodes)
 def test_precedence(given_files: Any, node: str) -> None:
     table = ParameterTable()
@@ -86,7 +84,6 @@ def test_precedence(given_files: Any, node: str) -> None:
     }
 
 
-@settings(max_examples=200)
 @given(st.lists(st.tuples(st.sampled_from(["/**", "n", "m"]), names, scalars), max_size=6))
 def test_words_and_files_follow_the_same_rules(rules: Any) -> None:
     table = ParameterTable()
@@ -110,7 +107,6 @@ def leaves(tree: Any, path: str = "") -> dict[str, int]:
     return found
 
 
-@settings(max_examples=200, deadline=None)
 @given(trees, st.booleans())
 def test_nested_maps_are_names_with_dots(tree: Any, flow: bool) -> None:
     with TemporaryDirectory() as folder:

@@ -6,7 +6,7 @@ import sys
 
 import pytest
 from bot_console.runtime.rmw.parameter_scalars import scalar_value
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="compares with the C library of Linux")
@@ -40,7 +40,6 @@ def by_c(text: str) -> int | float | str:
     return text
 
 
-@settings(max_examples=500)
 @given(numerals | exponents | words | st.integers().map(str) | st.floats().map(repr) | st.floats().map(float.hex))
 @example("5e-324")
 @example("0x1p-1074")

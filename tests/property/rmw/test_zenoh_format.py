@@ -45,7 +45,6 @@ ARGUMENTS = (TOKENS | st.text(), PROFILES, st.binary(max_size=200) | st.binary(m
 
 
 @given(*ARGUMENTS)
-@settings(max_examples=300, deadline=None)
 def test_any_input(token, profile, data, head):
     check(token, profile, data, head)
 

@@ -30,7 +30,6 @@ def lists(value: Any) -> Any:
     return {key: lists(each) for key, each in value.items()} if isinstance(value, dict) else value
 
 
-@settings(max_examples=150, deadline=None)
 @given(circles, boxes, walls, place, st.floats(-math.pi, math.pi), st.integers(3, 400), st.floats(0.2, 2 * math.pi))
 def test_every_beam_ends_at_the_first_surface(
     discs: Any, blocks: Any, lines: Any, start: tuple[float, float], heading: float, beams: int, view: float

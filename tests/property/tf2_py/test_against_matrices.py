@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from geometry_msgs.msg import TransformStamped
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from rclpy.time import Time
 from tf2_py import BufferCore, TransformException
@@ -101,7 +101,6 @@ def _to_common(known: list[Entry], frame: str, common: str, time: float) -> np.n
     return matrix
 
 
-@settings(max_examples=150, deadline=None)
 @given(entries, st.sampled_from(FRAMES), st.sampled_from(FRAMES), quarters)
 def test_a_transform_is_the_product_of_matrices(known: list[Entry], target: str, source: str, quarter: int) -> None:
     time = quarter / 4

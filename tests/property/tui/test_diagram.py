@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from bot_console.tui.widgets.diagram.drawing import Drawing, draw
 from bot_console.tui.widgets.diagram.flow import DOWN, RIGHT, Flow
 from bot_console.tui.widgets.diagram.graph import Digraph, Item
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from rich.cells import cell_len
 
@@ -57,7 +57,6 @@ def reachable(start: Iterable[Cell], cells: set[Cell]) -> set[Cell]:
     return seen
 
 
-@settings(max_examples=150, deadline=None)
 @given(graphs(), st.sampled_from([RIGHT, DOWN]))
 def test_every_edge_is_an_unbroken_line_to_an_arrow(graph: Digraph, flow: Flow) -> None:
     drawing = draw(graph, flow)
@@ -70,7 +69,6 @@ def test_every_edge_is_an_unbroken_line_to_an_arrow(graph: Digraph, flow: Flow) 
         assert arrows & reached, f"{edge} is broken\n{drawing.text()}"
 
 
-@settings(max_examples=150, deadline=None)
 @given(graphs(), st.sampled_from([RIGHT, DOWN]))
 def test_nothing_overlaps_and_everything_is_inside(graph: Digraph, flow: Flow) -> None:
     drawing = draw(graph, flow)
@@ -83,7 +81,6 @@ def test_nothing_overlaps_and_everything_is_inside(graph: Digraph, flow: Flow) -
         assert end <= drawing.width, drawing.text()
 
 
-@settings(max_examples=60, deadline=None)
 @given(graphs(), st.sampled_from([RIGHT, DOWN]), st.randoms())
 def test_the_order_of_what_is_given_does_not_matter(graph: Digraph, flow: Flow, random) -> None:
     items, edges = list(graph.items), list(graph.edges)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from bot_console.tui.panes.alarms.condition import read
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 BATTERY, SPEED = "/battery/percentage", "/odom/twist.twist.linear.x"
@@ -67,7 +67,6 @@ def test_what_cannot_be_worked_out_for_a_value_is_told_then() -> None:
         condition.holds({"/a/b": 0.0})
 
 
-@settings(max_examples=300)
 @given(st.text("/ab.x:[]0123<>=!() +-*/andor,_'\"\\", max_size=40))
 def test_any_text_is_read_or_refused_in_words(text: str) -> None:
     try:
