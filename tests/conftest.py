@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 from bot_console.runtime.importer import install
 from hypothesis import settings
+from hypothesis.internal.conjecture import providers
 
 TESTS = Path(__file__).absolute().parent
 
@@ -44,7 +45,12 @@ if os.environ.pop("PYTHONDONTWRITEBYTECODE", None):
 # many others.
 settings.register_profile("repeatable", derandomize=True, deadline=None, database=None, max_examples=50)
 settings.register_profile("explore", deadline=None, max_examples=1000)
-settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
+PROFILE = os.environ.get("HYPOTHESIS_PROFILE", "repeatable")
+settings.load_profile(PROFILE)
+if PROFILE == "repeatable":
+    # It would read all our sources for constants to try: a quarter of the time in which a worker collects the tests, and
+    # other examples after each change.
+    providers.is_local_module_file = lambda path: False
 
 
 @pytest.fixture(autouse=True)

@@ -1,7 +1,7 @@
 """Faults are kept from spreading: a message pump of Textual ends with the first exception that leaves a handler.
 
-Besides `output` the only file that hangs on private parts of Textual; where they are named otherwise, a fault ends the
-app as Textual does it.
+It hangs on private parts of Textual, as `output` does; where they are named otherwise, a fault ends the app as Textual
+does it.
 """
 
 from __future__ import annotations

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from bot_console.tui.terminal.style_sheet import PartwiseStylesheet
 from textual.app import App
 from textual.screen import Screen
 
@@ -16,6 +17,10 @@ class StyledOnceApp(App[None]):
     """An app that reads its style sheets again only for other colours."""
 
     _colours: dict[str, str] | None = None
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.stylesheet = PartwiseStylesheet(variables=self.get_css_variables())
 
     def refresh_css(self, animate: bool = True) -> None:
         """Read and apply the style sheets for the theme's colours, unless they are those in use."""

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import ClassVar
 
 from bot_console.tui import keymap
+from bot_console.tui.terminal.style_sheet import StyledByPart
 from bot_console.tui.widgets.diagram.drawing import Drawing, Place, Run, draw
 from bot_console.tui.widgets.diagram.flow import DOWN, RIGHT, Flow
 from bot_console.tui.widgets.diagram.graph import Digraph
@@ -28,7 +29,7 @@ MARGIN = 2
 """Cells kept free around the selected item when the picture is scrolled to it."""
 
 
-class DiagramView(ScrollView, can_focus=True):
+class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[reportIncompatibleMethodOverride] -- Textual's own
     """The picture of a graph. Arrow keys select what stands in that direction, what is linked first."""
 
     BINDINGS = keymap.bindings("diagram")

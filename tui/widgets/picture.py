@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from functools import lru_cache
 from typing import ClassVar, TypeAlias
 
+from bot_console.tui.terminal.style_sheet import StyledByPart
 from rich.cells import cell_len
 from rich.segment import Segment
 from rich.style import Style
 from textual.geometry import Region
 from textual.message import Message
 from textual.strip import Strip
-from textual.widget import Widget
 
 Piece: TypeAlias = "tuple[str, str]"
 """Text and the name of its style, one of `Picture.STYLES`; empty for the plain one.
@@ -26,7 +26,7 @@ CLOSE = 10
 """Cells of which drawing costs about as much as moving the cursor over them."""
 
 
-class Picture(Widget):
+class Picture(StyledByPart):
     """Shows lines; `Picture.STYLES` are the names that pieces may use."""
 
     STYLES: ClassVar[tuple[str, ...]] = (

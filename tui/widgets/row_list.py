@@ -6,6 +6,7 @@ from typing import ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.console.query import Query
+from bot_console.tui.terminal.style_sheet import StyledByPart
 from rich.segment import Segment
 from rich.style import Style
 from textual.events import Click
@@ -21,7 +22,7 @@ UNCUT = 1000
 """Cells in which a row that is searched has room for all it says."""
 
 
-class RowList(ScrollView, can_focus=True):
+class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[reportIncompatibleMethodOverride] -- Textual's own
     """Rows with a cursor. A subclass gives `row_count` and `row(index, width)`."""
 
     BINDINGS = keymap.bindings("list")
