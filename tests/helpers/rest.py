@@ -14,6 +14,7 @@ from contextlib import contextmanager
 from typing import Any
 from unittest.mock import patch
 
+from bot_console.tui.terminal.output import SparingApp
 from textual import _wait
 from textual import app as app_module
 from textual import pilot as pilot_module
@@ -47,8 +48,22 @@ async def _drained(loop: Any) -> None:
             continue
         if app is not None and app.screen_stack and app.screen.is_running:
             app.screen._on_timer_update()  # what would be drawn when the next frame is due
+            if not loop._ready:
+                _draw(app)
         if not loop._ready:
             return
+
+
+def _draw(app: Any) -> None:
+    """Let the screen draw what has been held back: one frame for all that a key brings about."""
+    screen = app.screen
+
+    def draw() -> None:
+        with patch.object(SparingApp, "may_draw", lambda app: True):
+            screen._compositor_refresh()
+
+    if screen._compositor._dirty_regions:
+        screen.call_next(draw)
 
 
 @contextmanager
@@ -56,6 +71,7 @@ def at_rest() -> Iterator[None]:
     """Pilots wait so, meanwhile; and no style sheet is read again that an app of this process has read."""
     with (
         patch.object(Stylesheet, "_parse_rules", _parsed_once),
+        patch.object(SparingApp, "may_draw", lambda app: False),
         patch.object(app_module, "wait_for_idle", rest),
         patch.object(pilot_module, "wait_for_idle", rest),
         patch.object(pilot_module.Pilot, "_wait_for_screen", _screen_at_rest),
