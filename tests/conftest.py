@@ -48,7 +48,7 @@ settings.register_profile("explore", deadline=None, max_examples=1000)
 PROFILE = os.environ.get("HYPOTHESIS_PROFILE", "repeatable")
 settings.load_profile(PROFILE)
 if PROFILE == "repeatable":
-    # It would read all our sources for constants to try: a quarter of the time in which a worker collects the tests, and
+    # It would read all our sources for constants to try: a quarter of what it costs a worker to collect the tests, and
     # other examples after each change.
     providers.is_local_module_file = lambda path: False
 

@@ -7,7 +7,7 @@ does it.
 from __future__ import annotations
 
 from bot_console.tui.terminal.output import SUPPORTED, HoldingScreen, SparingApp
-from bot_console.tui.terminal.styled_once import StyledOnceApp, StyledOnceScreen
+from bot_console.tui.terminal.styling.styled_once import StyledOnceApp, StyledOnceScreen
 from textual._context import active_message_pump
 from textual.dom import DOMNode
 from textual.message import Message

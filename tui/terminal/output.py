@@ -1,4 +1,4 @@
-"""With `guard` and `style_sheet` all that hangs on private parts of Textual (8.2); others draw as Textual does.
+"""With `guard` and `styling` all that hangs on private parts of Textual (8.2); others draw as Textual does.
 
 Every frame comes through `App._display`. There it is reduced to the cells that differ from what the terminal shows, and
 followed by a question (`CSI 6n`, where is the cursor). While the terminal owes answers nothing more is drawn: what is

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import ClassVar
 
 from bot_console.tui import keymap
-from bot_console.tui.terminal.style_sheet import StyledByPart
+from bot_console.tui.terminal.styling.style_sheet import StyledByPart
 from bot_console.tui.widgets.diagram.drawing import Drawing, Place, Run, draw
 from bot_console.tui.widgets.diagram.flow import DOWN, RIGHT, Flow
 from bot_console.tui.widgets.diagram.graph import Digraph

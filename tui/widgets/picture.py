@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from functools import lru_cache
 from typing import ClassVar, TypeAlias
 
-from bot_console.tui.terminal.style_sheet import StyledByPart
+from bot_console.tui.terminal.styling.style_sheet import StyledByPart
 from rich.cells import cell_len
 from rich.segment import Segment
 from rich.style import Style

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from bot_console.tui.terminal.style_sheet import PartwiseStylesheet
+from bot_console.tui.terminal.styling.style_sheet import PartwiseStylesheet
 from textual.app import App
 from textual.screen import Screen
 

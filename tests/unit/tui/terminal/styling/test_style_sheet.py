@@ -1,0 +1,50 @@
+"""Parts of a widget are styled when they are drawn, and again whenever that widget is styled again."""
+
+from __future__ import annotations
+
+import asyncio
+from typing import ClassVar
+from unittest.mock import patch
+
+import pytest
+from bot_console.tui.terminal.styling.style_sheet import StyledByPart
+from bot_console.tui.terminal.styling.styled_once import StyledOnceApp
+from textual.app import ComposeResult
+from textual.color import Color
+from textual.widget import Widget
+
+
+class Parts(StyledByPart):
+    """A widget of two parts."""
+
+    COMPONENT_CLASSES: ClassVar[set[str]] = {"parts--first", "parts--second"}
+
+
+class Plain(StyledOnceApp):
+    CSS = """
+    .parts--first { color: red; }
+    .changed .parts--first { color: blue; }
+    .parts--second { color: green; }
+    """
+
+    def compose(self) -> ComposeResult:
+        yield Parts()
+
+
+def test_a_part_is_styled_when_it_is_asked_for_and_follows_the_rules_from_then_on() -> None:
+    async def main() -> None:
+        app = Plain()
+        async with app.run_test() as pilot:
+            parts = app.query_one(Parts)
+            assert not parts._component_styles
+            assert parts.get_component_styles("parts--first").color == Color.parse("red")
+            assert list(parts._component_styles) == ["parts--first"]
+            with patch.object(Widget, "refresh", autospec=True, side_effect=Widget.refresh) as drawn:
+                parts.add_class("changed")
+                await pilot.pause()
+                assert [call for call in drawn.call_args_list if call.args == (parts,) and not call.kwargs]
+            assert parts.get_component_styles("parts--first").color == Color.parse("blue")
+            with pytest.raises(KeyError):
+                parts.get_component_styles("parts--third")
+
+    asyncio.run(main())

@@ -1,0 +1,1 @@
+"""How widgets are styled with less work than Textual does for it."""
