@@ -149,7 +149,8 @@ class Navigator(Node):
             self.get_logger().warning(f"Goal on goal_pose ignored: {error}")
             return
         self._announce(message.pose)
-        self._begin(Way(points, heading, self._known.limits()))
+        goal = self._begin(Way(points, heading, self._known.limits()))
+        goal.done.add_done_callback(lambda done: self._tell_end(done.result() or 0))
 
     def _announce(self, pose: Pose) -> None:
         here = self._known.pose or (0.0, 0.0, 0.0)
@@ -157,6 +158,9 @@ class Navigator(Node):
             f"Begin navigating from current location ({here[0]:.2f}, {here[1]:.2f}) "
             f"to ({pose.position.x:.2f}, {pose.position.y:.2f})"
         )
+
+    def _tell_end(self, code: int) -> None:
+        self.get_logger().info("Goal succeeded" if not code else f"Goal failed, error code {code}")
 
     async def _travel(
         self, handle: ServerGoalHandle, poses: Sequence[Pose], feedback: Callable[[Way, Any], None], kind: Any
@@ -172,7 +176,7 @@ class Navigator(Node):
         task = Way(points, heading, self._known.limits())
         message = kind.Feedback()
         code = await run_goal(self, self._begin(task, handle), lambda: feedback(task, message), message)
-        self.get_logger().info("Goal succeeded" if not code else f"Goal failed, error code {code}")
+        self._tell_end(code)
         return code
 
     async def _to_pose(self, handle: ServerGoalHandle) -> Any:

@@ -26,9 +26,10 @@ def robot(running: System, *words: str) -> Program:
     return program
 
 
-def navigator(running: System) -> None:
-    running.executable(PACKAGE, "navigation_node")
+def navigator(running: System) -> Program:
+    program = running.executable(PACKAGE, "navigation_node")
     running.run(1.0)
+    return program
 
 
 def once(running: System, topic: str, *words: str) -> str:
@@ -260,12 +261,13 @@ def test_what_waits_for_nav2_need_not_wait(running: System) -> None:
 
 def test_the_goal_topic_needs_no_answer(running: System) -> None:
     robot(running)
-    navigator(running)
+    program = navigator(running)
     x, y = place(running)
     words = ("/goal_pose", "geometry_msgs/msg/PoseStamped", f"{{pose: {{position: {{x: {x + 1.0}, y: {y}}}}}}}")
     running.ask("topic", "pub", "--once", *words)
     running.run(15.0)
     assert place(running) == pytest.approx((x + 1.0, y), abs=0.2)
+    assert program.stderr.count("Begin navigating") == program.stderr.count("Goal succeeded") == 1
 
 
 COMMANDER = """
