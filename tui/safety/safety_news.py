@@ -1,4 +1,4 @@
-"""Word of single edits that took from the robot's safety, with the way back."""
+"""Word of edits, undone ones too, that took from the robot's safety, with the way back."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.format import value_text
 
-TOLD = (ChangeSource.EDIT, ChangeSource.REDO)
+BACK = {ChangeSource.EDIT: "u", ChangeSource.REDO: "u", ChangeSource.UNDO: "U"}
+"""The sources of the changes that are told of, with the key that takes each back; others are asked about before."""
 
 
 class SafetyNews:
@@ -37,8 +38,8 @@ class SafetyNews:
         told = key in self._told
         if not why:
             self._told.discard(key)
-        if not why or told or change.source not in TOLD:
+        if not why or told or change.source not in BACK:
             return ""
         self._told.add(key)
         values = f"{value_text(change.old)} → {value_text(change.new)}"
-        return f"⚠ {change.name} {values} {why}. u in the Parameters pane takes it back."
+        return f"⚠ {change.name} {values} {why}. {BACK[change.source]} in the Parameters pane takes it back."

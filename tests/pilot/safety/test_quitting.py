@@ -130,5 +130,9 @@ def test_an_edit_that_takes_from_safety_is_told_once_with_the_way_back() -> None
         session.console.set_parameters(NODE, {"turn_rate": 0.5})
         await session.settle()
         assert len(session.app._notifications) == 1
+        session.console.undo()
+        await session.settle()
+        *_, last = (each.message for each in session.app._notifications)
+        assert last == "⚠ turn_rate 0.5 → 1.0 raises a limit. U in the Parameters pane takes it back."
 
     run(live(), play)
