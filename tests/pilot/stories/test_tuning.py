@@ -66,7 +66,9 @@ def test_what_one_node_refuses_leaves_everything_marked_and_says_why() -> None:
         await session.press("a")
         assert value(session, "turn_rate") == 1.0
         assert "Nothing was set" in session.text() and "✗ 180: not while it turns" in session.text()
-        await session.press("x", "x")
+        await session.press("plus")
+        assert "360 → " in session.text(), "what is marked anew is seen in place of the refusal"
+        await session.press("x")
         await session.press("a")
         assert sent(session)[-1] == {NAVIGATOR: {"turn_rate": 0.98}}
 

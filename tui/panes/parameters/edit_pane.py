@@ -98,7 +98,9 @@ class EditPane(ListPane):
     def _set(self, parameter: ParameterInfo, value: Value) -> None:
         """Send a value, or mark it."""
         if self.staging.marking:
-            self.staging.mark((parameter.node, parameter.name), parameter.value, value)
+            key = (parameter.node, parameter.name)
+            self.staging.mark(key, parameter.value, value)
+            self._list.refused.pop(key, None)  # of a value before this one, whose mark would hide this one's
             self.redraw_marks()
             return
         answer = self.console.set_parameters(parameter.node, {parameter.name: value}, ChangeSource.EDIT)
