@@ -1,4 +1,4 @@
-"""Takes the pictures of the README and of the documentation from a real run of the console, in about a minute.
+"""Takes the pictures of the README and of the documentation from a real run of the console, in about two minutes.
 
 python tools/screenshots.py [docs/images]
 """
@@ -7,8 +7,11 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import os
 import re
+import shutil
 import sys
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
@@ -18,6 +21,7 @@ install()
 
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.live.session import Session
+from bot_console.tui.files.folders import config_folder
 from bot_console.tui.panes.parameters.table import ParameterRows
 from textual.pilot import Pilot
 
@@ -25,6 +29,20 @@ FOLDER = Path(__file__).resolve().parents[1] / "docs" / "images"
 LARGE, SMALL = (120, 40), (80, 24)
 DRIVING = 25.0
 """Seconds of driving before the first change, and again before the first picture."""
+BEGINNER = Path(tempfile.gettempdir()) / "beginner"
+"""The folder of a user who has no settings and no history yet; its name is seen in the pictures."""
+GENTLE = """# Gentle: near people
+/robot_navigator:
+  ros__parameters: {max_speed: 0.6, safety_distance: 0.8}
+/safety_monitor:
+  ros__parameters: {warning_distance: 0.25}
+/sensor_handler:
+  ros__parameters: {update_rate: 20.0}
+/motion_controller:
+  ros__parameters: {kp_angular: 50.0}
+"""
+RESPONSE = 3.0
+"""Seconds of driving with each of two sets."""
 PATIENCE = 30.0
 FONTS = "'DejaVu Sans Mono', 'Fira Code', Menlo, Consolas, monospace"
 FONT_FACE = re.compile(r"@font-face \{.*?\}", re.DOTALL)
@@ -67,9 +85,12 @@ class Photographer:
 
     async def enter(self, text: str) -> None:
         """Edit the selected parameter."""
-        await self.press("enter", *["backspace"] * 12)
-        await self.press(*(letter.replace(".", "full_stop") for letter in text), "enter")
+        await self.press("enter", *["backspace"] * 12, *_keys(text), "enter")
         await self._pilot.pause(0.5)
+
+    async def find(self, name: str) -> None:
+        """Filter for a parameter, which puts the cursor on it."""
+        await self.press("1", "slash", *["backspace"] * 20, *_keys(name), "enter")
 
     async def steer_until_limited(self) -> None:
         """Drive on, with a key now and then as the dead-man wants it, until something stands ahead."""
@@ -84,6 +105,12 @@ class Photographer:
         await self._pilot.resize_terminal(*size)
         await self._pilot.pause(0.5)
 
+    def keep_profile(self, name: str, text: str) -> None:
+        """Write a profile of the user's, which the console finds by itself."""
+        folder = config_folder() / "profiles"
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / f"{name}.yaml").write_text(text, encoding="utf-8")
+
     def take(self, name: str) -> None:
         """Save what is on the screen; fonts are those of the reader, none is fetched."""
         svg = self._session.app.export_screenshot(title="bot-console")
@@ -92,6 +119,33 @@ class Photographer:
         svg = "\n".join(line.strip() for line in svg.splitlines() if line.strip()) + "\n"
         (self._folder / f"{name}.svg").write_text(svg, encoding="utf-8")
         print(f"{name}.svg  {len(svg) // 1024} KiB")
+
+
+def _keys(text: str) -> list[str]:
+    """The keys that type a text."""
+    return [{".": "full_stop", "_": "underscore"}.get(letter, letter) for letter in text]
+
+
+async def tune(at: Photographer) -> None:
+    """Two values are marked, sent as set B and swapped; then the history, and a profile before it is applied."""
+    await at.find("max_speed")
+    await at.press("m")
+    await at.enter("1.2")
+    await at.find("max_acceleration")
+    await at.enter("3.0")
+    await at.find("max_")
+    await at.drive(0.5)
+    at.take("tuning-marked")
+    for _ in range(2):
+        await at.press("A", "y")
+        await at.drive(RESPONSE)
+    await at.press("H", *["down"] * 2, "u")
+    await at.drive(0.5)
+    at.take("tuning-history")
+    at.keep_profile("gentle", GENTLE)
+    await at.press("n", "7", "slash", *"gentle", "enter")
+    await at.drive(2.0)
+    at.take("tuning-profile")
 
 
 async def take_all(at: Photographer) -> None:
@@ -111,14 +165,16 @@ async def take_all(at: Photographer) -> None:
     await at.press("5")
     await at.drive(0.5)
     at.take("world")
+    await tune(at)
     await at.press("6", "enter", "W")
     await at.steer_until_limited()
     at.take("steering")
 
 
 async def main(folder: Path) -> None:
-    """Start the robot's own system, photograph it, end it."""
+    """Start the robot's own system, photograph it as somebody sees it who begins, end it."""
     folder.mkdir(parents=True, exist_ok=True)
+    os.environ["BOT_CONSOLE_USER_DIR"] = str(BEGINNER)
     session = Session(Options(seed=1))
     try:
         async with session.app.run_test(size=LARGE) as pilot:
@@ -126,6 +182,7 @@ async def main(folder: Path) -> None:
             session.console.all_stop(True)
     finally:
         await asyncio.to_thread(session.close)
+        shutil.rmtree(BEGINNER, ignore_errors=True)
 
 
 if __name__ == "__main__":
