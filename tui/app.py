@@ -23,6 +23,7 @@ from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.look import Look
 from bot_console.tui.opening import Opening
 from bot_console.tui.pane_table import PANES, PaneEntry
+from bot_console.tui.pane_wishes import PaneWishes
 from bot_console.tui.panes.broken import BrokenPane
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.parameters.pane import ParametersPane
@@ -53,7 +54,6 @@ from textual.notifications import SeverityLevel
 from textual.types import CSSPathType
 from textual.widgets import Static
 
-PLOT = "plot"
 HERE = Path(__file__).parent
 SEEN_AT_ONCE = 2
 """Notifications for which the corner has room."""
@@ -65,7 +65,7 @@ AT_ONCE = frozenset(next(key.keys for key in keymap.TABLE["app"] if key.id == "a
 STOPS = frozenset(next(key.keys for key in keymap.TABLE["app"] if key.id == "app.stop").split(","))
 
 
-class BotConsoleApp(RecordingApp, TuningDoor):
+class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes):
     """rqt for the terminal."""
 
     TITLE = "bot-console"
@@ -310,26 +310,6 @@ class BotConsoleApp(RecordingApp, TuningDoor):
         """Draw everything anew."""
         self.redraw()
 
-    def on_pane_plot_wanted(self, event: Pane.PlotWanted) -> None:
-        """Plot a path that another pane names."""
-        event.stop()
-        plot = self.query_one(f"#{PLOT}", Pane)
-        if isinstance(plot, PlotPane):
-            plot.add(event.path)
-        if not plot.display:
-            self.action_pane(PLOT)
-
-    def on_pane_line_wanted(self, event: Pane.LineWanted) -> None:
-        """Run a line that a pane names."""
-        event.stop()
-        self.desk.runner.run(event.line)
-
-    def on_pane_pane_wanted(self, event: Pane.PaneWanted) -> None:
-        """Show another pane at what one names."""
-        event.stop()
-        self.action_pane(event.pane)
-        self.query_one(f"#{event.pane}", Pane).go_to(event.name)
-
     def open(self, opening: Opening) -> None:
         """Show a pane with the curves and the node that are asked for; both may come later."""
         self.action_pane(opening.pane)
@@ -378,11 +358,6 @@ class BotConsoleApp(RecordingApp, TuningDoor):
         details = keep(error)
         text = f"bot-console: ended by a fault of its own, the robot was stopped: {reason(error)}"
         return text + (f"; details in {details}" if details else "")
-
-    def on_pane_edit_wanted(self, event: Pane.EditWanted) -> None:
-        """Open a line of a file in the person's editor."""
-        event.stop()
-        self._leaving.edit(event.file, event.line)
 
     def action_sleep(self) -> None:
         """Give the terminal back to the shell; the robot is held meanwhile."""

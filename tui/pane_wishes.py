@@ -1,0 +1,47 @@
+"""What panes want of others: a curve, another pane, a line of `ros2`, an editor."""
+
+from __future__ import annotations
+
+from bot_console.tui.commanding.desk import Desk
+from bot_console.tui.panes.pane import Pane
+from bot_console.tui.panes.plot.pane import PlotPane
+from bot_console.tui.terminal.leaving import Leaving
+from textual.app import App
+
+PLOT = "plot"
+
+
+class PaneWishes(App[None]):
+    """An app whose panes may ask for what another part of it does."""
+
+    desk: Desk
+    _leaving: Leaving
+
+    def action_pane(self, name: str) -> None:
+        """Show a pane."""
+        raise NotImplementedError
+
+    def on_pane_plot_wanted(self, event: Pane.PlotWanted) -> None:
+        """Plot a path that another pane names."""
+        event.stop()
+        plot = self.query_one(f"#{PLOT}", Pane)
+        if isinstance(plot, PlotPane):
+            plot.add(event.path)
+        if not plot.display:
+            self.action_pane(PLOT)
+
+    def on_pane_line_wanted(self, event: Pane.LineWanted) -> None:
+        """Run a line that a pane names."""
+        event.stop()
+        self.desk.runner.run(event.line)
+
+    def on_pane_pane_wanted(self, event: Pane.PaneWanted) -> None:
+        """Show another pane at what one names."""
+        event.stop()
+        self.action_pane(event.pane)
+        self.query_one(f"#{event.pane}", Pane).go_to(event.name)
+
+    def on_pane_edit_wanted(self, event: Pane.EditWanted) -> None:
+        """Open a line of a file in the person's editor."""
+        event.stop()
+        self._leaving.edit(event.file, event.line)
