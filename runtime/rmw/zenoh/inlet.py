@@ -9,7 +9,8 @@ from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
 from bot_console.runtime.rmw.endpoints import Held, Message, SubscriptionEndpoint, Tap, depth
 from bot_console.runtime.rmw.qos_matching import INFINITE, incompatible_policy
-from bot_console.runtime.rmw.zenoh.outlet import PATIENT_TOPICS, mismatch
+from bot_console.runtime.rmw.zenoh.outlet import PATIENT_TOPICS
+from bot_console.runtime.rmw.zenoh.same_type import has_same_type
 from bot_console.runtime.rmw.zenoh.session import Declared, Session
 from bot_console.runtime.rmw.zenoh.wire.attachment import gid_of, unpack
 from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
@@ -139,11 +140,7 @@ class Inlet:
         """A publisher of another process came or went."""
         subscription = self._subscription
         endpoint = subscription.endpoint
-        if token.type_name != endpoint.type_name:
-            return
-        if not self._key.endswith("/" + token.type_hash):
-            if came:
-                notify(self._process, mismatch(endpoint.topic, endpoint.type_name, token))
+        if not has_same_type(self._process, endpoint, self._key, token, came):
             return
         gid = gid_of(token.key)
         policy = incompatible_policy(token.qos, endpoint.qos)

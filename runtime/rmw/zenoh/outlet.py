@@ -6,11 +6,10 @@ from collections import deque
 from typing import Any
 
 from bot_console.runtime.process import current
-from bot_console.runtime.process.notices import notify
 from bot_console.runtime.rmw.endpoints import SubscriptionEndpoint, depth
 from bot_console.runtime.rmw.local import LocalPublisher
-from bot_console.runtime.rmw.names import full_name
 from bot_console.runtime.rmw.qos_matching import incompatible_policy
+from bot_console.runtime.rmw.zenoh.same_type import has_same_type
 from bot_console.runtime.rmw.zenoh.sender import Sender
 from bot_console.runtime.rmw.zenoh.session import Publisher, Session
 from bot_console.runtime.rmw.zenoh.wire.attachment import pack
@@ -71,11 +70,7 @@ class Outlet(deque[Any]):
         """A subscription of another process came or went."""
         publisher = self._publisher
         endpoint = publisher.endpoint
-        if token.type_name != endpoint.type_name:
-            return
-        if not self._key.endswith("/" + token.type_hash):
-            if came:
-                notify(self._process, mismatch(endpoint.topic, endpoint.type_name, token))
+        if not has_same_type(self._process, endpoint, self._key, token, came):
             return
         policy = incompatible_policy(endpoint.qos, token.qos)
         if policy:
@@ -96,15 +91,6 @@ class Outlet(deque[Any]):
         self._publisher.send_elsewhere(None)
         if self._out is not None:
             self._sender.undeclare(self._out)
-
-
-def mismatch(topic: str, type_name: str, token: Token) -> str:
-    """What is said where two processes have different definitions of a type: they do not hear each other."""
-    node = full_name(token.node.namespace, token.node.name)
-    return (
-        f"'{topic}': {type_name} is defined otherwise in node {node} (hash {token.type_hash}), "
-        "so no messages pass: build both from the same definition"
-    )
 
 
 def _nothing() -> None:

@@ -1,0 +1,31 @@
+"""Whether two processes mean the same by the name of a type: else neither hears the other."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bot_console.runtime.process.notices import notify
+from bot_console.runtime.rmw.endpoints import Endpoint
+from bot_console.runtime.rmw.names import full_name
+from bot_console.runtime.rmw.zenoh.wire.tokens import Token
+
+if TYPE_CHECKING:
+    from bot_console.runtime.process.roles import Warned
+
+
+def has_same_type(process: Warned, endpoint: Endpoint, key: str, token: Token, came: bool) -> bool:
+    """Whether messages can pass between an endpoint of ours and another's, which has come or gone.
+
+    `key` is that of our endpoint. A type of the same name with another definition is told when it comes.
+    """
+    if token.type_name != endpoint.type_name:
+        return False
+    same = key.endswith("/" + token.type_hash)
+    if came and not same:
+        node = full_name(token.node.namespace, token.node.name)
+        notify(
+            process,
+            f"'{endpoint.topic}': {endpoint.type_name} is defined otherwise in node {node} (hash {token.type_hash}), "
+            "so no messages pass: build both from the same definition",
+        )
+    return same
