@@ -12,8 +12,12 @@ from typing import Any
 
 SCHEME = "unixsock-stream/"
 
-OPEN_TIMEOUT = 500
-"""How long one attempt to reach another process may take, in ms."""
+OPEN_TIMEOUT = 10_000
+"""How long one attempt to reach another process may take, in ms; nothing waits for it.
+
+Zenoh drops an attempt that takes longer in the middle, and then one side counts a link that carries nothing, for good:
+with 0.5 s some of twenty processes that started at one moment on a machine with 30 others running never saw each other.
+"""
 
 LEASE = 60_000
 """After how long a link is given up on which nothing has come, in ms; a quarter of it goes by between signs of life.
