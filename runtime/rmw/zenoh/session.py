@@ -9,6 +9,7 @@ Nothing may fork once a session was opened.
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import threading
@@ -156,7 +157,8 @@ class Session:
             raise SessionError(_first_line(error)) from None
 
     def _shut(self) -> None:
-        self._zenoh.close()
+        with contextlib.suppress(_errors()):  # on a busy machine Zenoh gives up after 10 s, and is closed all the same
+            self._zenoh.close()
 
     def _declare_again(self) -> None:
         for each in self._declared:

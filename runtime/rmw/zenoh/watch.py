@@ -18,8 +18,11 @@ from bot_console.runtime.rmw.zenoh.domain.sockets import Socket, is_stopped, liv
 PERIOD = 1.0
 """How often the folder is looked at, in s."""
 
-GRACE = 3.0
-"""How long another process may have no link before that counts as a fault, in s: links are made in the background."""
+GRACE = 15.0
+"""How long another process may have no link before that counts as a fault, in s: links are made in the background.
+
+Longer than an attempt may take (`OPEN_TIMEOUT`): a session that is opened anew is cut from all others meanwhile.
+"""
 
 
 class Watched(Protocol):
