@@ -5,7 +5,7 @@ import threading
 
 import pytest
 from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
-from bot_console.runtime.rmw.zenoh.session import Session
+from bot_console.runtime.rmw.zenoh.session import Session, _errors
 
 PATIENCE = 20.0
 
@@ -96,3 +96,19 @@ def test_a_session_that_ends_takes_its_socket_away(pair, socket_folder):
     two.close()
     two.close()
     assert os.listdir(os.path.join(socket_folder, "0")) == []
+
+
+def test_a_session_is_opened_anew_though_its_close_took_zenoh_too_long(pair) -> None:
+    one, two = pair
+    old = one._zenoh
+
+    class Slow:
+        def close(self) -> None:
+            old.close()
+            raise _errors()("close operation timed out!")
+
+    one._zenoh = Slow()
+    one.rejoin(lambda folder: True)
+    linked = threading.Event()
+    one.watch_links(lambda zid, on: linked.set())
+    assert linked.wait(PATIENCE) and one.linked() == {two.zid}
