@@ -24,6 +24,13 @@ STATES: list[tuple[str, System, tuple[int, int]]] = [
     ("medium", live, (120, 40)),
     ("large", live, (200, 60)),
 ]
+RARER: list[tuple[str, System, tuple[int, int]]] = [
+    ("empty_medium", empty, (120, 40)),
+    ("faulty_medium", faulty, (120, 40)),
+    ("empty_large", empty, (200, 50)),
+    ("faulty_large", faulty, (200, 50)),
+]
+"""What is drawn by the same code as above, with more room."""
 
 
 def app_of(system: System, start: str = "overview") -> BotConsoleApp:
@@ -31,7 +38,11 @@ def app_of(system: System, start: str = "overview") -> BotConsoleApp:
     return BotConsoleApp(console, launcher, refresh_hz=0, opening=Opening(start))
 
 
-@pytest.mark.parametrize(("state", "system", "size"), STATES, ids=[each[0] for each in STATES])
+@pytest.mark.parametrize(
+    ("state", "system", "size"),
+    [*(pytest.param(*each, id=each[0]) for each in STATES),
+     *(pytest.param(*each, id=each[0], marks=pytest.mark.soak) for each in RARER)],
+)  # fmt: skip
 @pytest.mark.parametrize("entry", PANES, ids=[each.id for each in PANES])
 def test_pane(entry: Any, state: str, system: System, size: tuple[int, int], snap_compare: Any) -> None:
     assert snap_compare(app_of(system), terminal_size=size, press=[entry.digit])
