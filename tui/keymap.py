@@ -138,7 +138,6 @@ TABLE: dict[str, tuple[Key, ...]] = {
         Key("steering.hard_right", "D,shift+right", "steer(0,-1,10)", "Turn hard right", shown="D"),
         Key("steering.no_speed", "x", "zero_axis(0)", "Zero linear velocity"),
         Key("steering.no_turn", "c", "zero_axis(1)", "Zero angular velocity"),
-        Key("steering.no_turn_as_rqt", "z", "zero_turn", "Zero angular velocity, while armed"),
         Key("steering.deadman", "t", "deadman", "Dead-man time: seconds without a key until the robot stops"),
         Key("steering.robot", "r", "next_robot", "Another robot, where several listen for commands"),
         Key("steering.limits", "v", "limits", "Limits of speed and turn, typed or the parameters'"),

@@ -301,7 +301,7 @@ def test_the_mouse_moves_sliders_and_the_pad_as_a_stick() -> None:
         await session.pilot.click(offset=(zero, row))
         await session.pilot.click(offset=(left, row + 1))
         assert commands(session)[-1] == (0.0, 0.05), "a step of a button"
-        await session.press("z")
+        await session.press("c")
         assert commands(session)[-1] == (0.0, 0.0)
         top = next(y for y, line in enumerate(session.lines()) if "forward" in line)
         left = session.lines()[top].index("╭─", 2) + 1

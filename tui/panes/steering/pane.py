@@ -247,14 +247,6 @@ class SteeringPane(Pane):
         """Zero velocity; keys rest."""
         self._disarm()
 
-    def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
-        """Let the screen have z, which enlarges a pane, while nobody steers."""
-        return (action != "zero_turn" or self.state.armed) and super().check_action(action, parameters)
-
-    def action_zero_turn(self) -> None:
-        """Zero the angular velocity, by rqt's key."""
-        self.action_zero_axis(1)
-
     def action_steer(self, linear: int, angular: int, steps: int) -> None:
         """Change the command and send it at once."""
         if self._ready():

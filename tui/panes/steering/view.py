@@ -123,7 +123,7 @@ def _keys(width: int) -> list[Line]:
         ("w s ↑ ↓", "faster, slower"),
         ("a d ← →", "turn left, right"),
         ("Shift", "ten steps at once"),
-        ("x  z c", "zero speed, zero turn"),
+        ("x  c", "zero speed, zero turn"),
         ("space", "stop"),
     )
     return [((f" {keys:<{WORDS}}", "accent"), (text, "dim")) for keys, text in rows] if width >= 30 else []
