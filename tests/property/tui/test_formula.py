@@ -74,7 +74,8 @@ class Model:
 
     def _slope(self, values: list[float]) -> list[float]:
         pairs = zip(self._times, self._times[1:], values, values[1:], strict=False)
-        return [math.nan, *((after - before) / (end - begin) for begin, end, before, after in pairs)]
+        slopes = [math.nan, *((after - before) / (end - begin) for begin, end, before, after in pairs)]
+        return slopes[: len(values)]
 
     @staticmethod
     def _both(operator: str, left: float, right: float) -> float:
