@@ -35,9 +35,10 @@ def launch_environment(file: str) -> dict[str, str]:
 
 def tell_whose(package: str) -> None:
     """Say on stderr that a package which is named is the workspace's, where it has one of the names of ours."""
+    here = workspace()
     if package not in (NAME, PAGE_NAME):
-        return  # nothing is looked for: the folder that one works in may be large
-    found = workspace().packages.get(package)
+        return  # no package is looked for: the folder that one works in may be large
+    found = here.packages.get(package)
     if found is not None and not is_own(found):
         built_in = f"; the robot that comes along is '{NAME}'" if package != NAME else ", not the one that comes along"
         print(f"[INFO] [bot-console]: package '{package}' is the one in {found.folder}{built_in}", file=sys.stderr)

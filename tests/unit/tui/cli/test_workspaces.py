@@ -19,5 +19,10 @@ def test_a_package_of_our_name_is_told(monkeypatch, capsys, tmp_path):
 
 @pytest.mark.parametrize("named", ["", "my_node.py", "my_package"])
 def test_for_another_name_no_folder_is_searched(named, monkeypatch):
-    monkeypatch.setattr(workspaces, "workspace", lambda: pytest.fail("the workspace was looked at"))
+    class Unsearched:
+        @property
+        def packages(self):
+            pytest.fail("packages were looked for")
+
+    monkeypatch.setattr(workspaces, "workspace", Unsearched)
     workspaces.tell_whose(named)
