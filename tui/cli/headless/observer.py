@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import threading
+from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 
@@ -34,7 +35,7 @@ class Observer:
         self._waited_for = list(paths)
         self._topics: PlotWatch | None = None
         self._figures: dict[str, Any] = {}
-        self._late: list[float] = []
+        self._late: Counter[float] = Counter()  # by microseconds, so that a day of it takes no more than a minute
         self._collisions = 0
         self._node: Node | None = None
         self.done = threading.Event()
@@ -74,7 +75,7 @@ class Observer:
         period = round(PROBE_PERIOD * 1e9)
         now = self._steady.now().nanoseconds
         self._due += period
-        self._late.append((now - self._due) * 1e-6)
+        self._late[round((now - self._due) * 1e-6, 3)] += 1
         self._due += max(0, now - self._due) // period * period
         if self._waited_for and self._node is not None and self._topics is not None:
             found = self._node.get_topic_names_and_types()
@@ -100,12 +101,12 @@ class Observer:
 
     def report(self) -> dict[str, Any]:
         """What is known; times in s, lateness in ms."""
-        late = sorted(self._late)
+        late = sorted(self._late.elements())
         if late:
             self._figures["timer_lateness_ms"] = {
-                "median": round(late[len(late) // 2], 3),
-                "p99": round(late[min(len(late) - 1, len(late) * 99 // 100)], 3),
-                "max": round(late[-1], 3),
+                "median": late[len(late) // 2],
+                "p99": late[min(len(late) - 1, len(late) * 99 // 100)],
+                "max": late[-1],
             }
         if self._paths and self._topics is not None:
             self._figures["topics"] = {
