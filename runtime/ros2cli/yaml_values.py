@@ -17,7 +17,7 @@ def read_values(source: str | IO[str]) -> Any:
         return yaml.safe_load(source)
     except yaml.YAMLError:
         raise
-    except (ValueError, TypeError, AttributeError, KeyError, OverflowError):
+    except (ValueError, TypeError, AttributeError, LookupError, OverflowError):
         why = "a tag has a value that it does not allow"
     except RecursionError:
         why = "it is nested too deeply"

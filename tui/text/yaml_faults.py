@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import yaml
 
-UNREADABLE = (yaml.YAMLError, ValueError, TypeError, AttributeError, KeyError, OverflowError, RecursionError)
+UNREADABLE = (yaml.YAMLError, ValueError, TypeError, AttributeError, LookupError, OverflowError, RecursionError)
 
 
 def fault_of(error: Exception) -> str:
