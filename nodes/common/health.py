@@ -16,7 +16,7 @@ Health = tuple[bytes, str, Mapping[str, object]]
 
 
 class HealthReport:
-    """Tells `<node>: <part>` with what `look` gives, to whom wants it; `look` is called once a second anyway."""
+    """Tells `<node>: <part>` with what `look` gives, to whoever wants it; `look` is called once a second anyway."""
 
     def __init__(self, node: Node, part: str, look: Callable[[], Health]) -> None:
         self._node = node

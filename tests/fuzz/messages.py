@@ -6,14 +6,18 @@ import contextlib
 from collections.abc import Sequence
 from typing import Any
 
-import yaml
-
 
 def message_yaml(text: str) -> None:
+    from ros2cli.yaml_values import read_values
     from rosidl_runtime_py.set_message import set_message_fields
     from sensor_msgs.msg import LaserScan
 
-    values = yaml.safe_load(text)
+    try:
+        values = read_values(text)
+    except RecursionError:
+        raise
+    except RuntimeError:  # how the verbs refuse what the library lets fall
+        return
     if isinstance(values, dict):
         message = LaserScan()
         set_message_fields(message, values)
