@@ -159,7 +159,7 @@ class ConsoleNode:
             request = kind.Request()
             set_message_fields(request, dict(fields))
             response = await self.calls.ask(kind, service, request)
-        except (ImportError, AttributeError, TypeError, ValueError) as error:
+        except (ImportError, AttributeError, TypeError, ValueError, OverflowError) as error:
             return Answer(False, f"{type_name} cannot be called so: {error}")
         except NoAnswer as error:
             return Answer(False, str(error))

@@ -17,3 +17,8 @@ def test_what_the_library_lets_fall_is_told_on_one_line(source):
 def test_a_field_is_refused_with_an_example(words):
     with pytest.raises(ValueError, match="write it as in YAML"):
         parse("geometry_msgs/Point", words)
+
+
+def test_a_number_that_no_field_can_hold_is_refused():
+    with pytest.raises(ValueError, match="geometry_msgs/Point: int too large"):
+        parse("geometry_msgs/Point", f"{{x: {'9' * 400}}}")

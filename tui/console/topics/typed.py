@@ -115,6 +115,6 @@ def _message(kind: str, values: Any) -> Any:
     message = interface(Payload.MESSAGE, full_name(kind))()
     try:
         set_message_fields(message, values)
-    except (AttributeError, TypeError, ValueError) as error:
+    except (AttributeError, TypeError, ValueError, OverflowError) as error:
         raise ValueError(f"{kind}: {error}") from None
     return message
