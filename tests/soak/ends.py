@@ -56,14 +56,44 @@ KINDS: dict[str, Callable[[Terminal], None]] = {
     "killed": sent(signal.SIGKILL),
     "crash": sent(signal.SIGSEGV),
     "armed": armed,
+    "node aborts": lambda terminal: terminal.type("q"),
+    "node raises": lambda terminal: terminal.type("q"),
 }
+
+NODES = {"node aborts": ("process", "os.abort()"), "node raises": ("thread", "raise RuntimeError('broken node')")}
+"""Kinds in which a node has died before the end comes: its isolation, and what it does."""
+
+NODE = """import os, rclpy
+rclpy.init()
+node = rclpy.create_node("broken")
+{}
+"""
+
+LAUNCH_FILE = """from launch import LaunchDescription
+from launch.actions import ExecuteProcess
+
+
+def generate_launch_description():
+    return LaunchDescription([ExecuteProcess(cmd=["python3", {!r}], output="screen")])
+"""
+
+
+def died(kind: str, folder: Path) -> list[str]:
+    """The console's arguments for a kind in which a node dies: its launch file, written here, and its isolation."""
+    isolation, act = NODES[kind]
+    node, launch = folder / "broken_node.py", folder / "broken.launch.py"
+    node.write_text(NODE.format(act))
+    launch.write_text(LAUNCH_FILE.format(str(node)))
+    return ["--launch", str(launch), "--simulator", f"isolation:={isolation}"]
 
 
 def end(kind: str, folder: Path, base: Path) -> str:
     """Start a console and end it; what was wrong, empty when nothing was."""
-    terminal = Terminal(["-m", "bot_console.tui", "--seed", "1"], folder)
+    arguments = died(kind, folder) if kind in NODES else []
+    terminal = Terminal(["-m", "bot_console.tui", "--seed", "1", *arguments], folder)
     try:
-        terminal.read_until(lambda: b"robot_navigator" in terminal.output, "the robot")
+        begun = b"has died" if kind in NODES else b"robot_navigator"
+        terminal.read_until(lambda: begun in terminal.output, "the robot or the node's death")
         KINDS[kind](terminal)
         code = terminal.process.wait(PATIENCE) if terminal.master < 0 else terminal.wait()
         if code in (-signal.SIGSEGV, -signal.SIGABRT) and kind != "crash":

@@ -8,7 +8,7 @@ import os
 import time
 from collections.abc import Generator
 
-from bot_console.runtime.rmw.zenoh.domain.sockets import is_stopped
+from bot_console.runtime.rmw.zenoh.domain.sockets import is_stopped, live_sockets
 
 PATIENCE = 0.2
 """How long one try for the lock lasts, in s; then it is looked at who holds it."""
@@ -42,6 +42,17 @@ def folder_lock(folder: str) -> Generator[None]:
         yield
     finally:
         os.close(handle)
+
+
+def remove_dead(folder: str) -> None:
+    """Take the sockets of the dead out of a domain's folder, unless somebody joins just then, who does it as well."""
+    with contextlib.suppress(OSError):
+        handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
+        try:
+            if _taken(handle, 0.0):
+                live_sockets(folder)
+        finally:
+            os.close(handle)
 
 
 def _taken(handle: int, patience: float) -> bool:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Generator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
-from bot_console.runtime.rmw.zenoh.domain.joining import folder_lock
+from bot_console.runtime.rmw.zenoh.domain.joining import folder_lock, remove_dead
 from bot_console.runtime.rmw.zenoh.domain.sockets import live_sockets, own_socket, sockets
 from bot_console.runtime.rmw.zenoh.session import ATTENDANCE, Session, SessionError
 from bot_console.runtime.rmw.zenoh.settings import Serving, session_settings
@@ -80,12 +80,17 @@ class MeshSession(Session):
         """Leave the mesh; what was declared is gone. A second time does nothing."""
         self._look_no_more()
         super().close()
-        self.socket.remove()
+        self._take_out()
 
     def leave(self) -> None:
         """Take the socket out of the folder, for a process that ends at once and does not wait for `close`."""
         self._look_no_more()
+        self._take_out()
+
+    def _take_out(self) -> None:
         self.socket.remove()
+        if self._watch:  # a process that has been here for long: nodes of its own may have died
+            remove_dead(os.path.dirname(self.socket.path))
 
     def _look_no_more(self) -> None:
         for each in (self._watch, self._tokens):

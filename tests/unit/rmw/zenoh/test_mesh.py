@@ -56,6 +56,16 @@ def test_a_killed_process_is_gone_and_its_socket_is_removed_by_the_next(socket_f
             assert len(sockets_of(socket_folder)) == 3
 
 
+def test_one_that_leaves_takes_the_sockets_of_the_dead_along(socket_folder):
+    with members(2) as (leaving, killed):
+        assert every_pair_talks([leaving, killed])
+        killed.end()
+        assert len(sockets_of(socket_folder)) == 2
+        leaving.tell("exit")
+        assert leaving.read()
+    assert sockets_of(socket_folder) == set()
+
+
 def test_a_folder_full_of_dead_sockets_is_cleaned(socket_folder):
     with members(6) as dead:
         for each in dead:
