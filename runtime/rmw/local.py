@@ -141,7 +141,7 @@ class LocalPublisher:
     def late(self, target: SubscriptionEndpoint) -> None:
         """Give a subscription that has come late what was kept for it."""
         now = self._now()
-        for message, stamp, number in self.history or ():
+        for message, stamp, number in tuple(self.history or ()):  # another thread may publish meanwhile
             expires = stamp + self._lifespan if self._lifespan else None
             if expires is None or now <= expires:
                 given = _serialize(message) if target.raw else message._copy_()

@@ -22,12 +22,13 @@ from bot_console.runtime.rmw.endpoints import (
 )
 from bot_console.runtime.rmw.graph_tables import GraphTables
 from bot_console.runtime.rmw.local import LocalBus
+from bot_console.runtime.rmw.zenoh.declared import Declared
 from bot_console.runtime.rmw.zenoh.inlet import Inlet
 from bot_console.runtime.rmw.zenoh.outlet import Outlet
 from bot_console.runtime.rmw.zenoh.seen import Listener, Watches
 from bot_console.runtime.rmw.zenoh.sender import Sender
 from bot_console.runtime.rmw.zenoh.services import Asking, RemoteClient, Served
-from bot_console.runtime.rmw.zenoh.session import Declared, Session
+from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.runtime.rmw.zenoh.whole_graph import WholeGraph
 from bot_console.runtime.rmw.zenoh.wire.attachment import gid_of
 from bot_console.runtime.rmw.zenoh.wire.keys import data_key
@@ -268,9 +269,9 @@ class ZenohBus:
         self._session.close()
 
     def _send_again(self) -> None:
-        """The session was opened anew: it has to have again what latching publishers keep."""
+        """The session was opened anew: it has to have again what latching publishers keep, and what was not asked."""
         with self._lock:
             ways = [bridge.way for each in self._nodes.values() for bridge in each.bridges.values()]
         for way in ways:
-            if isinstance(way, Outlet) and way.latching:
+            if isinstance(way, Asking) or (isinstance(way, Outlet) and way.latching):
                 way.send_again()

@@ -9,9 +9,10 @@ from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
 from bot_console.runtime.rmw.endpoints import Held, Message, SubscriptionEndpoint, Tap, depth
 from bot_console.runtime.rmw.qos_matching import INFINITE, incompatible_policy
+from bot_console.runtime.rmw.zenoh.declared import Declared
 from bot_console.runtime.rmw.zenoh.outlet import PATIENT_TOPICS
 from bot_console.runtime.rmw.zenoh.same_type import has_same_type
-from bot_console.runtime.rmw.zenoh.session import Declared, Session
+from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.runtime.rmw.zenoh.wire.attachment import gid_of, unpack
 from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
 from bot_console.runtime.rmw.zenoh.wire.tokens import Token

@@ -9,9 +9,10 @@ from bot_console.runtime.process import current
 from bot_console.runtime.rmw.endpoints import SubscriptionEndpoint, depth
 from bot_console.runtime.rmw.local import LocalPublisher
 from bot_console.runtime.rmw.qos_matching import incompatible_policy
+from bot_console.runtime.rmw.zenoh.declared import Publisher
 from bot_console.runtime.rmw.zenoh.same_type import has_same_type
 from bot_console.runtime.rmw.zenoh.sender import Sender
-from bot_console.runtime.rmw.zenoh.session import Publisher, Session
+from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.runtime.rmw.zenoh.wire.attachment import pack
 from bot_console.runtime.rmw.zenoh.wire.tokens import Token
 

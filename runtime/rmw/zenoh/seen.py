@@ -5,7 +5,8 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 
-from bot_console.runtime.rmw.zenoh.session import Session, Watch
+from bot_console.runtime.rmw.zenoh.declared import TokenWatch
+from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
 from bot_console.runtime.rmw.zenoh.wire.tokens import Kind, Token, parse_token, tokens_of
 
@@ -30,7 +31,7 @@ class SeenTokens:
         self._lock = threading.RLock()
         self._tokens: dict[str, Token] = {}
         self._listeners: list[Listener] = []
-        self._declared: Watch = session.watch_tokens(key, self.saw, apart=apart)
+        self._declared: TokenWatch = session.watch_tokens(key, self.saw, apart=apart)
 
     def saw(self, key: str, came: bool) -> None:
         """A token came or went; one that is no token of the format is ignored, as are those of this session."""

@@ -7,7 +7,7 @@ from collections import deque
 
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
-from bot_console.runtime.rmw.zenoh.session import Publisher
+from bot_console.runtime.rmw.zenoh.declared import Publisher
 
 ROOM = 64_000_000
 """How many bytes may wait to be sent: more than comes until a process that hangs is cut off (`WAIT_BEFORE_CUT`)."""
@@ -69,7 +69,7 @@ class Sender:
                 self._bytes -= len(payload)
                 self._busy = True
             if attachment:
-                publisher.put(payload, attachment)
+                publisher.put_surely(payload, attachment)
             else:
                 publisher.undeclare()
 

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import threading
+from collections import deque
 from typing import Any
 
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
 from bot_console.runtime.rmw.endpoints import ClientEndpoint, NodeId, ServiceEndpoint
-from bot_console.runtime.rmw.zenoh.session import Declared, Querier, Query, Session
+from bot_console.runtime.rmw.zenoh.declared import Declared, Querier, Query
+from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.runtime.rmw.zenoh.wire.attachment import pack, unpack
 from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
 from bot_console.runtime.rmw.zenoh.wire.tokens import Token
@@ -94,6 +96,7 @@ class Asking:
         self._process = current()
         self._clock = current().clock
         self._querier: Querier | None = None
+        self._unasked: deque[tuple[int, Any]] = deque(maxlen=MOST_PENDING)
         self._servers = 0
 
     @property
@@ -108,11 +111,29 @@ class Asking:
 
     def request(self, number: int, request: Any) -> None:
         """Ask the servers of other processes; without any nothing happens."""
+        if not self._ask(number, request):
+            self._unasked.append((number, request))
+            if self._session.settled.is_set():  # it was opened anew just now
+                self.send_again()
+
+    def _ask(self, number: int, request: Any) -> bool:
+        """Ask, unless the session is closed or just opened anew."""
         if self._querier is None:
             timeout = RESULT_TIMEOUT if self._client.name.endswith(RESULT) else TIMEOUT
             self._querier = self._session.declare_querier(self._key, timeout)
         attachment = pack(number, self._clock.system_ns(), self._client.gid)
-        self._querier.get(serialize(request), attachment, self._replied, _nothing)
+        return self._querier.get(serialize(request), attachment, self._replied, _nothing)
+
+    def send_again(self) -> None:
+        """Ask what was not asked while the session was opened anew."""
+        for _ in range(len(self._unasked)):
+            try:
+                waiting = self._unasked.popleft()
+            except IndexError:  # another thread does it, too
+                return
+            if not self._ask(*waiting):
+                self._unasked.appendleft(waiting)
+                return
 
     def _replied(self, payload: bytes, attachment: bytes | None) -> None:
         """A response has come, on one of Zenoh's threads."""

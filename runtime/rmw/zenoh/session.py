@@ -17,7 +17,8 @@ import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, cast
 
-from bot_console.runtime.rmw.zenoh.apart import WAITING, Taking, take_apart
+from bot_console.runtime.rmw.zenoh.apart import WAITING, take_apart
+from bot_console.runtime.rmw.zenoh.declared import Declared, Publisher, Querier, Query, Received, TokenSeen, TokenWatch
 from bot_console.runtime.rmw.zenoh.domain.sockets import Socket
 from bot_console.runtime.rmw.zenoh.keeping_publisher import KeepingPublisher
 
@@ -33,12 +34,6 @@ INSEPARABLE = ("connect/retry",)
 CLOSING = 0.4
 """How long closing is waited for, in s: it takes 2.5 s beside a frozen process to which the link is full."""
 
-Received = Callable[[bytes, "bytes | None"], None]
-"""Called with the payload and the attachment of a sample."""
-
-TokenSeen = Callable[[str, bool], None]
-"""Called with the key of a liveliness token, and whether it came (or went)."""
-
 
 class SessionError(RuntimeError):
     """A session cannot be opened."""
@@ -46,76 +41,6 @@ class SessionError(RuntimeError):
 
 class SettingsError(SessionError):
     """Zenoh does not take the settings of a session."""
-
-
-class Declared:
-    """Something that a session has declared; `declare` makes it in a Zenoh session."""
-
-    def __init__(self, session: Session, declare: Callable[[Any], Any]) -> None:
-        self._session = session
-        self.declare = declare
-        self.inner: Any = None
-
-    def undeclare(self) -> None:
-        """Take it back; a second time does nothing."""
-        self._session.forget(self)
-
-
-class Publisher(Declared):
-    """Sends payloads to the subscribers of a key."""
-
-    def put(self, payload: bytes, attachment: bytes) -> bool:
-        """Send one sample; waits at most `WAIT_BEFORE_DROP` for a link that is full.
-
-        False where it could not be sent, because the session is closed or just rejoins.
-        """
-        try:
-            self.inner.put(payload, attachment=attachment)
-        except _errors():
-            return False
-        return True
-
-
-class Querier(Declared):
-    """Asks the queryables of a key."""
-
-    def get(self, payload: bytes, attachment: bytes, replied: Received, done: Callable[[], None]) -> None:
-        """Ask; `replied` gets each reply, and `done` is called when all have replied or the time is over."""
-        import zenoh
-
-        def take(reply: zenoh.Reply) -> None:
-            sample = reply.ok
-            if sample is not None:
-                replied(sample.payload.to_bytes(), _bytes(sample.attachment))
-
-        self.inner.get(zenoh.handlers.Callback(take, done, indirect=False), payload=payload, attachment=attachment)
-
-
-class Watch(Declared):
-    """Looks at tokens; `taking` is the thread that takes them, where one does that apart."""
-
-    taking: Taking | None = None
-
-
-class Query:
-    """A request that has come in: `answer` once, or `drop`."""
-
-    __slots__ = ("_key", "_query", "attachment", "payload")
-
-    def __init__(self, query: zenoh.Query, key: str) -> None:
-        self._query = query
-        self._key = key
-        self.payload = _bytes(query.payload) or b""
-        self.attachment = _bytes(query.attachment)
-
-    def answer(self, payload: bytes, attachment: bytes) -> None:
-        """Send the one reply."""
-        with self._query as query:
-            query.reply(self._key, payload, attachment=attachment)
-
-    def drop(self) -> None:
-        """End the request without a reply."""
-        self._query.drop()
 
 
 class Session:
@@ -129,12 +54,16 @@ class Session:
     def __init__(self, domain: int) -> None:
         self.domain = domain
         self.zid = f"{int.from_bytes(os.urandom(16), 'big') | 1 << 127:032x}"
-        """The session's id: 32 hexadecimal digits, the first not 0. It stays the same when the session rejoins."""
+        """The session's id: 32 hexadecimal digits, the first not 0. In the graph it stays when the session rejoins."""
         self.on_rejoin: Callable[[], None] = lambda: None
         """Called when the session was opened anew: what was kept for late subscribers is to be published again."""
         self._lock = threading.RLock()
         self._declared: dict[Declared, None] = {}
+        self._is_open = True  # each subclass opens at once
         self._ended = False
+        self.settled = threading.Event()
+        """Not set while the session is opened anew, until its links are there: what is sent before may reach nobody."""
+        self.settled.set()
         self.lost = 0
         """Messages to subscriptions of this session that did not arrive, as far as their numbers tell."""
 
@@ -160,22 +89,57 @@ class Session:
         with contextlib.suppress(_errors()):  # on a busy machine Zenoh gives up after 10 s, and is closed all the same
             self._zenoh.close()
 
-    def _declare_again(self) -> None:
-        for each in self._declared:
-            each.inner = each.declare(self._zenoh)
+    def _reopen(self, join: Callable[[], None]) -> bool:
+        """Close, open anew by `join`, and declare all again; False where it was closed for good meanwhile.
+
+        That takes seconds beside a frozen process, and more where opening fails and is tried again: nobody who
+        declares, sends, asks or takes back waits for it. What is declared meanwhile is made when all is.
+        """
+        with self._lock:
+            if self._ended:
+                return False
+            self._is_open = False
+            self.settled.clear()
+            for each in self._declared:
+                each.begin_again()
+        self._shut()
+        join()
+        with self._lock:
+            self._is_open = not self._ended
+            if self._is_open:
+                for each in self._declared:
+                    with contextlib.suppress(_errors()):
+                        each.inner = each.declare(self._zenoh)
+                return True
+        self._shut()
+        return False
+
+    def _settle(self) -> None:
+        """The links of a session that was opened anew are there, or will not come."""
+        with self._lock:
+            declared = tuple(self._declared)
+        for each in declared:
+            each.settle()
+
+    @staticmethod
+    def errors() -> type[Exception]:
+        """The class of Zenoh's errors; asked for when something was raised."""
+        return _errors()
 
     def watch(self) -> None:
         """Look after the session's place for as long as it is open; not for short-lived programs."""
 
     def close(self) -> None:
         """Leave; what was declared is gone. A second time does nothing."""
+        self.settled.set()
         with self._lock:
             self._ended = True
-            if self._zenoh.is_closed():
-                return
-            closing = threading.Thread(target=self._shut, name="zenoh-close", daemon=True)
-            closing.start()
-            closing.join(CLOSING)
+            if not self._is_open:
+                return  # closed, or just being opened anew, which then ends in being closed
+            self._is_open = False
+        closing = threading.Thread(target=self._shut, name="zenoh-close", daemon=True)
+        closing.start()
+        closing.join(CLOSING)
 
     def stopped(self) -> Mapping[str, int]:
         """The processes of the mesh that are frozen: the first eight digits of their sessions' ids, and their pids."""
@@ -248,7 +212,7 @@ class Session:
         import zenoh
 
         def take(query: zenoh.Query) -> None:
-            asked(Query(query, key))
+            asked(Query(query, key, _bytes(query.payload) or b"", _bytes(query.attachment), zenoh.ZError))
 
         return self._declare(
             Declared(
@@ -263,6 +227,16 @@ class Session:
         """Ask all queryables of a key in other sessions, and end each request after `timeout` (s)."""
         import zenoh
 
+        def ask(
+            inner: zenoh.Querier, payload: bytes, attachment: bytes, replied: Received, done: Callable[[], None]
+        ) -> None:
+            def take(reply: zenoh.Reply) -> None:
+                sample = reply.ok
+                if sample is not None:
+                    replied(sample.payload.to_bytes(), _bytes(sample.attachment))
+
+            inner.get(zenoh.handlers.Callback(take, done, indirect=False), payload=payload, attachment=attachment)
+
         return self._declare(
             Querier(
                 self,
@@ -274,6 +248,7 @@ class Session:
                     allowed_destination=zenoh.Locality.REMOTE,
                     timeout=timeout,
                 ),
+                ask,
             )
         )
 
@@ -281,7 +256,7 @@ class Session:
         """Show something in the graph for as long as this process lives."""
         return self._declare(Declared(self, lambda session: session.liveliness().declare_token(key)))
 
-    def watch_tokens(self, key: str, seen: TokenSeen, *, apart: bool = False) -> Watch:
+    def watch_tokens(self, key: str, seen: TokenSeen, *, apart: bool = False) -> TokenWatch:
         """Call back for each token that is there, comes or goes; `key` may have wildcards.
 
         With `apart` that is done by a thread of its own, a few tokens at a time: thousands of them would keep Zenoh's
@@ -290,7 +265,7 @@ class Session:
         import zenoh
 
         def take(sample: zenoh.Sample) -> None:
-            seen(str(sample.key_expr), sample.kind == zenoh.SampleKind.PUT)
+            watch.saw(str(sample.key_expr), sample.kind == zenoh.SampleKind.PUT)
 
         def declare(session: zenoh.Session) -> Any:
             tokens = session.liveliness()
@@ -301,22 +276,32 @@ class Session:
             watch.taking = take_apart(shown.handler, take, zenoh.ZError)
             return shown
 
-        watch = Watch(self, declare)
+        watch = TokenWatch(self, declare, seen)
         return self._declare(watch)
 
     def ask_tokens(self, key: str, seen: Callable[[str], None], done: Callable[[], None], timeout: float) -> None:
-        """Call back once for each token that is there now, then `done`, after at most `timeout` (s)."""
+        """Call back once for each token that is there now, then `done`, after at most `timeout` (s).
+
+        Only `done` where no session is open.
+        """
         import zenoh
 
         def take(reply: zenoh.Reply) -> None:
             if reply.ok is not None:
                 seen(str(reply.ok.key_expr))
 
-        self._zenoh.liveliness().get(key, zenoh.handlers.Callback(take, done, indirect=False), timeout=timeout)
+        try:
+            self._zenoh.liveliness().get(key, zenoh.handlers.Callback(take, done, indirect=False), timeout=timeout)
+        except zenoh.ZError:
+            if not self._zenoh.is_closed():
+                raise
+            done()
 
     def linked(self) -> set[str]:
-        """The ids of the sessions that this one has a link to."""
-        return {str(each) for each in (*self._zenoh.info.peers_zid(), *self._zenoh.info.routers_zid())}
+        """The ids of the sessions that this one has a link to; none while it is not open."""
+        with contextlib.suppress(_errors()):
+            return {str(each) for each in (*self._zenoh.info.peers_zid(), *self._zenoh.info.routers_zid())}
+        return set()
 
     def watch_links(self, changed: Callable[[str, bool], None]) -> Declared:
         """Call back with the id of each session that is or gets linked (True) or is lost (False)."""
@@ -352,8 +337,10 @@ class Session:
 
     def _declare(self, thing: Any) -> Any:
         with self._lock:
-            thing.inner = thing.declare(self._zenoh)
-            self._declared[thing] = None
+            if self._is_open:
+                thing.inner = thing.declare(self._zenoh)
+            if not self._ended:
+                self._declared[thing] = None
         return thing
 
     def forget(self, thing: Declared) -> None:
@@ -361,7 +348,8 @@ class Session:
         with self._lock:
             if thing in self._declared:
                 del self._declared[thing]
-                thing.inner.undeclare()
+                if self._is_open and thing.inner is not None:
+                    thing.inner.undeclare()
 
 
 def preload() -> None:

@@ -16,10 +16,10 @@ PATIENCE = 60.0
 class Member:
     """A process with a session; see `mesh_member.py` for the words it understands."""
 
-    def __init__(self) -> None:
+    def __init__(self, *arguments: str) -> None:
         program = os.path.join(os.path.dirname(__file__), "mesh_member.py")
         self.process = subprocess.Popen(
-            [sys.executable, program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+            [sys.executable, program, *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
         )
         self.zid = ""
 
@@ -57,9 +57,9 @@ class Member:
 
 
 @contextlib.contextmanager
-def members(count: int) -> Iterator[list[Member]]:
+def members(count: int, *arguments: str) -> Iterator[list[Member]]:
     """This many processes that were started at one moment and have joined."""
-    started = [Member() for _ in range(count)]
+    started = [Member(*arguments) for _ in range(count)]
     try:
         yield [each.wait_until_joined() for each in started]
     finally:

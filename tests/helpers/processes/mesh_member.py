@@ -1,30 +1,41 @@
-"""A process of the mesh tests: joins domain 0, writes its session's id, and then obeys one word per line.
+"""A process of the mesh tests: joins domain 0, writes its session's id, and then obeys one word per line. Ids are
+their first eight digits.
 
 `linked` writes the ids of the sessions it has a link to; `call` publishes its id; `heard` writes the ids it has
-received; `exit` closes the session and writes how long that took, in s.
+received; `answer` those of the sessions that answer a question; `exit` closes the session and writes how long that
+took, in s. With the argument `hasty` its first session gives links up that take 5 ms, and the watch is impatient.
 """
 
 import sys
 import time
 
+from bot_console.runtime.rmw.zenoh import settings
+from bot_console.runtime.rmw.zenoh.domain import watch
 from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
 
+patience = settings.OPEN_TIMEOUT
+if "hasty" in sys.argv:
+    settings.OPEN_TIMEOUT = 5
+    watch.GRACE = 3.0
 session = open_session(0)
+settings.OPEN_TIMEOUT = patience
 session.watch()
 heard: set[str] = set()
 session.declare_subscriber("call", lambda payload, _: heard.add(payload.decode()))
 publisher = session.declare_publisher("call")
-print(session.zid, flush=True)
+print(session.zid[:8], flush=True)
 
 for word in sys.stdin:
     match word.strip():
         case "linked":
-            print(*session.linked(), flush=True)
+            print(*(each[:8] for each in session.linked()), flush=True)
         case "call":
-            publisher.put(session.zid.encode(), b"")
+            publisher.put(session.zid[:8].encode(), b"")
             print("called", flush=True)
         case "heard":
             print(*heard, flush=True)
+        case "answer":
+            print(*session.attendance(timeout=0.3), flush=True)
         case "exit":
             began = time.monotonic()
             session.close()

@@ -8,7 +8,8 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from bot_console.runtime.rmw.zenoh.session import Declared, Session
+from bot_console.runtime.rmw.zenoh.declared import Declared
+from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.runtime.rmw.zenoh.wire.attachment import unpack
 from bot_console.runtime.rmw.zenoh.wire.keys import FormatError, data_key
 from bot_console.runtime.rmw.zenoh.wire.tokens import (

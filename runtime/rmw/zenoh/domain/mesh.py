@@ -7,15 +7,20 @@ import os
 from collections.abc import Callable, Generator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from bot_console.runtime.rmw.zenoh.domain.attendance import await_answers
 from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
 from bot_console.runtime.rmw.zenoh.domain.joining import folder_lock, remove_dead
 from bot_console.runtime.rmw.zenoh.domain.sockets import live_sockets, own_socket, sockets
+from bot_console.runtime.rmw.zenoh.domain.watch import Watch
 from bot_console.runtime.rmw.zenoh.session import ATTENDANCE, Session, SessionError
 from bot_console.runtime.rmw.zenoh.settings import Serving, session_settings
-from bot_console.runtime.rmw.zenoh.watch import Watch
 
 if TYPE_CHECKING:
     from bot_console.runtime.rmw.zenoh.network.stopped import StoppedTokens
+
+
+SETTLING = 5.0
+"""How long a session that was opened anew waits for the answers of the others, in s; 50 processes take 0.1 s."""
 
 
 class MeshSession(Session):
@@ -25,6 +30,7 @@ class MeshSession(Session):
         """With `serving` it is the way in for other machines, too."""
         super().__init__(domain)
         self._serving = serving
+        self._opened = False
         self._watch: Watch | None = None
         self._tokens: StoppedTokens | None = None
         with self._door() as folder:
@@ -40,16 +46,28 @@ class MeshSession(Session):
     def _join(self, folder: str) -> None:
         self.socket = own_socket(folder, self.zid)
         self.joined = tuple(live_sockets(folder))
-        settings = session_settings(self.zid, self.socket.path, [each.path for each in self.joined], self._serving)
+        others = [each.path for each in self.joined]
+        settings = session_settings(self._link_id(), self.socket.path, others, self._serving)
         try:
             self._open(settings)
         except SessionError as error:
             places: Sequence[str] = (self.socket.path, *(self._serving.endpoints if self._serving else ()))
             raise SessionError(f"cannot listen on {' and '.join(places)}: {error}") from None
 
+    def _link_id(self) -> str:
+        """The id that Zenoh is to know the session by; another one each time it is opened, but for its begin.
+
+        Another's half-made link to the session that was closed may count for ever, and questions of one with the same
+        id would be answered into it.
+        """
+        first, self._opened = not self._opened, True
+        return self.zid if first else f"{self.zid[:8]}{os.urandom(12).hex()}"
+
     def watch(self) -> None:
         """Look after the session's place in the mesh for as long as it is open; not for short-lived programs."""
-        self._watch = self._watch or Watch(self)
+        if not self._watch:
+            self._watch = Watch(self)
+            self._watch.begin()
         if self._serving and not self._tokens:
             from bot_console.runtime.rmw.zenoh.network.stopped import StoppedTokens
 
@@ -60,16 +78,23 @@ class MeshSession(Session):
         with self._door() as folder:
             if not needed(folder):
                 return
-        with self._lock:
-            if self._ended:
-                return
-            # Not with the folder's lock: it takes seconds beside a frozen process, and may hang in one whose program
-            # has closed descriptors of ours.
-            self._shut()
-            with self._door() as folder:
-                self._join(folder)
-            self._declare_again()
-        self.on_rejoin()
+        # Closed without the folder's lock: it takes seconds beside a frozen process, and may hang in one whose program
+        # has closed descriptors of ours.
+        try:
+            is_open = self._reopen(self._join_anew)
+            if is_open:
+                await_answers(self, SETTLING)
+        finally:
+            self._settle()
+        if is_open:
+            self.settled.set()
+            self.on_rejoin()
+        else:
+            self.socket.remove()
+
+    def _join_anew(self) -> None:
+        with self._door() as folder:
+            self._join(folder)
 
     def stopped(self) -> Mapping[str, int]:
         """The processes of the mesh that are frozen: the first eight digits of their sessions' ids, and their pids."""

@@ -9,7 +9,8 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Mapping
 
-from bot_console.runtime.rmw.zenoh.session import Declared, Session
+from bot_console.runtime.rmw.zenoh.declared import Declared
+from bot_console.runtime.rmw.zenoh.session import Session
 
 TOKEN = "@bot_console_stopped/"
 """Begin of such a token; the begin of the session's id and the process's id follow."""

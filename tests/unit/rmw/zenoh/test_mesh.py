@@ -108,6 +108,15 @@ def test_a_process_whose_socket_was_taken_away_is_found_again(socket_folder):
             assert every_pair_talks([one, two, late])
 
 
+@pytest.mark.soak
+@pytest.mark.timeout(300)
+def test_links_that_were_given_up_in_the_middle_of_their_opening_are_mended():
+    with members(10, "hasty") as present:
+        ids = {each.zid for each in present}
+        assert eventually(lambda: all(each.ask("answer") >= ids - {each.zid} for each in present))
+        assert every_pair_talks(present)
+
+
 @pytest.mark.skipif(not os.path.exists("/proc/net/tcp"), reason="the system does not list its sockets in /proc")
 def test_no_port_is_opened():
     with members(2) as present:

@@ -18,7 +18,7 @@ class Slow:
         self.reached = threading.Event()
         self.sent = []
 
-    def put(self, payload, attachment):
+    def put_surely(self, payload, attachment):
         self.reached.set()
         assert self.free.wait(PATIENCE)
         self.sent.append(payload)

@@ -1,0 +1,178 @@
+"""Watches over a session's place in the mesh, and opens it anew where it has lost it.
+
+Three things can go wrong once a process has joined: its socket is taken out of the folder (by a cleaner of temporary
+files, or by hand), so that who comes later does not see it; one that joined without the lock has no link to it; or a
+link carries nothing, as one that Zenoh gave up in the middle of its opening (`OPEN_TIMEOUT`) and counts for ever. So
+each new link is asked once whether the other is there; signs of life alone do not tell, as some such links carry them
+and no questions.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import threading
+import time
+from collections.abc import Callable
+from typing import Protocol
+
+from bot_console.runtime.rmw.zenoh.domain.sockets import Socket, is_stopped, live_sockets, sockets
+
+PERIOD = 1.0
+"""How often the folder is looked at, in s."""
+
+GRACE = 15.0
+"""How long another process may have no link, or one over which no answer has come, before that counts as a fault, in s:
+links are made in the background.
+
+Longer than an attempt may take (`OPEN_TIMEOUT`): a session that is opened anew is cut from all others meanwhile.
+"""
+
+MOST_TRIES = 3
+"""So many times a session is opened anew for the sake of one other, each time after four times the grace: one that
+never answers, whatever the reason, is left alone then."""
+
+PATIENCE = 1.0
+"""How long an answer is waited for, in s; a running process takes 5 ms."""
+
+PATIENCE_AT_LAST = 5.0
+"""How long before the session is opened anew because of one that does not answer, in s."""
+
+
+class Watched(Protocol):
+    """What is watched: a session."""
+
+    zid: str
+    socket: Socket
+
+    def linked(self) -> set[str]:
+        """The ids of the sessions that this one has a link to."""
+        ...
+
+    def watch_links(self, changed: Callable[[str, bool], None]) -> object:
+        """Call back with the id of each session that is or gets linked (True) or is lost (False)."""
+        ...
+
+    def attendance(self, who: str, timeout: float) -> set[str]:
+        """The first eight digits of the ids of the sessions of this name that answer in time (s)."""
+        ...
+
+    def rejoin(self, needed: Callable[[str], bool]) -> None:
+        """Open the session anew where that is needed."""
+        ...
+
+
+class Watch:
+    """Looks at the folder of a session once a second, in a thread of its own that `end` ends."""
+
+    def __init__(self, session: Watched, clock: Callable[[], float] = time.monotonic) -> None:
+        self._session = session
+        self._clock = clock
+        self._ended = threading.Event()
+        self._looked_at: tuple[int, int] | None = None
+        self._is_calm = False
+        self._cut: set[str] = set()
+        self._answered: set[Identity] = set()
+        self._since: dict[Identity, float] = {}
+        self._next_question, self._pause = 0.0, PERIOD
+        self._lost: set[Identity] = set()
+        self._tries: dict[Identity, int] = {}
+        session.watch_links(self._link_changed)
+
+    def begin(self) -> None:
+        """Look from now on."""
+        threading.Thread(target=self._run, name="zenoh-watch", daemon=True).start()
+
+    def end(self) -> None:
+        """Look no more."""
+        self._ended.set()
+
+    def _link_changed(self, zid: str, there: bool) -> None:
+        """A link is made or cut; on one of Zenoh's threads."""
+        if not there:
+            self._cut.add(zid[:8])
+
+    def _run(self) -> None:
+        while not self._ended.wait(PERIOD):
+            with contextlib.suppress(OSError, RuntimeError):  # as where the folder is refused for now: tried again
+                if self.has_lost_its_place():
+                    self._session.rejoin(self._still_lost)
+
+    def has_lost_its_place(self) -> bool:
+        """Whether the socket is not listed, or one that runs is without a link that works for its time of grace."""
+        own = self._session.socket
+        try:
+            state = os.stat(os.path.dirname(own.path))
+            os.lstat(own.path)
+        except FileNotFoundError:
+            return True
+        before, self._looked_at = self._looked_at, (state.st_ino, state.st_mtime_ns)
+        if self._is_calm and not self._cut and self._looked_at == before:
+            return False
+        found = sockets(os.path.dirname(own.path))
+        without = self._without_link(found)
+        now = self._clock()
+        self._since = {each: self._since.get(each, now) for each in self._running(without)}
+        due = {each for each, since in self._since.items() if now - since >= self._grace(each)}
+        if due or self._is_to_ask(now):
+            self._ask(due)
+            without = self._without_link(found)
+            self._since = {each: since for each, since in self._since.items() if each not in self._answered}
+        self._is_calm = not without
+        self._lost = due - self._answered
+        return bool(self._lost)
+
+    def _grace(self, other: Identity) -> float:
+        return GRACE * 4 ** self._tries.get(other, 0)
+
+    def _is_to_ask(self, now: float) -> bool:
+        """Whether it is time to ask those that were not here long enough to be lost: in ever longer intervals."""
+        if not self._since:
+            self._pause = PERIOD
+        if now < self._next_question or not any(now - since >= PERIOD for since in self._since.values()):
+            return False
+        self._next_question, self._pause = now + self._pause, self._pause * 2
+        return True
+
+    def _ask(self, due: set[Identity]) -> None:
+        """Ask those that are linked whether they are there; longer, where those that are due are to be given up."""
+        linked = {zid[:8] for zid in self._session.linked()}
+        if any(zid in linked for zid, _ in self._since):
+            answered = self._session.attendance("*", PATIENCE_AT_LAST if due else PATIENCE)
+            self._answered |= {each for each in self._since if each[0] in answered}
+
+    def _still_lost(self, folder: str) -> bool:
+        """The same with the folder's lock held and the dead removed: another may have mended it meanwhile."""
+        live = live_sockets(folder)
+        lost = self._running(self._without_link(live)) & self._lost
+        for each in lost:
+            self._tries[each] = self._tries.get(each, 0) + 1
+        self._answered.clear()
+        self._since.clear()
+        self._is_calm = False
+        return bool(lost) or self._session.socket not in live
+
+    def _without_link(self, found: list[Socket]) -> list[Socket]:
+        """Those that the session has no link to, or one over which no answer has come yet."""
+        cut, self._cut = self._cut, set()
+        self._answered = {each for each in self._answered if each[0] not in cut}
+        linked = {zid[:8] for zid in self._session.linked()}
+        works = {zid for zid, _ in self._answered & {identity(each) for each in found}} & linked
+        return [each for each in found if each.zid not in works and each.zid != self._session.zid[:8]]
+
+    def _running(self, found: list[Socket]) -> set[Identity]:
+        """Those that are not frozen, and that it was not tried too often to get a link to."""
+        running = {identity(each) for each in found if not is_stopped(each.pid)}
+        return {each for each in running if self._tries.get(each, 0) < MOST_TRIES}
+
+
+Identity = tuple[str, int]
+"""What tells a socket from a later one in its place: its session's id, and the number of its file."""
+
+
+def identity(socket: Socket) -> Identity:
+    """What tells a socket from a later one in its place."""
+    try:
+        return socket.zid, os.lstat(socket.path).st_ino
+    except OSError:
+        return socket.zid, 0

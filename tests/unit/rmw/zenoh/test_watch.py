@@ -1,0 +1,187 @@
+"""When a session is opened anew because of another: a link that carries nothing, never one that is frozen or slow."""
+
+from __future__ import annotations
+
+import fcntl
+import os
+from collections.abc import Callable, Iterator
+
+import pytest
+from bot_console.runtime.rmw.zenoh.domain import watch as watching
+from bot_console.runtime.rmw.zenoh.domain.sockets import Socket
+from bot_console.runtime.rmw.zenoh.domain.watch import GRACE, MOST_TRIES, Watch
+
+OWN, OTHER, THIRD = "aaaaaaaa", "bbbbbbbb", "cccccccc"
+
+
+class FakeSession:
+    """A session whose links and answers are given."""
+
+    def __init__(self, folder: str) -> None:
+        self.zid = OWN + "0" * 24
+        self.socket = Socket(os.path.join(folder, f"1.{OWN}"), 1, OWN)
+        self.links: set[str] = set()
+        self.answering: set[str] = set()
+        self.questions = 0
+        self.changed: Callable[[str, bool], None] = lambda zid, there: None
+
+    def linked(self) -> set[str]:
+        return {f"{each}{'1' * 24}" for each in self.links}
+
+    def watch_links(self, changed: Callable[[str, bool], None]) -> object:
+        self.changed = changed
+        return self
+
+    def attendance(self, who: str, timeout: float) -> set[str]:
+        self.questions += 1
+        return self.answering & self.links
+
+    def rejoin(self, needed: Callable[[str], bool]) -> None:
+        raise AssertionError("the test asks what the watch wants")
+
+
+class Bench:
+    """A watch on a folder, and a clock."""
+
+    def __init__(self, folder: str, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.folder, self.now, self.stopped, self._locks = folder, 0.0, set[int](), dict[str, int]()
+        monkeypatch.setattr(watching, "is_stopped", lambda pid: pid in self.stopped)
+        self.session = FakeSession(folder)
+        self.appear(1, OWN)
+        self.watch = Watch(self.session, lambda: self.now)
+
+    def appear(self, pid: int, zid: str) -> None:
+        """A process that lives: it holds its lock."""
+        path = os.path.join(self.folder, f"{pid}.{zid}")
+        os.close(os.open(path, os.O_CREAT))
+        self._locks[path] = os.open(path + ".lock", os.O_CREAT)
+        fcntl.flock(self._locks[path], fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+    def replace(self, pid: int, zid: str) -> None:
+        """It has opened its session anew."""
+        path = os.path.join(self.folder, f"{pid}.{zid}")
+        os.rename(path, os.path.join(self.folder, "old"))  # so that its number is not given again
+        os.close(os.open(path, os.O_CREAT))
+
+    def links(self, zid: str, *, answers: bool) -> None:
+        """There is a link to it, which carries questions or not."""
+        self.session.links.add(zid)
+        (self.session.answering.add if answers else self.session.answering.discard)(zid)
+
+    def opened_anew(self, seconds: float) -> int:
+        """How often the session would be opened anew in this time, with a look each second."""
+        times = 0
+        for _ in range(int(seconds)):
+            self.now += 1.0
+            times += self.watch.has_lost_its_place() and self.watch._still_lost(self.folder)
+        return times
+
+    def close(self) -> None:
+        for each in self._locks.values():
+            os.close(each)
+
+
+@pytest.fixture
+def bench(tmp_path, monkeypatch) -> Iterator[Bench]:
+    made = Bench(str(tmp_path), monkeypatch)
+    yield made
+    made.close()
+
+
+def test_a_link_that_answers_is_asked_once_and_left_alone(bench: Bench) -> None:
+    bench.appear(2, OTHER)
+    bench.links(OTHER, answers=True)
+    assert bench.opened_anew(1000) == 0
+    assert bench.session.questions == 1
+
+
+def test_one_that_is_gone_at_once_is_not_asked(bench: Bench) -> None:
+    bench.appear(2, OTHER)
+    bench.links(OTHER, answers=True)
+    bench.opened_anew(1)
+    os.unlink(os.path.join(bench.folder, f"2.{OTHER}"))
+    bench.opened_anew(100)
+    assert bench.session.questions == 0
+
+
+def test_a_link_that_carries_nothing_is_mended_after_the_grace(bench: Bench) -> None:
+    bench.appear(2, OTHER)
+    bench.links(OTHER, answers=False)
+    assert bench.opened_anew(GRACE) == 0
+    assert bench.opened_anew(1) == 1
+    bench.links(OTHER, answers=True)
+    assert bench.opened_anew(1000) == 0
+
+
+def test_one_without_a_link_is_mended_too(bench: Bench) -> None:
+    bench.appear(2, OTHER)
+    assert (bench.opened_anew(GRACE), bench.opened_anew(1)) == (0, 1)
+
+
+def test_one_that_answers_late_is_left_alone(bench: Bench) -> None:
+    bench.appear(2, OTHER)
+    bench.links(OTHER, answers=False)
+    assert bench.opened_anew(GRACE) == 0
+    bench.links(OTHER, answers=True)
+    assert bench.opened_anew(1000) == 0
+
+
+def test_a_frozen_one_is_left_alone_and_has_its_grace_when_it_runs_again(bench: Bench) -> None:
+    bench.appear(2, OTHER)
+    bench.links(OTHER, answers=False)
+    assert bench.opened_anew(GRACE - 1) == 0
+    bench.stopped.add(2)
+    assert bench.opened_anew(1000) == 0
+    bench.stopped.clear()
+    assert bench.opened_anew(GRACE) == 0
+    assert bench.opened_anew(2) == 1
+
+
+def test_one_that_never_answers_costs_few_sessions(bench: Bench) -> None:
+    bench.appear(2, OTHER)
+    bench.links(OTHER, answers=False)
+    assert bench.opened_anew(100_000) == MOST_TRIES
+    bench.appear(3, THIRD)
+    bench.links(THIRD, answers=True)
+    assert bench.opened_anew(1000) == 0
+
+
+def test_a_link_that_was_cut_and_made_again_is_asked_again(bench: Bench) -> None:
+    bench.appear(2, OTHER)
+    bench.links(OTHER, answers=True)
+    assert bench.opened_anew(100) == 0
+    bench.session.changed(OTHER + "1" * 24, False)
+    bench.links(OTHER, answers=False)
+    assert bench.opened_anew(GRACE + 1) == 1
+
+
+def test_another_session_in_the_same_place_is_asked_again(bench: Bench) -> None:
+    bench.appear(2, OTHER)
+    bench.links(OTHER, answers=True)
+    assert bench.opened_anew(100) == 0
+    bench.replace(2, OTHER)
+    bench.links(OTHER, answers=False)
+    assert bench.opened_anew(GRACE + 1) == 1
+
+
+def test_who_is_mended_by_the_other_meanwhile_does_nothing(bench: Bench) -> None:
+    bench.appear(2, OTHER)
+    bench.links(OTHER, answers=False)
+    bench.opened_anew(GRACE)
+    bench.now += 1
+    assert bench.watch.has_lost_its_place()
+    bench.replace(2, OTHER)
+    assert not bench.watch._still_lost(bench.folder)
+
+
+def test_a_socket_that_was_taken_away_is_missed_at_once(bench: Bench) -> None:
+    assert bench.opened_anew(10) == 0
+    os.unlink(bench.session.socket.path)
+    assert bench.watch.has_lost_its_place()
+
+
+def test_one_that_was_killed_is_taken_for_lost_by_nobody(bench: Bench) -> None:
+    bench.appear(2, OTHER)
+    os.close(bench._locks.pop(os.path.join(bench.folder, f"2.{OTHER}")))
+    assert bench.opened_anew(100) == 0
+    assert not os.path.exists(os.path.join(bench.folder, f"2.{OTHER}"))
