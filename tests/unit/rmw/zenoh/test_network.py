@@ -3,6 +3,7 @@
 import json
 import re
 import socket
+import ssl
 import threading
 from pathlib import Path
 
@@ -62,6 +63,19 @@ def test_a_client_without_or_with_a_wrong_certificate_is_refused_and_that_is_sai
     wrong = Tls(own.ca, stranger.certificate, stranger.key)
     told = refusal(Way((secure,), wrong, patience=0.3))
     assert stranger.certificate in told and "X.509 version 3" in told and "--tls-certificate" not in told
+
+
+def test_a_certificate_that_zenoh_takes_is_not_blamed_by_a_python_that_is_stricter(secure, files, monkeypatch):
+    own, _ = files
+    default = ssl.create_default_context
+
+    def strict(**given):
+        context = default(**given)
+        context.verify_flags |= ssl.VERIFY_X509_STRICT
+        return context
+
+    monkeypatch.setattr(ssl, "create_default_context", strict)
+    assert "--tls-certificate" in refusal(Way((secure,), Tls(own.ca), patience=0.3))
 
 
 def test_files_that_cannot_be_used_are_named(secure, files, tmp_path):
