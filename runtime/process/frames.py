@@ -10,22 +10,34 @@ _PROCESS = os.path.dirname(os.path.abspath(__file__)) + os.sep
 _RUNTIME = os.path.dirname(_PROCESS.rstrip(os.sep)) + os.sep
 # ROS names are imported from where links lead to, which is another place in an editable installation.
 _OURS = (_RUNTIME, os.path.realpath(_RUNTIME) + os.sep)
+_SHIPPED = tuple(os.path.dirname(each.rstrip(os.sep)) + os.sep for each in _OURS)
 _STDLIB = os.path.dirname(os.path.realpath(os.__file__)) + os.sep
+_WAITS = ("threading.py", "selectors.py", "queue.py", "socket.py", "subprocess.py", "concurrent/futures/thread.py")
 _SITE = ("site-packages", "dist-packages")
 
 
-def _is_library(filename: str) -> bool:
+def is_library(filename: str) -> bool:
     """Whether a file is the interpreter's, an installed library's or the runtime's: not where a user would look."""
     if filename.startswith(("<frozen", *_OURS)):
         return True
     return any(part in filename for part in _SITE) or os.path.realpath(filename).startswith(_STDLIB)
 
 
+def is_idle(filename: str) -> bool:
+    """Whether a thread whose innermost frame is in this file waits: in the runtime, or in the library's own waits."""
+    return filename.startswith(_OURS) or os.path.realpath(filename).removeprefix(_STDLIB) in _WAITS
+
+
+def is_shipped(filename: str) -> bool:
+    """Whether a file came with this program, as its nodes did."""
+    return filename.startswith(_SHIPPED)
+
+
 def user_frame(frame: FrameType) -> FrameType:
     """The innermost frame of the user's own code on this stack; the innermost of all where there is none."""
     candidate: FrameType | None = frame
     while candidate is not None:
-        if not _is_library(candidate.f_code.co_filename):
+        if not is_library(candidate.f_code.co_filename):
             return candidate
         candidate = candidate.f_back
     return frame
@@ -57,7 +69,7 @@ def thread_line(ident: int) -> str | None:
 def is_importing(ident: int) -> bool:
     """Whether a thread is in the import machinery, or in a library's module that is being imported."""
     frame = sys._current_frames().get(ident)  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
-    while frame is not None and _is_library(frame.f_code.co_filename):
+    while frame is not None and is_library(frame.f_code.co_filename):
         if frame.f_code.co_filename.startswith("<frozen importlib"):
             return True
         frame = frame.f_back

@@ -17,6 +17,7 @@ from ..crashes import explanation
 from ..current import MAIN
 from ..frames import trim
 from ..notices import notify, on_notice
+from ..watch.lock_watch import LockWatch
 from ..watch.main_watch import MainWatch
 from .job import function_named
 from .server import HELD_BACK, Birth
@@ -46,6 +47,7 @@ def become(birth: Birth) -> Callable[[], object]:
     sys.excepthook = _uncaught
     on_notice(lambda process, text: data_pipe.tell("notice", text=text))
     MainWatch(lambda text: notify(MAIN, text)).begin()
+    LockWatch(lambda ident, text: notify(MAIN, text)).begin()
     return function_named(job.program)(*job.arguments)
 
 

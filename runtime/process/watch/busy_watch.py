@@ -36,6 +36,12 @@ class BusyWatch:
         if first:
             real.later(PERIOD_S, self._look)
 
+    def process_of(self, ident: int) -> Watched | None:
+        """The process that a thread is of; None for one of nobody who is looked after."""
+        with self._guard:
+            processes = tuple(self._processes)
+        return next((each for each in processes if any(state.ident == ident for state in each.thread_states())), None)
+
     def _look(self) -> None:
         with self._guard:
             self._processes = {process for process in self._processes if process.is_alive}

@@ -21,6 +21,7 @@ import pytest
 if not Path("/proc/self/schedstat").exists():
     pytest.skip("needs /proc and fork", allow_module_level=True)
 
+from bot_console.tui.cli.live.launchers import why_it_hangs
 from bot_console.tui.cli.live.own_host import start_host
 from bot_console.tui.cli.system.workspaces import PROGRAM_LAUNCH, SYSTEM_LAUNCH
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
@@ -175,6 +176,40 @@ def test_one_that_computes_is_named_with_its_figures(system: System, name: str) 
     assert (system.named(name).cpu or 0.0) > 0.0
     system.all_others_go_on()
     system.kill([name])
+
+
+@pytest.mark.skipif(not hasattr(os, "memfd_create"), reason="a system that cannot tell it")
+def test_one_whose_code_in_c_holds_the_interpreters_lock_is_named_with_its_line(system: System) -> None:
+    system.start({"hangs": HEAD + "ctypes.PyDLL(None).sleep(100000)\n"})
+    system.until(lambda: "hangs.py:7, in <module>" in system.named("hangs").problem, "the line in which it hangs")
+    assert "holds the interpreter's lock" in system.named("hangs").problem
+    assert typed("stop", "a test").returncode == 0
+    assert typed("release").returncode == 0
+    system.kill(["hangs"])
+    system.all_others_go_on()
+
+
+@pytest.mark.skipif(not hasattr(os, "memfd_create"), reason="a system that cannot tell it")
+def test_a_host_with_a_thread_that_holds_the_interpreters_lock_is_named_and_ended(tmp_path: Path) -> None:
+    host = start_host(log=tmp_path / "host.log")
+    said: list[str] = []
+    launcher = HostedLauncher(
+        host.connection,
+        lambda *record: None,
+        lambda severity, name, text: said.append(text),
+        hangs=why_it_hangs(host.process.pid),
+    )
+    system = System(launcher, [], tmp_path)
+    file = tmp_path / "hangs.py"
+    file.write_text(HEAD + "ctypes.PyDLL(None).sleep(100000)\n")
+    assert launcher.launch(str(PROGRAM_LAUNCH), {"program": str(file), "isolation": "thread"}).result(PATIENCE).ok
+    system.until(lambda: "hangs.py:7, in <module>" in launcher.info().problem, "the line in which it hangs")
+    system.until(lambda: len([text for text in said if "hangs.py:7" in text]) == 1, "that it is in the log")
+    refused = launcher.kill(launcher.info().processes[0].key).result(PATIENCE)
+    assert (refused.ok, "hangs.py:7" in refused.text) == (False, True)
+    launcher.close(patience=10 * PATIENCE)
+    host.end(patience=10 * PATIENCE)
+    assert host.process.returncode == -9
 
 
 def test_the_robot_is_stopped_beside_those_that_never_end(system: System) -> None:

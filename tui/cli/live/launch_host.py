@@ -28,7 +28,7 @@ def main(words: Sequence[str] | None = None) -> int:
     from bot_console.tui.cli.live.launchers import launcher_here
     from bot_console.tui.cli.live.past import overhear
     from bot_console.tui.cli.system.domain import take_part
-    from bot_console.tui.cli.system.own_processes import isolate
+    from bot_console.tui.cli.system.own_processes import isolate, watch_threads
     from bot_console.tui.cli.system.workspaces import choose
     from bot_console.tui.console.launch_host.host import LaunchHost
     from bot_console.tui.console.recording import RingSize
@@ -39,6 +39,7 @@ def main(words: Sequence[str] | None = None) -> int:
         print(problem, file=sys.stderr)
         return 1
     isolate()
+    watch_threads()
     past = overhear(RingSize(given.keep_seconds, given.keep_bytes)) if given.keep_bytes else None
     host = LaunchHost(launcher_here, past=past)
     host.connect(socket.socket(fileno=given.owner), owner=True)

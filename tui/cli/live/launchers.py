@@ -6,6 +6,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Protocol
 
+from bot_console.runtime.process.watch.held_lock import HeldLock
 from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
 from bot_console.tui.cli.live.launching import Launching
 from bot_console.tui.cli.live.vitals import find_vitals
@@ -13,7 +14,7 @@ from bot_console.tui.cli.system.domain import domain
 from bot_console.tui.cli.system.workspaces import launch_environment, launch_files
 from bot_console.tui.console.launch.launcher import RosLauncher
 from bot_console.tui.console.launch.process_output import Add
-from bot_console.tui.console.launch_host.door import doors, knock
+from bot_console.tui.console.launch_host.door import doors, knock, pid_behind
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
 from bot_console.tui.console.launch_host.several import SeveralLaunchers
 from bot_console.tui.console.model import LaunchInfo
@@ -24,6 +25,10 @@ if TYPE_CHECKING:
     from bot_console.tui.cli.live.past import HostsPast
     from bot_console.tui.console.connection.ros_console import RosConsole
 
+HANGS = (
+    "the launch host {0} hangs in {1}, which holds the interpreter's lock: no node that is a thread of it runs. "
+    "kill -9 {0} ends all of them"
+)
 PATIENCE = 20.0
 """Seconds after which other hosts are looked for although the console has not connected."""
 Printed = Callable[[int, str, str], None]
@@ -39,6 +44,17 @@ class ConsoleLauncher(Launcher, Protocol):
     def close(self) -> None:
         """End what it has started; a second call does nothing."""
         ...
+
+
+def why_it_hangs(pid: int) -> Callable[[], str]:
+    """What tells, whenever it is asked, why a launch host hears nothing; empty where it does."""
+    lock = HeldLock(pid)
+
+    def why() -> str:
+        held = lock.held_in()
+        return HANGS.format(pid, held) if held else ""
+
+    return why
 
 
 def launcher_here(
@@ -64,7 +80,9 @@ def hosted(host: Host, past: HostsPast | None) -> Callable[[RosConsole], HostedL
     """Over a launch host that this process owns, and that keeps the last minutes."""
 
     def make(console: RosConsole) -> HostedLauncher:
-        launcher = HostedLauncher(host.connection, console.record, console.printed, learn=console.learn)
+        launcher = HostedLauncher(
+            host.connection, console.record, console.printed, learn=console.learn, hangs=why_it_hangs(host.process.pid)
+        )
         if past is not None:
             past.host = launcher
         return launcher
@@ -78,12 +96,15 @@ def attached(start_own: Callable[[], Host]) -> Callable[[RosConsole], SeveralLau
     def make(console: RosConsole) -> SeveralLaunchers:
         def enter(door: str) -> HostedLauncher | None:
             connection = knock(door)
+            hangs = why_it_hangs(pid_behind(door))
             return connection and HostedLauncher(
-                connection, console.record, console.printed, owner=False, learn=console.learn
+                connection, console.record, console.printed, owner=False, learn=console.learn, hangs=hangs
             )
 
         def own() -> HostedLauncher:
-            return HostedLauncher(start_own().connection, console.record, console.printed, learn=console.learn)
+            host = start_own()
+            hangs = why_it_hangs(host.process.pid)
+            return HostedLauncher(host.connection, console.record, console.printed, learn=console.learn, hangs=hangs)
 
         folder = domain_folder(domain())
         console_listens = partial(console.wait_ready, PATIENCE)

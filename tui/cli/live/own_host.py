@@ -11,6 +11,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from bot_console.runtime.process.watch.held_lock import HeldLock
+
 SWITCH = "bot_console.tui.cli.live.launch_host"
 END_S = 15.0
 """Seconds that a host may take to end, after its owner has hung up."""
@@ -24,12 +26,15 @@ class Host:
     connection: socket.socket
 
     def end(self, patience: float = END_S) -> None:
-        """Hang up, which ends it and all that it has started; waits for that, and kills it when it takes too long."""
+        """Hang up, which ends it and all that it has started; waits for that, and kills it when it takes too long.
+
+        One whose interpreter's lock is held hears of nothing, and is killed at once.
+        """
         with contextlib.suppress(OSError):
             self.connection.shutdown(socket.SHUT_RDWR)
         self.connection.close()
         try:
-            self.process.wait(patience)
+            self.process.wait(0.0 if HeldLock(self.process.pid).held_in() else patience)
         except subprocess.TimeoutExpired:
             self.process.kill()
             self.process.wait()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from bot_console.runtime.process.watch.held_lock import HeldLock
 from bot_console.runtime.process.watch.processor_time import wanted_seconds
 
 
@@ -13,6 +14,7 @@ class SystemVitals:
 
     def __init__(self, pid: int) -> None:
         self._pid = pid
+        self._lock = HeldLock(pid)
         self._stat = Path(f"/proc/{pid}/stat")
         self._statm = Path(f"/proc/{pid}/statm")
 
@@ -41,6 +43,10 @@ class SystemVitals:
             return self._stat.read_bytes().rpartition(b")")[2].split()[0] in (b"T", b"t")
         except (OSError, IndexError):
             return False
+
+    def holds_lock_in(self) -> str:
+        """The line in which its interpreter's lock is held."""
+        return self._lock.held_in()
 
     def hangs_in(self) -> str:
         """Nothing survives a SIGKILL here."""

@@ -35,6 +35,10 @@ class NodeVitals:
         """Never: no signal freezes a thread alone."""
         return False
 
+    def holds_lock_in(self) -> str:
+        """Never: while it does, nobody here can ask."""
+        return ""
+
     def hangs_in(self) -> str:
         """Where code of it still is although it was killed, as the runtime's notice says it."""
         process = self._process

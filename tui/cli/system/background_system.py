@@ -23,7 +23,7 @@ def main(words: Sequence[str] | None = None) -> int:
     options = parse(["--headless", *rest])
     install()
     from bot_console.tui.cli.system.domain import take_part
-    from bot_console.tui.cli.system.own_processes import isolate
+    from bot_console.tui.cli.system.own_processes import isolate, watch_threads
     from bot_console.tui.cli.system.workspaces import choose
 
     choose(options.workspace)
@@ -32,6 +32,7 @@ def main(words: Sequence[str] | None = None) -> int:
         print(problem, file=sys.stderr)
         return 1
     isolate()
+    watch_threads()
     return _run(options, Path(log))
 
 

@@ -6,6 +6,10 @@ import os
 from collections.abc import Sequence
 
 from bot_console.runtime.own_processes import CAN_FORK, begin_children_with, fork_server
+from bot_console.runtime.process.current import MAIN
+from bot_console.runtime.process.notices import notify
+from bot_console.runtime.process.watch.busy_watch import busy_watch
+from bot_console.runtime.process.watch.lock_watch import LockWatch
 from bot_console.runtime.rmw.zenoh.domain.domain_bus import is_in_range, share_domains
 
 SHARE = f"{share_domains.__module__}:{share_domains.__name__}"
@@ -34,3 +38,12 @@ def isolate() -> None:
     if is_in_range():
         begin_children_with(SHARE)
         isolate_by_default("process")
+
+
+def watch_threads() -> None:
+    """Tell of a node that is a thread of this process when code in C of it has kept all others from running."""
+
+    def tell(ident: int, text: str) -> None:
+        notify(busy_watch.process_of(ident) or MAIN, text)
+
+    LockWatch(tell).begin()

@@ -38,8 +38,9 @@ def taking_part(words: Sequence[str]) -> int:
         return 1
     if words[0] == "launch":
         from bot_console.runtime.importer import install
-        from bot_console.tui.cli.system.own_processes import isolate
+        from bot_console.tui.cli.system.own_processes import isolate, watch_threads
 
         install()
         isolate()
+        watch_threads()
     return main(words)

@@ -19,7 +19,7 @@ from bot_console.tui.console.launch.process_output import Add, ProcessOutput
 from bot_console.tui.console.launch.restart import Recipe, recipe
 from bot_console.tui.console.launch.run import LaunchRun, Listener
 from bot_console.tui.console.launch.timeline import LaunchTimeline
-from bot_console.tui.console.launch.vitals import FindVitals, Usage, Vitals
+from bot_console.tui.console.launch.vitals import HANGS, FindVitals, Usage, Vitals
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo, ProcessState, Severity
 
 if TYPE_CHECKING:
@@ -125,9 +125,13 @@ class RosLauncher(AskedForProcesses):
     def _look_at(self, held: _Held, usage: Usage, now: float) -> None:
         before = usage.busy_s
         usage.look(now)
-        self._dirty |= held.process.uses(usage.share, usage.memory) or held.process.stands(usage.stopped)
+        self._dirty |= held.process.uses(usage.share, usage.memory)
+        label = held.process.info.label
+        if held.process.stands(usage.stands):
+            self._dirty = True
+            if usage.stands.startswith(HANGS):
+                self._tell(f"{label} {usage.stands}", Severity.WARN)
         if before < BUSY_S <= usage.busy_s:
-            label = held.process.info.label
             self._tell(f"{label} has computed for {BUSY_S:g} s without waiting", Severity.WARN)
 
     def _tell(self, text: str, severity: Severity = Severity.INFO) -> None:

@@ -14,8 +14,6 @@ INTERRUPTED = (0, -2, -15, 130)
 """Exit codes of a process that ended as it was asked to."""
 KILLED = -9
 
-FROZEN = "is frozen by a signal or a debugger, and hears nothing until SIGCONT"
-
 STARTS = ("start", "restart")
 ENDED = (ProcessState.EXITED, ProcessState.CRASHED, ProcessState.ABANDONED, ProcessState.MISSING)
 
@@ -40,7 +38,7 @@ class LaunchedProcess:
         self._ran = False
         self._told = False
         self._again = False
-        self._fault = ""
+        self._fault = self._stands = ""
         self._waiting: list[tuple[str, Future[Answer]]] = []
 
     @property
@@ -103,7 +101,7 @@ class LaunchedProcess:
     def started(self, label: str, pid: int, nodes: tuple[str, ...] = ()) -> Order:
         """It runs, by itself or because somebody wanted it; launch may give it another label each time."""
         restarts, self._starts, self._alive = self._starts, self._starts + 1, True
-        self._ran = True
+        self._ran, self._stands = True, ""
         state = ProcessState.STOPPING if self._told else ProcessState.RUNNING
         nodes = nodes or self.info.nodes
         self.info = replace(self.info, label=label, state=state, pid=pid, nodes=nodes, restarts=restarts, problem="")
@@ -171,11 +169,12 @@ class LaunchedProcess:
         self.info = replace(self.info, cpu=cpu, memory=memory)
         return True
 
-    def stands(self, stopped: bool) -> bool:
-        """Note whether it is frozen; whether that is news."""
-        if stopped is (self.info.problem == FROZEN) or not self._alive:
+    def stands(self, why: str) -> bool:
+        """Note why nothing of it runs, or that it does (empty); whether that is news."""
+        if why == self._stands or not self._alive:
             return False
-        self.info = replace(self.info, problem=FROZEN if stopped else "")
+        self._stands = why
+        self.info = replace(self.info, problem=why)
         return True
 
     def _settle(self, verbs: tuple[str, ...], answer: Answer) -> None:

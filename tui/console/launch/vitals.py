@@ -10,7 +10,7 @@ PERIOD = 1.0
 
 
 STATE_PERIOD = 0.5
-"""Seconds between two looks at whether it is frozen."""
+"""Seconds between two looks at whether it is frozen, or hangs."""
 
 
 class Vitals(Protocol):
@@ -32,11 +32,17 @@ class Vitals(Protocol):
         """Whether it is frozen (SIGSTOP, a debugger, a suspended job)."""
         ...
 
+    def holds_lock_in(self) -> str:
+        """The line in which code in C has held its interpreter's lock for 1 s; empty where none does."""
+        ...
+
     def hangs_in(self) -> str:
         """Where code of it still is, although it was killed; empty when there is none."""
         ...
 
 
+FROZEN = "is frozen by a signal or a debugger, and hears nothing until SIGCONT"
+HANGS = "hangs in"
 BUSY_SHARE = 0.9
 """The share of wall time from which a process counts as one that never waits, on a processor or for one."""
 
@@ -56,8 +62,8 @@ class Usage:
         """1.0 is one whole processor, in whole percent; None as long as it is not known."""
         self.memory: int | None = None
         """MB (10^6 bytes), with two digits from 100 on so that it stands still while nothing happens."""
-        self.stopped = False
-        """Whether it is frozen."""
+        self.stands = ""
+        """Why nothing of it runs; empty where it does."""
         self._asked = now
         self.busy_s = 0.0
         """How long (s) it has not waited for anything but a processor."""
@@ -65,7 +71,7 @@ class Usage:
     def look(self, now: float) -> None:
         """Measure, if it is time to, at a moment in steady s."""
         if now - self._asked >= STATE_PERIOD:
-            self._asked, self.stopped = now, self._vitals.is_stopped()
+            self._asked, self.stands = now, self._why_it_stands()
         passed = now - self._at
         if passed < PERIOD:
             return
@@ -76,6 +82,12 @@ class Usage:
         self._at, self._used, self._wanted = now, used, wanted
         held = self._vitals.memory_bytes()
         self.memory = None if held is None else _steady(held)
+
+    def _why_it_stands(self) -> str:
+        if self._vitals.is_stopped():
+            return FROZEN
+        held = self._vitals.holds_lock_in()
+        return f"{HANGS} {held}, which holds the interpreter's lock: nothing else of it runs" if held else ""
 
 
 def _share(before: float | None, after: float | None, passed: float) -> float | None:

@@ -53,6 +53,11 @@ def doors(folder: str) -> list[str]:
     return sorted(str(each) for each in Path(folder).iterdir() if _NAME.fullmatch(each.name))
 
 
+def pid_behind(path: str) -> int:
+    """The process that a door is of."""
+    return int(os.path.basename(path).removesuffix(DOOR))
+
+
 def knock(path: str) -> socket.socket | None:
     """A connection to the host behind a door; the door of one that is dead is removed."""
     connection = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import socket
 import threading
+import time
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from concurrent.futures import TimeoutError as TooLate
@@ -23,6 +24,8 @@ from bot_console.tui.console.model import LaunchArgument, LaunchInfo, ProcessInf
 from bot_console.tui.console.parameters.provenance import Learn
 
 GONE = "the launch host has ended, and with it all that it had started"
+LOOK_S = 0.5
+"""Seconds between two looks at whether the host hangs."""
 FILES_S = 2.0
 """Seconds after which a list of files that does not come is empty."""
 ARGUMENTS_S = 30.0
@@ -40,19 +43,24 @@ class HostedLauncher(AskedForProcesses):
         *,
         learn: Learn = lambda kind, facts: None,
         owner: bool = True,
+        hangs: Callable[[], str] = lambda: "",
     ) -> None:
-        """`learn` is given what programs and launches tell of parameters.
+        """`learn` is given what programs and launches tell of parameters; `hangs` says why the host hears nothing.
 
         An owner's `close` ends what runs, that of any other console only the connection.
         """
         self._learn = learn
+        self._why_it_hangs = hangs
         self._record = record
         self._printed = printed
         self._owner = owner
         self._lock = threading.Lock()
         self._numbers = itertools.count(1)
         self._asked: dict[int, Future[Message]] = {}
-        self._info = LaunchInfo()
+        self._info = self._shown = LaunchInfo()
+        self._looked = 0.0
+        self._hangs = ""
+        self._told: set[str] = set()
         self._closed = False
         self._gone = threading.Event()
         self._channel = Channel(connection, self._received, self._lost)
@@ -65,7 +73,15 @@ class HostedLauncher(AskedForProcesses):
 
     def info(self) -> LaunchInfo:
         """What is known now; the same object until something changes."""
-        return self._info
+        if (now := time.monotonic()) - self._looked >= LOOK_S:
+            self._looked = now
+            before, self._hangs = self._hangs, "" if self._gone.is_set() else self._why_it_hangs()
+            if self._hangs != before:
+                self._shown = replace(self._info, problem=self._hangs)
+                if self._hangs and self._hangs not in self._told:
+                    self._told.add(self._hangs)
+                    self._printed(Severity.WARN, "launch", self._hangs)
+        return self._shown if self._hangs else self._info
 
     def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
         """Run one more launch file; the answer comes when its first process runs or it has failed or ended."""
@@ -97,7 +113,8 @@ class HostedLauncher(AskedForProcesses):
         with self._lock:
             if self._closed:
                 return
-        if self._owner:
+            hangs = bool(self._hangs)
+        if self._owner and not hangs:
             ended = self._ask("close")
             try:
                 ended.result(patience)
@@ -122,7 +139,7 @@ class HostedLauncher(AskedForProcesses):
     def _ask(self, verb: str, *words: Any) -> Future[Message]:
         asked: Future[Message] = Future()
         with self._lock:
-            refusal = CLOSED if self._closed else GONE if self._gone.is_set() else ""
+            refusal = CLOSED if self._closed else GONE if self._gone.is_set() else self._hangs
             number = next(self._numbers)
             if not refusal:
                 self._asked[number] = asked

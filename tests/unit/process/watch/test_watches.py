@@ -104,7 +104,7 @@ def test_trimming_keeps_causes_and_their_order():
 
 
 def test_library_frames_are_not_the_users():
-    assert frames._is_library(threading.__file__)
-    assert frames._is_library(pytest.__file__)
-    assert frames._is_library(frames.__file__)
-    assert not frames._is_library(__file__)
+    assert frames.is_library(threading.__file__)
+    assert frames.is_library(pytest.__file__)
+    assert frames.is_library(frames.__file__)
+    assert not frames.is_library(__file__)

@@ -1,0 +1,123 @@
+"""Whether a process stands because code in C holds the interpreter's lock, and in which line, seen from outside."""
+
+from __future__ import annotations
+
+import os
+import re
+from dataclasses import dataclass, field
+
+from .. import frames, real
+
+NAME = "interpreter-stacks"
+"""The file in memory that a watched process has."""
+LEAST_SWITCHES = 4
+"""How often a second a thread wakes that waits for the lock, at least: every 5 ms on a machine that has the time.
+
+One that only waits for a processor, or is frozen, does not wake.
+"""
+LOOKS_FOR_FILE = 20
+"""How many looks in a row may miss the file of a process that has just begun."""
+
+_HEADER = re.compile(r"(\d+) (\d+) ([\d.]+)\n")
+_THREAD = re.compile(r"Thread 0x([0-9a-f]+)")
+_FRAME = re.compile(r'  File "(.*)", line (\d+) in (.*)')
+_ESCAPE = re.compile(r"\\(?:x[0-9a-f]{2}|u[0-9a-f]{4}|U[0-9a-f]{8})")
+
+
+@dataclass(frozen=True)
+class Held:
+    """Who holds the lock."""
+
+    ident: int
+    """The thread, as `threading.get_ident` names it."""
+    line: str
+    """`/path/file.py:12, in function`; with ` or ` between two that cannot be told apart."""
+
+
+@dataclass
+class _Thread:
+    ident: int
+    stack: list[tuple[str, str]] = field(default_factory=list[tuple[str, str]])
+    """File and description of each frame, the innermost first."""
+
+
+def voluntary_switches(process: int | str, thread: int) -> int | None:
+    """How often a thread has gone to sleep by itself; None where the system does not tell."""
+    try:
+        with open(f"/proc/{process}/task/{thread}/status", "rb") as file:
+            return int(file.read().partition(b"\nvoluntary_ctxt_switches:")[2].split(maxsplit=1)[0])
+    except (OSError, ValueError, IndexError):  # it has ended, or the system has no such file
+        return None
+
+
+def held_in_stacks(text: str, switches: int, now: float) -> Held | None:
+    """What a watched process has in its file: who holds the lock, if anybody does.
+
+    `switches` of the thread that the file names, `now` on the monotonic clock in s.
+    """
+    header = _HEADER.match(text)
+    if header is None or header.end() == len(text):
+        return None
+    woken, passed = switches - int(header[2]), now - float(header[3])
+    if woken < LEAST_SWITCHES * passed:
+        return None
+    at_work = [each for each in _threads(text[header.end() :]) if each.stack and not frames.is_idle(each.stack[0][0])]
+    if any(file.startswith("<frozen importlib") for each in at_work for file, _ in each.stack):
+        return None
+    found = [(each.ident, *where) for each in at_work if (where := _line_of_user(each)) is not None]
+    found = [each for each in found if not frames.is_shipped(each[1])] or found
+    if not found:
+        return None
+    return Held(found[0][0], " or ".join(dict.fromkeys(line for *_, line in found[:2])))
+
+
+def _threads(text: str) -> list[_Thread]:
+    threads: list[_Thread] = []
+    for line in text.splitlines():
+        if begun := _THREAD.match(line):
+            threads.append(_Thread(int(begun[1], 16)))
+        elif threads and (frame := _FRAME.match(line)):
+            file = _ESCAPE.sub(lambda found: found[0].encode().decode("unicode_escape"), frame[1])
+            threads[-1].stack.append((file, f"{file}:{frame[2]}, in {frame[3]}"))
+    return threads
+
+
+def _line_of_user(thread: _Thread) -> tuple[str, str] | None:
+    return next((each for each in thread.stack if not frames.is_library(each[0])), None)
+
+
+class HeldLock:
+    """One process, looked at again and again."""
+
+    def __init__(self, pid: int) -> None:
+        self._pid = pid
+        self._path = ""
+        self._looks = 0
+
+    def held_in(self) -> str:
+        """The line in which its lock is held; empty while it is not, and where that is not known."""
+        if not self._path and self._looks < LOOKS_FOR_FILE:
+            self._looks += 1
+            self._path = _file_of(self._pid)
+        if not self._path:
+            return ""
+        try:
+            with open(self._path, encoding="ascii", errors="replace") as file:
+                text = file.read(1 << 20)
+        except OSError:  # it has ended
+            return ""
+        thread = text.partition(" ")[0]
+        switches = voluntary_switches(self._pid, int(thread)) if thread.isdecimal() else None
+        held = None if switches is None else held_in_stacks(text, switches, real.monotonic())
+        return held.line if held is not None else ""
+
+
+def _file_of(pid: int) -> str:
+    folder = f"/proc/{pid}/fd"
+    try:
+        for name in os.listdir(folder):
+            if f":{NAME}" in os.readlink(f"{folder}/{name}"):
+                return f"{folder}/{name}"
+    except OSError:  # it has ended, is another user's, or the system has no such folder
+        return ""
+    return ""
