@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, TypeAlias, cast
 
 import yaml
+from bot_console_robot.common.unreadable_yaml import UNREADABLE
 
 Values: TypeAlias = "dict[str, dict[str, Any]]"
 """Values by node (fully qualified name) and parameter."""
@@ -45,15 +46,14 @@ def title(folder: Path, name: str) -> str:
 def read(folder: Path, name: str) -> Values:
     """The values of a preset, dotted names for nested ones; raises `PresetError`."""
     path = _path(folder, name)
+    found: Values = {}
     try:
-        data = yaml.safe_load(path.read_text(encoding="utf-8"))
+        _collect(found, "", yaml.safe_load(path.read_text(encoding="utf-8")))
     except FileNotFoundError:
         there = ", ".join(names(folder)) or "none"
         raise PresetError(f"there is no preset '{name}'; there are: {there}") from None
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+    except (OSError, *UNREADABLE) as error:
         raise PresetError(f"{path} cannot be read: {error}") from None
-    found: Values = {}
-    _collect(found, "", data)
     if not found:
         raise PresetError(f"{path} sets nothing; a parameter stands below 'node_name: {KEYWORD}:'")
     return found

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 import yaml
+from bot_console_robot.common.unreadable_yaml import UNREADABLE
 from bot_console_robot.simulation.geometry import (
     Block,
     Disc,
@@ -29,9 +30,8 @@ KEYS = {
     "moving", "route", "scatter",
 }  # fmt: skip
 
-
-UNREADABLE = (yaml.YAMLError, ValueError, TypeError, AttributeError, KeyError, OverflowError, RecursionError)
-"""What reading YAML may raise: besides its own errors, those of the values that tags such as `!!timestamp` make."""
+LARGEST = 1e6
+"""Of any number in a world, in m or in what else it counts."""
 
 
 def load_world(path: Path) -> World:
@@ -46,6 +46,8 @@ def load_world(path: Path) -> World:
         return parse_world(path.stem, data)
     except WorldError as error:
         raise WorldError(f"{path}: {error}") from None
+    except ValueError:  # from the words of a refusal: Python writes no whole number of more than 4,300 digits
+        raise WorldError(f"{path}: a whole number has thousands of digits") from None
 
 
 def parse_world(name: str, data: object) -> World:
@@ -158,8 +160,12 @@ def _numbers(where: str, value: object, count: int, low: float = -math.inf) -> t
 
 
 def _number(where: str, value: object, low: float = -math.inf, high: float = math.inf) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+    if isinstance(value, bool) or not isinstance(value, int | float):
         raise WorldError(f"{where} needs a number, got {value!r}")
+    if isinstance(value, float) and not math.isfinite(value):
+        raise WorldError(f"{where} needs a number, got {value!r}")
+    if abs(value) > LARGEST:
+        raise WorldError(f"{where} needs a number from {-LARGEST:g} to {LARGEST:g}")
     if not low <= value <= high:
         raise WorldError(f"{where} is {value}, allowed is {low} to {high}")
     return float(value)

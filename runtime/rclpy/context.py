@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import threading
 import weakref
 from collections.abc import Callable, Sequence
@@ -10,6 +9,7 @@ from inspect import ismethod
 from types import TracebackType
 from typing import Any
 
+from bot_console.runtime.domain_id import domain_id as environments_domain
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.bus import Bus, Thing
 from bot_console.runtime.rmw.middleware import bus_of
@@ -18,7 +18,6 @@ from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.reexports import reexporting
 from rclpy.signals import remember_context
 
-DOMAIN_VARIABLE = "ROS_DOMAIN_ID"
 NOT_INITIALIZED = "this context has not been initialised: call rclpy.init() first"
 
 
@@ -199,13 +198,10 @@ class Context:
 
 
 def _domain_of_environment() -> int:
-    text = os.environ.get(DOMAIN_VARIABLE, "")
     try:
-        return int(text) if text else 0
-    except ValueError:
-        raise RCLError(
-            f"failed to get domain ID from environment: {DOMAIN_VARIABLE} is '{text}', not a number"
-        ) from None
+        return environments_domain()
+    except ValueError as error:
+        raise RCLError(f"failed to get domain ID from environment: {error}") from None
 
 
 __getattr__ = reexporting(__name__, "")

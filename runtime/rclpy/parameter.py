@@ -161,7 +161,15 @@ def parameter_dict_from_yaml_file(
     import yaml
 
     with open(parameter_file, encoding="utf-8") as file:
-        content = yaml.safe_load(file)
+        try:
+            content = yaml.safe_load(file)
+        except (
+            TypeError,
+            AttributeError,
+            LookupError,
+            OverflowError,
+        ):  # of the library's constructors of tagged values
+            raise RuntimeError(f"{parameter_file}: a value is not what its tag says") from None
     keys = ["/**"] if use_wildcard and "/**" in content else []
     if target_nodes:
         for node in target_nodes:

@@ -16,7 +16,10 @@ class FieldTypeError(TypeError):
         super().__init__(owner, field, wanted, value)
 
     def __str__(self) -> str:
-        shown = repr(self.value)
+        try:
+            shown = repr(self.value)
+        except Exception:  # a class of the node's own, or a whole number of more digits than Python writes
+            shown = "which cannot be written"
         shown = shown if len(shown) <= 60 else shown[:57] + "..."
         return f"field '{self.field}' of {self.owner} must be {self.wanted}, not {type(self.value).__name__} ({shown})"
 

@@ -27,6 +27,12 @@ def parameter_file(text: str) -> None:
     read_parameter_file(str(file(text, "parameters.yaml")), ParameterOverrides())
 
 
+def preset(text: str) -> None:
+    from bot_console_robot.preset_files import read
+
+    read(file(text, "preset.yaml").parent, "preset")
+
+
 def profile(text: str) -> None:
     from bot_console.tui.console.parameters.profiles import differences, load
 

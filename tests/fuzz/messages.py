@@ -8,6 +8,7 @@ from typing import Any
 
 
 def message_yaml(text: str) -> None:
+    from rclpy.serialization import serialize_message
     from ros2cli.yaml_values import read_values
     from rosidl_runtime_py.set_message import set_message_fields
     from sensor_msgs.msg import LaserScan
@@ -21,6 +22,7 @@ def message_yaml(text: str) -> None:
     if isinstance(values, dict):
         message = LaserScan()
         set_message_fields(message, values)
+        serialize_message(message)  # nothing is shown that could not be sent
         told(message)
 
 

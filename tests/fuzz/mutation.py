@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 from collections.abc import Sequence
 
 NASTY = (
@@ -142,6 +143,13 @@ NASTY = (
     "\\u0000",
     "\\x00",
 )
+NUMBERS = (
+    "0", "-0.0", "-1", "1e-320", "1e308", "-1e308", "1e999", ".nan", ".inf", "-.inf", "nan", "inf", "1" + "0" * 400,
+    "-1" + "0" * 400, "9" * 5000, "0x" + "f" * 5000, "0b" + "1" * 20000, "0" + "7" * 6000, "9223372036854775808",
+    "-9223372036854775809", "18446744073709551616", "4294967296", "256", "59:59:59", "1_000", "1.0.0", "2001-01-01",
+    "true", "null", "text", "''", "[]", "{}", "[[1.0], 2]", "!!float", "!!int", "*a",
+)  # fmt: skip
+"""What stands in a number's place, in any notation of YAML, Python and XML."""
 MOST = 20_000
 """Characters of an input."""
 
@@ -190,6 +198,22 @@ def _splice(text: str, seeds: Sequence[str], chance: random.Random) -> str:
     return text[:at] + other[begin : begin + chance.choice((3, 10, 50, 500))] + text[at:]
 
 
+def _number(text: str, seeds: Sequence[str], chance: random.Random) -> str:
+    found = list(re.finditer(r"-?\d+(?:\.\d+)?", text))
+    if not found:
+        return _insert(text, seeds, chance)
+    place = chance.choice(found)
+    return text[: place.start()] + chance.choice(NUMBERS) + text[place.end() :]
+
+
+def _value(text: str, seeds: Sequence[str], chance: random.Random) -> str:
+    found = list(re.finditer(r"(?<=: )[^\n#,}\]]+|(?<==)[^\s]+", text))
+    if not found:
+        return _insert(text, seeds, chance)
+    place = chance.choice(found)
+    return text[: place.start()] + chance.choice((*NUMBERS, *NASTY)) + text[place.end() :]
+
+
 def _swap_lines(text: str, seeds: Sequence[str], chance: random.Random) -> str:
     lines = text.split("\n")
     one, other = chance.randrange(len(lines)), chance.randrange(len(lines))
@@ -224,4 +248,8 @@ CHANGES = (
     _swap_lines,
     _indent,
     _flip,
+    _number,
+    _number,
+    _value,
+    _value,
 )

@@ -24,6 +24,18 @@ def texts(*given: str) -> Callable[[], Sequence[str]]:
     return lambda: given
 
 
+SAVED_LOG = (
+    "[INFO] [1700000000.123456789] [node]: text\nmore of it\n[ERROR] [1700000001.0] [other]: text\n",
+    "1700000000.123456789 [WARNING] [node] text\n",
+)
+METADATA = """rosbag2_bagfile_information:
+  version: 5
+  storage_identifier: mcap
+  relative_file_paths: [a.mcap]
+  topics_with_message_count:
+    - topic_metadata: {name: /a, type: std_msgs/msg/String, offered_qos_profiles: "- history: 3"}
+      message_count: 3
+"""
 TRACEBACK = """Traceback (most recent call last):
   File "/a/b.py", line 3, in on_timer
     x = 1 / 0

@@ -7,6 +7,7 @@ import random
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
+import bags
 import files
 import messages
 import seeds
@@ -32,9 +33,11 @@ def targets() -> list[Target]:
     from bot_console.runtime.rmw.parameter_overrides import ParameterYamlError
     from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
     from bot_console.runtime.rosidl.parse import DefinitionError
+    from bot_console.tui.console.bags.reader import NoBag
     from bot_console.tui.console.plot.arrays import NotPlottable
     from bot_console.tui.files.save_file import NotSaved
     from bot_console.tui.layout.form import NoLayout
+    from bot_console_robot.preset_files import PresetError
     from bot_console_robot.simulation.world import WorldError
 
     arguments = (
@@ -42,9 +45,10 @@ def targets() -> list[Target]:
         "a --ros-args --params-file x -r __ns:=/a n:b:=c --log-level info",
         "--ros-args -r rosservice:///a:=b -e /x",
     )
-    broad = (ValueError, TypeError, AttributeError, KeyError, AssertionError, yaml.YAMLError)
+    broad = (ValueError, TypeError, AttributeError, KeyError, AssertionError, OverflowError, yaml.YAMLError)
     return [
         Target("parameter file", seeds.files("profiles/*.yaml"), files.parameter_file, (ParameterYamlError,)),
+        Target("preset", seeds.files("profiles/*.yaml"), files.preset, (PresetError,)),
         Target("profile", seeds.files("profiles/*.yaml"), files.profile),
         Target("save into a file", seeds.files("profiles/*.yaml"), files.save, (NotSaved,)),
         Target("world", seeds.files("profiles/worlds/*.yaml"), files.world, (WorldError,)),
@@ -149,6 +153,10 @@ def targets() -> list[Target]:
         Target("package.xml", seeds.texts(seeds.PACKAGE), files.package, (ValueError,)),
         Target("node file", seeds.files("nodes/telemetry_node.py"), files.plain_file),
         Target("printed lines", seeds.texts(seeds.TRACEBACK), messages.printed),
+        Target("saved log", seeds.texts(*seeds.SAVED_LOG), bags.saved_log),
+        Target("bag's metadata", seeds.texts(seeds.METADATA), bags.metadata),
+        Target("bag of MCAP", bags.mcap_seeds, bags.bag(".mcap"), (NoBag,)),
+        Target("bag of SQLite", bags.sqlite_seeds, bags.bag(".db3"), (NoBag,)),
         Target("file names", seeds.texts("~/a.yaml", "/tmp/x", "a b", "~root/x"), typed.typed_path, (NotSaved,)),
         Target(
             "keys of the network",

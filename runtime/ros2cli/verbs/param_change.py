@@ -10,6 +10,7 @@ from rclpy.parameter import get_parameter_value, parameter_dict_from_yaml_file
 from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, absolute, call
 from ros2cli.verbs.param_show import NOT_FOUND, found, warn
+from ros2cli.yaml_values import told_faults
 
 
 def set_(arguments: argparse.Namespace) -> Result:
@@ -17,12 +18,16 @@ def set_(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
         if not found(node, arguments):
             return NOT_FOUND
-        value = get_parameter_value(arguments.value)
+        with told_faults():
+            value = get_parameter_value(arguments.value)
         parameter = Parameter(name=arguments.parameter_name, value=value)
         request = SetParameters.Request(parameters=[parameter])
         try:
             result = call(node, SetParameters, f"{absolute(arguments.node_name)}/set_parameters", request).results[0]
-        except TypeError:  # a YAML map: the words of ROS 2's conversion of strings
+        except TypeError as error:
+            if isinstance(value.string_value, str):  # a whole number beyond 64 bits
+                return f"{arguments.parameter_name}: {error}"
+            # A YAML map: the words of ROS 2's conversion of strings.
             raise TypeError("bad argument type for built-in operation") from None
     if result.successful:
         print(f"Set parameter successful{': ' + result.reason if result.reason else ''}")
@@ -53,13 +58,18 @@ def load(arguments: argparse.Namespace) -> Result:
             return NOT_FOUND
         try:
             values = parameter_dict_from_yaml_file(arguments.parameter_file, not arguments.no_use_wildcard)
+        except (ValueError, LookupError, OverflowError, RecursionError):
+            return f"{arguments.parameter_file}: a value is not what its tag says, an endless number, or holds itself"
         except RuntimeError as error:
             return str(error)
         except OSError as error:  # of which upstream shows the traceback
             return f"{arguments.parameter_file}: {error.strerror or error}"
         parameters = list(values.values())
         request = SetParameters.Request(parameters=parameters)
-        results = call(node, SetParameters, f"{absolute(arguments.node_name)}/set_parameters", request).results
+        try:
+            results = call(node, SetParameters, f"{absolute(arguments.node_name)}/set_parameters", request).results
+        except TypeError as error:  # a whole number beyond 64 bits
+            return f"{arguments.parameter_file}: {error}"
     for parameter, result in zip(parameters, results, strict=True):
         if result.successful:
             print(f"Set parameter {parameter.name} successful{': ' + result.reason if result.reason else ''}")

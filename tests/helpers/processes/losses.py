@@ -78,6 +78,7 @@ def steer(robot: LiveRobot, terminal: Terminal) -> None:
     """Arm the steering and turn on the spot, until the witness sees it."""
     terminal.type("6")
     terminal.read_until(lambda: b"disarmed" in terminal.output, "the steering pane")
+    terminal.read_until(lambda: b"cmd_vel" in terminal.output, "the topic that is steered by")
     terminal.type("\r")
     terminal.read_until(lambda: b"ARMED" in terminal.output, "the armed steering")
     robot.until(

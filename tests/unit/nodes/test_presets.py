@@ -119,3 +119,10 @@ def test_a_name_cannot_leave_the_folder(bench: Bench, name: str) -> None:
         assert not bench.ask("save", name)[0]
     with pytest.raises(PresetError, match="no name"):
         read(Path("/tmp"), name)
+
+
+@pytest.mark.parametrize("value", ["!!int", "!!timestamp x", "&a {b: *a}"])
+def test_a_file_that_yaml_cannot_make_values_of_is_told(tmp_path: Path, value: str) -> None:
+    (tmp_path / "odd.yaml").write_text(f"/arm: {{ros__parameters: {{reach: {value}}}}}")
+    with pytest.raises(PresetError, match="cannot be read"):
+        read(tmp_path, "odd")

@@ -191,3 +191,35 @@ node.add_on_set_parameters_callback(lambda parameters: None)
     assert "AttributeError: 'NoneType' object has no attribute 'successful'\n" in node.stderr
     assert "return SetParametersResult(successful=True)" in node.stderr.splitlines()[-1]
     assert ros.ask("node", "list").stdout == ""
+
+
+@pytest.mark.parametrize(
+    ("value", "words"),
+    [
+        ("9" * 30, "must be an integer in [-9223372036854775808, 9223372036854775807]"),
+        ("0x" + "f" * 5000, "(which cannot be written)"),
+        ("!!timestamp x", "The passed value is no YAML"),
+        ("!!int", "The passed value is no YAML"),
+    ],
+    ids=["long", "endless", "timestamp", "empty tag"],
+)
+def test_a_value_that_no_parameter_takes_is_refused_on_one_line(ros, tmp_path, value, words) -> None:
+    ros.node(NODE)
+    given = ros.ask("param", "set", "/tuned", "count", value)
+    assert given.exit == 1
+    assert words in given.stderr
+    assert given.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    "value",
+    ["9" * 30, "0x" + "f" * 5000, "!!int", "!!timestamp x"],
+    ids=["long", "endless", "empty tag", "timestamp"],
+)
+def test_a_file_that_no_parameter_takes_is_refused_on_one_line(ros, tmp_path, value) -> None:
+    ros.node(NODE)
+    (tmp_path / "a.yaml").write_text(f"/**:\n  ros__parameters:\n    count: {value}\n")
+    given = ros.ask("param", "load", "/tuned", str(tmp_path / "a.yaml"))
+    assert given.exit == 1
+    assert "a.yaml: " in given.stderr
+    assert given.stderr.count("\n") == 1

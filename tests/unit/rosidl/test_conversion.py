@@ -85,3 +85,13 @@ def test_a_tuple_of_messages_becomes_a_list() -> None:
 
     copy = Polygon(points=(Point32(x=1.0),))._copy_()
     assert copy.points == [Point32(x=1.0)]
+
+
+class Unwritable:
+    def __repr__(self) -> str:
+        raise RuntimeError("not even this")
+
+
+@pytest.mark.parametrize("value", [Unwritable(), [16**5000]], ids=["own", "endless"])
+def test_a_value_that_cannot_be_written_is_told_all_the_same(value: object) -> None:
+    assert refused(Bool(data=value)).endswith("(which cannot be written)")

@@ -39,7 +39,18 @@ def test_a_mistake_is_named_with_its_place(change: dict[str, Any], words: str) -
     assert words in str(caught.value)
 
 
-@pytest.mark.parametrize(("text", "words"), [("size: [", "is not YAML"), ("- 1\n", "the file needs keys and values")])
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("size: [", "is not YAML"),
+        ("- 1\n", "the file needs keys and values"),
+        ("size: !!int", "is not YAML"),
+        (f"size: [0x{'f' * 5000}, 2.0]", "size[0] needs a number from -1e+06 to 1e+06"),
+        (f"size: 0x{'f' * 5000}", "thousands of digits"),
+        (f"size: [1{'0' * 400}, 2.0]", "size[0] needs a number from -1e+06 to 1e+06"),
+    ],
+    ids=["list", "root", "tag", "hexadecimal", "whole", "long"],
+)
 def test_a_broken_file_is_named(tmp_path: Path, text: str, words: str) -> None:
     path = tmp_path / "broken.yaml"
     path.write_text(text)

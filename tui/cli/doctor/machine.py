@@ -7,6 +7,7 @@ import platform
 import sys
 from collections.abc import Mapping
 
+from bot_console.runtime.domain_id import is_domain
 from bot_console.tui import __version__
 from bot_console.tui.cli.attach.machine_ros import OLDEST, MachineRos, find_machine_ros, how_to_install
 from bot_console.tui.cli.doctor.finding import Finding, Level
@@ -53,8 +54,8 @@ def domain_finding(text: str) -> Finding:
     """What ROS_DOMAIN_ID says."""
     if not text:
         return Finding(Level.OK, "domain", "ROS_DOMAIN_ID is not set: 0")
-    if not text.isdecimal():
-        return Finding(Level.FAIL, "domain", f"ROS_DOMAIN_ID={text} is no number", "unset it, or set 0 to 101")
+    if not is_domain(text):
+        return Finding(Level.FAIL, "domain", f"ROS_DOMAIN_ID={text[:40]} is no number", "unset it, or set 0 to 101")
     if int(text) > MOST:
         mend = "DDS takes 0 to 101 on every system; Zenoh takes any"
         return Finding(Level.WARN, "domain", f"ROS_DOMAIN_ID={text} is beyond {MOST}", mend)

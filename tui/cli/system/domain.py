@@ -9,6 +9,8 @@ import os
 import sys
 from typing import NoReturn
 
+from bot_console.runtime.domain_id import domain_id
+
 _taking_part = False
 
 CONNECT_VARIABLE = "BOT_CONSOLE_CONNECT"
@@ -110,8 +112,10 @@ def _lives(pid: int) -> bool:
 
 def domain() -> int:
     """The domain of the environment; a text that is no number is told when a context is made."""
-    text = os.environ.get("ROS_DOMAIN_ID", "")
-    return int(text) if text.isdecimal() else 0
+    try:
+        return domain_id()
+    except ValueError:
+        return 0
 
 
 def end_program(code: int) -> NoReturn:

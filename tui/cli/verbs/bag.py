@@ -188,7 +188,7 @@ def _snapshot(given: argparse.Namespace) -> int:
 
 def _play(given: argparse.Namespace) -> int:
     from bot_console.tui.console.bags.player import Player, Playing
-    from bot_console.tui.console.bags.reader import Bag
+    from bot_console.tui.console.bags.reader import Bag, NoBag
 
     bag = Bag(given.bag)
     _tell_mended(bag)
@@ -201,11 +201,16 @@ def _play(given: argparse.Namespace) -> int:
     for name, why in player.unknown.items():
         node.get_logger().warning(f"Topic '{name}' is not played: {why}")
     stopped = threading.Event()
+    damage: list[str] = []
 
     def play() -> None:
-        if not stopped.wait(READY):
-            player.run(stopped)
-        stopped.set()
+        try:
+            if not stopped.wait(READY):
+                player.run(stopped)
+        except NoBag as error:
+            damage.append(str(error))
+        finally:
+            stopped.set()
 
     thread = threading.Thread(target=play, name="player", daemon=True)
     thread.start()
@@ -213,7 +218,9 @@ def _play(given: argparse.Namespace) -> int:
     stopped.set()
     thread.join(5.0)
     print(f"{player.published} messages published", file=sys.stderr)
-    return 0
+    if damage:
+        print(harmless(damage[0]), file=sys.stderr)
+    return len(damage)
 
 
 def _info(given: argparse.Namespace) -> int:
@@ -257,6 +264,7 @@ def _open(given: argparse.Namespace) -> int:
     console = OpenedBag(contents, given.bag.resolve().name)
     options = parse([])
     notes = [f"{each} is not shown: the bag is too large" for each in contents.left_out]
+    notes += [contents.damage] if contents.damage else []
     try:
         app = BotConsoleApp(console, opening=replace(options.opening, notes=tuple(notes)), look=look_of(options))
         app.time_cursor.follow(console.topics)

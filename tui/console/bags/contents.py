@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from types import MappingProxyType
 from typing import Any
 
-from bot_console.tui.console.bags.reader import Bag
+from bot_console.tui.console.bags.reader import Bag, NoBag
 from bot_console.tui.console.logs.store import LogStore
 from bot_console.tui.console.model import Change, ChangeSource, ParameterInfo, ParameterTree
 from bot_console.tui.console.robot.past_poses import PastPoses, heading
@@ -31,13 +31,18 @@ class Contents:
         self.metadata = bag.metadata
         self.left_out: list[str] = []
         """Topics of which nothing is held, since the bag is too large."""
+        self.damage = ""
+        """Why not all of it could be read."""
         self.logs = LogStore()
         self.changes: list[Change] = []
         self.trees: dict[str, ParameterTree] = {}
         self.past = PastPoses()
         self.world = WorldInfo()
         self._messages: dict[str, list[tuple[int, bytes]]] = {name: [] for name in bag.metadata.topics}
-        self._read(bag)
+        try:
+            self._read(bag)
+        except NoBag as error:
+            self.damage = str(error)
         for name in self.of_type(LOG):
             self._each(name, self._log)
         for name in self.of_type(EVENTS):
@@ -49,7 +54,7 @@ class Contents:
         for stamp, topic, data in bag.messages():
             if topic in self.left_out:
                 continue
-            self._messages[topic].append((stamp, data))
+            self._messages.setdefault(topic, []).append((stamp, data))
             held[topic] = held.get(topic, 0) + len(data)
             if sum(held.values()) > MOST:
                 largest = max(held, key=lambda name: held[name])
@@ -64,11 +69,16 @@ class Contents:
     def messages(self, topic: str) -> Iterator[tuple[int, Any]]:
         """The messages of a topic with the times (ns since the epoch) at which they came.
 
-        Raises `ImportError` and the like where there is no such type here.
+        What is no message of the topic's type is left out. Raises `ImportError` and the like where there is no such
+        type here.
         """
         kind = get_message(self.metadata.topics[topic].type)
         for stamp, data in self._messages[topic]:
-            yield stamp, deserialize_message(data, kind)
+            try:
+                message = deserialize_message(data, kind)
+            except RuntimeError:
+                continue
+            yield stamp, message
 
     def count(self, topic: str, stamp: int | None = None) -> int:
         """How many messages of a topic are held, up to a moment (ns since the epoch) where one is given."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 import heapq
 import sqlite3
 import struct
-from collections.abc import Collection, Iterable, Iterator
-from contextlib import closing, suppress
+from collections.abc import Callable, Collection, Generator, Iterable, Iterator
+from contextlib import closing, contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple, cast
@@ -14,8 +14,24 @@ from typing import Any, NamedTuple, cast
 import yaml
 from bot_console.tui.console.bags.metadata import FILE, Metadata, Topic
 from bot_console.tui.console.bags.needed import check
+from bot_console.tui.text.yaml_faults import UNREADABLE
 
 MAGIC = b"\x89MCAP0\r\n"
+LATEST = 2**63 - 1
+"""The last moment, in ns since the epoch, that a message may have come at."""
+
+DAMAGED = (
+    ValueError,
+    LookupError,
+    TypeError,
+    OverflowError,
+    MemoryError,
+    EOFError,
+    OSError,
+    struct.error,
+    sqlite3.Error,
+)
+"""What the libraries let fall over a file that was damaged, besides `McapError`: lengths and offsets lead nowhere."""
 
 
 class NoBag(ValueError):
@@ -49,7 +65,10 @@ class Bag:
             self.metadata.save(path)
 
     def messages(self, topics: Collection[str] | None = None, begin: int = 0) -> Iterator[Entry]:
-        """All messages from a time (ns since the epoch) on, in the order in which they came."""
+        """All messages from a time (ns since the epoch) on, in the order in which they came.
+
+        Raises `NoBag` at a place that is damaged.
+        """
         return heapq.merge(*(_messages(each, topics, begin) for each in self.files), key=lambda entry: entry.received)
 
 
@@ -59,7 +78,7 @@ def _files(path: Path) -> list[Path]:
     if not path.is_dir():
         raise NoBag(f"{path}: there is no such bag")
     named: list[Path] = []
-    with suppress(OSError, yaml.YAMLError, KeyError, TypeError):
+    with suppress(OSError, *UNREADABLE):
         loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
         about: Any = yaml.load((path / FILE).read_text(encoding="utf-8"), loader)["rosbag2_bagfile_information"]
         named = [path / str(each) for each in about["relative_file_paths"]]
@@ -77,24 +96,39 @@ def _topics(path: Path, metadata: Metadata) -> Iterable[Topic]:
 
 
 def _messages(path: Path, topics: Collection[str] | None, begin: int) -> Iterator[Entry]:
-    return (_sqlite_messages if path.suffix == ".db3" else _mcap_messages)(path, topics, begin)
+    came = 0
+    with _told(path, lambda: f" after {came} messages"):
+        for each in (_sqlite_messages if path.suffix == ".db3" else _mcap_messages)(path, topics, begin):
+            if not 0 <= each.received <= LATEST:
+                raise ValueError(f"a message came at {each.received} ns since 1970")
+            came += 1
+            yield each
+
+
+@contextmanager
+def _told(path: Path, where: Callable[[], str] = str) -> Generator[None]:
+    """What reading a file lets fall is told as `NoBag`."""
+    from mcap.exceptions import McapError
+
+    try:
+        yield
+    except NoBag:
+        raise
+    except (McapError, *DAMAGED) as error:
+        raise NoBag(f"{path} is damaged{where()}: {error or type(error).__name__}") from None
 
 
 def _mcap_topics(path: Path, metadata: Metadata) -> Iterable[Topic]:
-    from mcap.exceptions import McapError
     from mcap.reader import make_reader
 
-    try:
-        with path.open("rb") as file:
-            summary = make_reader(file).get_summary()
-    except (McapError, OSError, ValueError) as error:
-        raise NoBag(f"{path}: {error}") from None
+    with _told(path), path.open("rb") as file:
+        summary = make_reader(file).get_summary()
     if summary is None or summary.statistics is None:
         raise NoBag(f"{path}: says nothing of its messages")
     counts = summary.statistics.channel_message_counts
     if summary.statistics.message_count:
-        metadata.seen(summary.statistics.message_start_time)
-        metadata.seen(summary.statistics.message_end_time)
+        metadata.seen(_moment(path, summary.statistics.message_start_time))
+        metadata.seen(_moment(path, summary.statistics.message_end_time))
     for id, channel in summary.channels.items():
         schema = summary.schemas.get(channel.schema_id)
         name = schema.name if schema is not None else ""
@@ -117,16 +151,19 @@ def _sqlite_topics(path: Path, metadata: Metadata) -> Iterable[Topic]:
         "select name, type, offered_qos_profiles, count(messages.id), min(timestamp), max(timestamp) "
         "from topics left join messages on messages.topic_id = topics.id group by topics.id"
     )
-    try:
-        with closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as base:
-            rows = base.execute(asked).fetchall()
-    except sqlite3.Error as error:
-        raise NoBag(f"{path}: {error}") from None
+    with _told(path), closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as base:
+        rows = base.execute(asked).fetchall()
     for name, type, qos, count, first, last in rows:
         if count:
-            metadata.seen(first)
-            metadata.seen(last)
-        yield Topic(name, type, _profiles(qos), "", count)
+            metadata.seen(_moment(path, first))
+            metadata.seen(_moment(path, last))
+        yield Topic(str(name), str(type), _profiles(str(qos)), "", count)
+
+
+def _moment(path: Path, stamp: object) -> int:
+    if isinstance(stamp, int) and 0 <= stamp <= LATEST:
+        return stamp
+    raise NoBag(f"{path} is damaged: a message came at {stamp!r} ns since 1970")
 
 
 def _sqlite_messages(path: Path, topics: Collection[str] | None, begin: int) -> Iterator[Entry]:
@@ -144,7 +181,7 @@ def _profiles(text: str) -> list[dict[str, Any]]:
     """How publishers offered a topic; what cannot be read says nothing."""
     try:
         data = yaml.load(text or "[]", getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-    except yaml.YAMLError:
+    except UNREADABLE:
         return []
     found = cast("list[Any]", data) if isinstance(data, list) else []
     return [each for each in found if isinstance(each, dict)]
@@ -177,7 +214,7 @@ def _write_again(path: Path, records: Iterable[Any]) -> None:
         writer.start(profile="ros2", library="bot-console")
         schemas: dict[int, int] = {0: 0}
         channels: dict[int, int] = {}
-        with suppress(McapError, EOFError, ValueError, struct.error):  # the cut
+        with suppress(McapError, *DAMAGED):  # the cut
             for each in records:
                 if isinstance(each, Schema) and each.id not in schemas:
                     schemas[each.id] = writer.register_schema(each.name, each.encoding, each.data)

@@ -15,7 +15,7 @@ LINKS = {
     "During handling of the above exception, another exception occurred:": "while handling",
 }
 INFO, WARN, ERROR = 20, 30, 40
-_FRAME = re.compile(r'  File "(?P<file>.+)", line (?P<line>\d+)(?:, in (?P<function>.+))?$')
+_FRAME = re.compile(r'  File "(?P<file>.+)", line (?P<line>\d{1,9})(?:, in (?P<function>.+))?$')
 _CARETS = re.compile(r"\s+[\^~\s]+$")
 
 

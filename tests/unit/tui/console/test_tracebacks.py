@@ -82,3 +82,8 @@ def test_one_that_was_cut_off_is_shown_as_far_as_it_came() -> None:
     (severity, text), = printed(LINES[:5])  # fmt: skip
     assert severity == 40
     assert "rclpy.spin(node)" in text
+
+
+def test_a_line_number_that_is_none_is_text() -> None:
+    [(_, text)] = printed([TRACEBACK, f'  File "a.py", line {"9" * 5000}, in f', "ValueError: bad"])
+    assert "ValueError: bad" in text

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 import rclpy
+from bot_console.tui.console.bags.contents import Contents
 from bot_console.tui.console.bags.definitions import definition, type_name
 from bot_console.tui.console.bags.player import Player, Playing
 from bot_console.tui.console.bags.qos import noted, offered
@@ -139,6 +140,39 @@ def test_what_is_no_bag_is_refused(tmp_path: Path) -> None:
     ):
         with pytest.raises(NoBag, match=says):
             Bag(tmp_path / name)
+
+
+def test_a_damaged_byte_anywhere_is_told_or_does_no_harm(tmp_path: Path) -> None:
+    file = words(tmp_path / "bag", "a", "b") / "bag_0.mcap"
+    whole, told = file.read_bytes(), 0
+    for place in range(len(whole)):
+        file.write_bytes(whole[:place] + b"\xff" + whole[place + 1 :])
+        try:
+            contents = Contents(Bag(file.parent))
+        except NoBag:
+            told += 1
+        else:
+            told += bool(contents.damage)
+    assert told > 20
+
+
+@pytest.mark.parametrize("stamp", ["'soon'", "-1", "9300000000000000000.0"])
+def test_a_message_from_no_time_is_told(tmp_path: Path, stamp: str) -> None:
+    base = sqlite3.connect(tmp_path / "bag_0.db3")
+    base.execute("create table topics (id integer primary key, name, type, serialization_format, offered_qos_profiles)")
+    base.execute("create table messages (id integer primary key, topic_id, timestamp, data)")
+    base.execute("insert into topics values (1, '/words', 'std_msgs/msg/String', 'cdr', '!!int')")
+    base.execute(f"insert into messages (topic_id, timestamp, data) values (1, {stamp}, x'00')")
+    base.commit()
+    base.close()
+    with pytest.raises(NoBag, match="is damaged: a message came at"):
+        Bag(tmp_path)
+
+
+def test_metadata_that_are_no_yaml_do_not_matter(tmp_path: Path) -> None:
+    folder = words(tmp_path / "bag", "mine")
+    (folder / "metadata.yaml").write_text("rosbag2_bagfile_information: !!int")
+    assert texts(Bag(folder)) == ["mine"]
 
 
 def test_metadata_lead_nowhere_else(tmp_path: Path) -> None:

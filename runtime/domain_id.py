@@ -1,0 +1,21 @@
+"""The ROS domain that the environment names."""
+
+from __future__ import annotations
+
+import os
+
+VARIABLE = "ROS_DOMAIN_ID"
+MOST_DIGITS = 10
+
+
+def domain_id() -> int:
+    """The domain of the environment, 0 unless one is named; raises `ValueError`."""
+    text = os.environ.get(VARIABLE, "")
+    if not is_domain(text):
+        raise ValueError(f"{VARIABLE} is '{text[:40]}', not a number")
+    return int(text or 0)
+
+
+def is_domain(text: str) -> bool:
+    """Whether a text is a domain's number; an empty one stands for domain 0."""
+    return not text or (text.isascii() and text.isdecimal() and len(text) <= MOST_DIGITS)
