@@ -76,8 +76,8 @@ def _launch(words: Words) -> int:
 
 
 def _ros2(words: Words) -> int:
-    if words and words[0] in ("run", "launch", "bag"):
-        return _COMMANDS[words[0]](words[1:])
+    if words and words[0] in _ROS2:
+        return _ROS2[words[0]](words[1:])
     return ros2.taking_part(words) if words and words[0] in ros2.VERBS else ros2.main(words)
 
 
@@ -131,6 +131,17 @@ def _status(words: Words) -> int:
 
 def _doctor(words: Words) -> int:
     from bot_console.tui.cli.doctor import run
+
+    return run(words)
+
+
+def _ros2_doctor(words: Words) -> int:
+    report = ("--report", "-r", "--include-warnings", "-iw")  # ours is always a report, and with its warnings
+    return _doctor([each for each in words if each not in report])
+
+
+def _daemon(words: Words) -> int:
+    from bot_console.tui.cli.verbs.daemon import run
 
     return run(words)
 
@@ -227,3 +238,13 @@ _COMMANDS: dict[str, Callable[[Words], int]] = {
     "launch_test": _launch_test,
     "colcon": _colcon,
 }
+
+_ROS2: dict[str, Callable[[Words], int]] = {
+    "run": _run,
+    "launch": _launch,
+    "bag": _bag,
+    "doctor": _ros2_doctor,
+    "wtf": _ros2_doctor,
+    "daemon": _daemon,
+}
+"""What `ros2` has that is not among the recorded verbs, or does more than they do."""
