@@ -8,6 +8,11 @@ import sys
 from pathlib import Path
 
 import pytest
+from bot_console.tui.cli.live.own_host import start_host
+from bot_console.tui.cli.system.workspaces import PROGRAM_LAUNCH
+from bot_console.tui.console.launch_host.proxy import HostedLauncher
+from bot_console.tui.console.model import ProcessState
+from launcher_bench import WAITS
 
 PATIENCE = 120.0
 """Seconds (wall) until a command that hangs fails its test."""
@@ -76,3 +81,22 @@ def test_a_launch_goes_on_without_log_files_where_the_home_cannot_be_written(tmp
     said = done.stdout + done.stderr
     assert done.returncode == 0 and "here we are" in said and "Traceback" not in said
     assert f"log files are not kept: {home}/.ros/log cannot be written" in done.stderr
+
+
+@pytest.mark.parametrize("isolation", ["process", "thread"])
+def test_files_of_the_working_folder_are_no_libraries_of_the_launch_host(
+    isolation: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("queue", "tty", "yaml", "socket", "random", "launch", "bot_console"):
+        (tmp_path / f"{name}.py").write_text("raise SystemExit('not meant for you')\n")
+    node = tmp_path / "nodes" / "waits.py"
+    node.parent.mkdir()
+    node.write_text(WAITS)
+    monkeypatch.chdir(tmp_path)
+    host = start_host(log=tmp_path / "host.log")
+    launcher = HostedLauncher(host.connection, lambda *record: None, lambda *printed: None)
+    told = launcher.launch(str(PROGRAM_LAUNCH), {"program": str(node), "isolation": isolation}).result(PATIENCE)
+    states = [each.state for each in launcher.info().processes]
+    launcher.close()
+    host.end()
+    assert told.ok and states == [ProcessState.RUNNING], (told.text, (tmp_path / "host.log").read_text())

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
@@ -14,6 +13,7 @@ from bot_console.tui.commanding.runner import LineRunner
 from bot_console.tui.console.protocol import CommandLine, Console, Stream
 from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.opening import Opening
+from bot_console.tui.own_program import own_program
 from bot_console.tui.safety.line_risk import risk_of
 from bot_console.tui.safety.stopping import Stopping
 from bot_console.tui.screens.door import screen_for
@@ -117,7 +117,7 @@ class Desk:
 
     def show_bag(self, folder: str) -> None:
         """Show a bag in a console of its own, which has the terminal until it is quit."""
-        if self._run_outside([sys.executable, "-m", "bot_console.tui", "bag", "open", folder]):
+        if self._run_outside([*own_program("bot_console.tui"), "bag", "open", folder]):
             self.notify(f"{folder} cannot be shown; bot-console bag info {folder} says why", severity="error")
 
     def hold_robot(self, hold: bool) -> None:

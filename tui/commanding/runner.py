@@ -161,8 +161,9 @@ class LineRunner:
         printed = str(error) if error else done.result()
         words = line.split()
         starts = words[words[:1] == ["ros2"] :][:1] in (["run"], ["launch"])
-        if starts and len(printed.strip().splitlines()) == 1:  # what was started is seen elsewhere: no key closes this
-            self._host.notify(harmless(printed.strip()), severity="error" if error else "information")
+        if starts and len(printed.strip().splitlines()) <= 1:  # what was started is seen elsewhere: no key closes this
+            said = printed.strip() or f"{line}: over, it said nothing"
+            self._host.notify(harmless(said), severity="error" if error else "information")
         else:
             self._host.push_screen(OutputScreen(line, printed))
 

@@ -20,6 +20,7 @@ from bot_console.tui.cli.live.system_vitals import SystemVitals
 from bot_console.tui.console.launch.launcher import RosLauncher
 from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.console.launch_host.host import LaunchHost, Printed
+from bot_console.tui.own_program import own_program
 
 SWITCH = "bot_console.tui.cli.attach.launch_host"
 
@@ -32,7 +33,7 @@ def start_host() -> tuple[subprocess.Popen[bytes], socket.socket]:
     ours, theirs = socket.socketpair()
     with theirs:
         process = subprocess.Popen(
-            [sys.executable, "-m", SWITCH, "--owner", str(theirs.fileno())],
+            [*own_program(SWITCH), "--owner", str(theirs.fileno())],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,

@@ -6,12 +6,12 @@ import contextlib
 import os
 import socket
 import subprocess
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from bot_console.runtime.process.watch.held_lock import HeldLock
+from bot_console.tui.own_program import own_program
 
 SWITCH = "bot_console.tui.cli.live.launch_host"
 END_S = 15.0
@@ -48,7 +48,7 @@ def start_host(options: Sequence[str] = (), *, log: Path | None = None) -> Host:
     ours, theirs = socket.socketpair()
     with theirs, open(log or os.devnull, "ab") as output:
         process = subprocess.Popen(
-            [sys.executable, "-m", SWITCH, "--owner", str(theirs.fileno()), *options],
+            [*own_program(SWITCH), "--owner", str(theirs.fileno()), *options],
             stdin=subprocess.DEVNULL,
             stdout=output,
             stderr=output,

@@ -21,6 +21,7 @@ from bot_console.tui.cli.system.system_log import new_log
 from bot_console.tui.console.launch_host.door import DOOR
 from bot_console.tui.files.folders import OVERRIDE, state_folder
 from bot_console.tui.files.save_file import save_file
+from bot_console.tui.own_program import own_program
 
 STARTING = 60.0
 """Seconds that it may take until its nodes are seen, on a busy machine."""
@@ -79,7 +80,7 @@ def up(words: Sequence[str]) -> int:
         why = f"the log cannot be kept in {state_folder()}: {error.strerror}"
         print(f"not started: {why}; {OVERRIDE} names another folder", file=sys.stderr)
         return 1
-    line = [sys.executable, "-m", SWITCH, str(log), *words]
+    line = [*own_program(SWITCH), str(log), *words]
     with log.open("ab") as output:
         process = subprocess.Popen(
             line, stdin=subprocess.DEVNULL, stdout=output, stderr=output, start_new_session=True, close_fds=True
@@ -125,7 +126,7 @@ def _serving(words: Sequence[str]) -> tuple[list[str], list[str]]:
 
 def _open_way_in(words: Sequence[str], log: Path) -> int:
     """Start the process that lets other machines in."""
-    line = [sys.executable, "-m", "bot_console.tui", "router", "--mesh", *words]
+    line = [*own_program("bot_console.tui"), "router", "--mesh", *words]
     with log.open("ab") as output:
         return subprocess.Popen(
             line, stdin=subprocess.DEVNULL, stdout=output, stderr=output, start_new_session=True, close_fds=True
