@@ -10,12 +10,14 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from . import wire
+from . import orphans, wire
 from .job import Job
 from .report import tell_exit, tell_pid, tell_problem
 
 ESCALATION_S = 5.0
 """Seconds between SIGINT and SIGTERM, and SIGTERM and SIGKILL, to children whose parent has gone."""
+ORPHANS_S = 1.0
+"""Seconds between SIGTERM and SIGKILL to what children have left behind."""
 HELD_BACK = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGCHLD)
 """Signals that a child gets only when it is ready for them."""
 
@@ -37,6 +39,8 @@ class Server:
     parent: socket.socket
     _children: dict[int, int] = field(default_factory=dict[int, int])
     """Where the report of each child goes, by its pid."""
+    _sessions: set[int] = field(default_factory=set[int])
+    """Those of all children that there ever were."""
     _ending: bool = False
 
     def serve(self) -> Birth | None:
@@ -48,6 +52,7 @@ class Server:
         signal.set_wakeup_fd(woken, warn_on_full_buffer=False)
         for each in HELD_BACK:
             signal.signal(each, self._signalled)
+        orphans.adopt()
         while not self._ending:
             birth = self._next() if self._look(wake) else None
             if birth is not None:
@@ -57,6 +62,7 @@ class Server:
                 self.parent.close()
                 return birth
         self._end_children(wake)
+        self._end_orphans(wake)
         return None
 
     def _look(self, wake: int, timeout: float | None = None) -> bool:
@@ -97,6 +103,7 @@ class Server:
         signal.pthread_sigmask(signal.SIG_UNBLOCK, HELD_BACK)
         self._release(given)
         self._children[pid] = report
+        self._sessions.add(pid)
         tell_pid(report, pid)
         return None
 
@@ -106,13 +113,17 @@ class Server:
             os.close(each)
 
     def _reap(self) -> None:
-        while self._children:
-            pid, status = os.waitpid(-1, os.WNOHANG)
+        while True:
+            try:
+                pid, status = os.waitpid(-1, os.WNOHANG)
+            except ChildProcessError:
+                return
             if pid == 0:
                 return
-            report = self._children.pop(pid)
-            tell_exit(report, os.waitstatus_to_exitcode(status))
-            os.close(report)
+            report = self._children.pop(pid, None)
+            if report is not None:  # else it is one that a child has left behind
+                tell_exit(report, os.waitstatus_to_exitcode(status))
+                os.close(report)
 
     def _end_children(self, wake: int) -> None:
         """The parent is gone: nobody could stop them any more."""
@@ -122,3 +133,9 @@ class Server:
             deadline = time.monotonic() + ESCALATION_S
             while self._children and (left := deadline - time.monotonic()) > 0:
                 self._look(wake, left)
+
+    def _end_orphans(self, wake: int) -> None:
+        for number in (signal.SIGTERM, signal.SIGKILL):
+            deadline = time.monotonic() + ORPHANS_S
+            while orphans.tell_to_end(self._sessions, number) and (left := deadline - time.monotonic()) > 0:
+                self._look(wake, min(left, ORPHANS_S / 10))

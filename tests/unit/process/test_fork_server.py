@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -114,7 +115,8 @@ def test_it_has_what_the_job_says_and_nothing_of_the_server(fork: Any, tmp_path:
 def test_it_holds_no_descriptor_but_its_own(fork: Any) -> None:
     child = fork("import os\nprint(len(os.listdir('/proc/self/fd')), open('/proc/self/comm').read())")
     child.end()
-    assert child.out.split() == ["5", "a-long-name-of-"]  # three streams, the data pipe, and the listing itself
+    # Three streams, the data pipe, the file of its stacks, and the listing itself.
+    assert child.out.split() == ["6" if hasattr(os, "memfd_create") else "5", "a-long-name-of-"]
 
 
 @pytest.mark.parametrize(
@@ -230,3 +232,46 @@ def test_children_end_with_a_parent_that_was_killed(tmp_path: Path) -> None:
         assert started.stdout.readline() == "up\n"
         started.kill()
         assert started.stdout.read() == ""  # at its end when the child has gone, too
+
+
+LEAVES = """
+import os, signal, sys
+if os.fork() == 0:
+    for each in sys.argv[1:]:
+        signal.signal(getattr(signal, each), signal.SIG_IGN)
+    if not sys.argv[1:]:
+        os.setsid()
+    print(os.getpid(), flush=True)
+    for each in range(3):
+        os.close(each)
+    signal.pause()
+"""
+
+
+def is_there(pid: int) -> bool:
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="a system that hands over no orphans")
+@pytest.mark.parametrize("deaf", [("SIGINT",), ("SIGINT", "SIGTERM", "SIGHUP")], ids=" ".join)
+def test_what_a_child_has_left_behind_ends_with_the_server(fork: Any, deaf: tuple[str, ...]) -> None:
+    with closing(ForkServer("gc:collect")) as server:
+        child = fork(LEAVES, *deaf, on=server)
+        child.until(lambda: child.out.endswith("\n") and child.report.exit_code is not None)
+        orphan = int(child.out)
+        assert is_there(orphan) and server.is_alive
+    assert not is_there(orphan)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="a system that hands over no orphans")
+def test_a_daemon_that_a_child_has_made_stays(fork: Any) -> None:
+    with closing(ForkServer("gc:collect")) as server:
+        child = fork(LEAVES, on=server)
+        child.until(lambda: child.out.endswith("\n") and child.report.exit_code is not None)
+        daemon = int(child.out)
+    assert is_there(daemon)
+    os.kill(daemon, signal.SIGKILL)

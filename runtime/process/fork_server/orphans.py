@@ -1,0 +1,48 @@
+"""Processes that a child has started and left behind: they become children of the server, and end with it.
+
+Linux alone hands them over (`prctl(2)`, PR_SET_CHILD_SUBREAPER); elsewhere they are left to the system.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import os
+import signal
+import threading
+from collections.abc import Collection
+
+_SUBREAPER = 36
+
+
+def adopt() -> None:
+    """Have them handed to this process from now on."""
+    with contextlib.suppress(AttributeError, OSError):  # a system without it
+        ctypes.CDLL(None).prctl(_SUBREAPER, 1, 0, 0, 0)
+
+
+def tell_to_end(sessions: Collection[int], number: signal.Signals) -> bool:
+    """Send a signal to those that are still in the sessions of such children; whether there are any.
+
+    One that has begun a session of its own, as a daemon does, wants to stay.
+    """
+    left = [pid for pid in _children() if _session(pid) in sessions]
+    for pid in left:
+        with contextlib.suppress(OSError):
+            os.kill(pid, number)
+    return bool(left)
+
+
+def _children() -> list[int]:
+    try:
+        with open(f"/proc/self/task/{threading.get_native_id()}/children", encoding="ascii") as file:
+            return [int(each) for each in file.read().split()]
+    except OSError:  # a system that does not tell
+        return []
+
+
+def _session(pid: int) -> int:
+    try:
+        return os.getsid(pid)
+    except OSError:  # it has ended
+        return 0
