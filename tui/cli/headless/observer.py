@@ -6,16 +6,16 @@ import json
 import threading
 from collections import Counter
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import rclpy
-from bot_console.tui.console.model import Endpoint, GraphInfo
-from bot_console.tui.console.plot.watch import PlotWatch
-from bot_console.tui.tuning.score import statistics
 from rclpy.clock import Clock, ClockType
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from std_srvs.srv import Trigger
+
+if TYPE_CHECKING:
+    from bot_console.tui.console.plot.watch import PlotWatch
 
 PATIENCE = 5.0
 """Seconds for which an answer is waited for where the run ends before its time."""
@@ -55,7 +55,10 @@ class Observer:
         self._due = self._steady.now().nanoseconds
         node.create_timer(PROBE_PERIOD, self._probe, clock=self._steady)
         self._now = node.create_guard_condition(self._ask)
-        self._topics = PlotWatch(node)
+        if self._paths:
+            from bot_console.tui.console.plot.watch import PlotWatch
+
+            self._topics = PlotWatch(node)
         self._node = node
         try:
             rclpy.spin(node)
@@ -78,10 +81,14 @@ class Observer:
         self._late[round((now - self._due) * 1e-6, 3)] += 1
         self._due += max(0, now - self._due) // period * period
         if self._waited_for and self._node is not None and self._topics is not None:
-            found = self._node.get_topic_names_and_types()
-            graph = GraphInfo(topics=tuple(Endpoint(name, tuple(types)) for name, types in found))
-            watch = self._topics.watch
-            self._waited_for = [each for each in self._waited_for if not watch(each, graph, {}).ok]
+            self._listen(self._node, self._topics)
+
+    def _listen(self, node: Node, topics: PlotWatch) -> None:
+        from bot_console.tui.console.model import Endpoint, GraphInfo
+
+        found = node.get_topic_names_and_types()
+        graph = GraphInfo(topics=tuple(Endpoint(name, tuple(types)) for name, types in found))
+        self._waited_for = [each for each in self._waited_for if not topics.watch(each, graph, {}).ok]
 
     def _ask(self) -> None:
         if self._asked:
@@ -108,7 +115,9 @@ class Observer:
                 "p99": late[min(len(late) - 1, len(late) * 99 // 100)],
                 "max": late[-1],
             }
-        if self._paths and self._topics is not None:
+        if self._topics is not None:
+            from bot_console.tui.tuning.score import statistics
+
             self._figures["topics"] = {
                 path: statistics([float(each) for each in self._topics.samples(path, 0).values]) for path in self._paths
             }

@@ -6,6 +6,7 @@ Logs are on stderr as ROS prints them; stdout gets one JSON object at the end.
 from __future__ import annotations
 
 import contextlib
+import gc
 import json
 import signal
 import sys
@@ -28,6 +29,8 @@ DURATION = 60.0
 """Seconds of a run for which no duration is given."""
 GRACE = 5.0
 """Seconds that the last question, and the end of the launched processes, may take."""
+SETTLED = 0.1
+"""Seconds after which the nodes are up: from then on garbage is collected."""
 SLOW_START = 60.0
 """Seconds that a simulator may take in all before it answers, on a machine that is busy otherwise."""
 
@@ -37,6 +40,7 @@ def run(options: Options) -> int:
     if options.launch and not Path(options.launch).is_file():
         print(f"there is no launch file {options.launch}", file=sys.stderr)
         return 1
+    gc.disable()  # what is imported stays: to look it through again and again is a tenth of the start
     install()
     choose(options.workspace)
     if not options.fast:
@@ -127,7 +131,11 @@ def _wait_for(observer: Observer, launches: Launches, duration: float) -> None:
     """Until the report is there, all launches have ended, or it is too late; an interrupt asks for it at once."""
     launches.on_end(observer.done.set)
     try:
-        if not observer.done.wait(duration + GRACE) and launches.has_robot:
+        observer.done.wait(SETTLED)
+        if not gc.isenabled():
+            gc.freeze()
+            gc.enable()
+        if not observer.done.wait(duration + GRACE - SETTLED) and launches.has_robot:
             observer.done.wait(SLOW_START)
     except KeyboardInterrupt:
         observer.ask()

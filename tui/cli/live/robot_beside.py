@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 from bot_console.runtime.process import NodeProcess
 from bot_console.runtime.workspace.own import ROOT
 from bot_console.tui.cli.arguments import Options
-from bot_console.tui.console.model import LaunchInfo, ProcessState
 from bot_console.tui.console.robot.robot_wanted import drives_stamped, endpoints, robot_wanted, visible_nodes
 
 if TYPE_CHECKING:
+    from bot_console.tui.console.model import LaunchInfo
     from rclpy.node import Node
 
 LAUNCH_FILE = str(ROOT / "launch" / "simulator.launch.py")
@@ -103,6 +103,8 @@ class RobotBeside:
 
 def processes(info: LaunchInfo) -> tuple[int, int]:
     """What `System.processes` asks, from what a launcher knows."""
+    from bot_console.tui.console.model import ProcessState
+
     return sum(each.state is ProcessState.RUNNING for each in info.processes), info.delayed
 
 
