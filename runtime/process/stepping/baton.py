@@ -165,12 +165,26 @@ class Baton:
                 if not seat.detached and self._instant_waits <= INSTANT_WAITS:
                     return True
                 self._ready.append(seat)
+            elif deadline is not None and self._is_next(seat, deadline):
+                self.now = deadline
+                self.reads = self._instant_waits = 0
+                return False
             else:
                 self._enlist(seat, wakeup, deadline)
             if not self._hand_on(seat):
                 return self._withdraw(seat, wakeup)
         self._await_turn(seat)
         return self._withdraw(seat, wakeup)
+
+    def _is_next(self, seat: Seat, deadline: int) -> bool:
+        """Whether nothing happens before a wait of the holder is over, or at the same time."""
+        deadlines = self._deadlines
+        return (
+            not self._ready
+            and self.now < deadline
+            and (not deadlines or deadline < deadlines[0][0])
+            and not (seat.detached or self.starting or (seat.state is not None and seat.state.called))
+        )
 
     def wait_outside(self, wakeup: Awaited, deadline: int | None) -> bool:
         """The wait of a thread that never has the baton: it goes on beside the one that has."""
