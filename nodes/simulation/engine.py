@@ -16,36 +16,17 @@ def pointer(item: pymunk.Space | pymunk.Body | pymunk.Shape) -> Any:
     return getattr(item, name)
 
 
-class Body:
-    """A body of a space, in m, rad and s; it may not be used when the space is gone."""
-
-    __slots__ = ("_pointer", "_vector")
-
-    def __init__(self, body: pymunk.Body) -> None:
-        self._pointer = pointer(body)
-        self._vector = ffi.new("cpVect *")
-
-    def move(self, x: float, y: float, vx: float, vy: float) -> None:
-        """Let the next step begin at a place, with a velocity."""
-        vector = self._vector
-        vector.x, vector.y = x, y
-        lib.cpBodySetPosition(self._pointer, vector[0])
-        vector.x, vector.y = vx, vy
-        lib.cpBodySetVelocity(self._pointer, vector[0])
-
-    def push(self, x: float, y: float, torque: float) -> None:
-        """A force in N and a torque in Nm for the next step alone."""
-        vector = self._vector
-        vector.x, vector.y = x, y
-        lib.cpBodySetForce(self._pointer, vector[0])
-        lib.cpBodySetTorque(self._pointer, torque)
-
-    def pose(self) -> tuple[float, float, float]:
-        """x, y, and the angle, which goes on growing beyond a turn."""
-        place = lib.cpBodyGetPosition(self._pointer)
-        return place.x, place.y, lib.cpBodyGetAngle(self._pointer)
-
-    def velocity(self) -> tuple[float, float, float]:
-        """Along x, along y, and of the angle."""
-        velocity = lib.cpBodyGetVelocity(self._pointer)
-        return velocity.x, velocity.y, lib.cpBodyGetAngularVelocity(self._pointer)
+# What each step calls, looked up once and called as it is: a layer in between would cost as much again. All take what
+# `pointer` gives; it may not be used when the space is gone. A vector goes in as a tuple, and comes out with `x` and `y`.
+set_position: Any = lib.cpBodySetPosition
+set_velocity: Any = lib.cpBodySetVelocity
+set_force: Any = lib.cpBodySetForce
+"""For the next step alone, in N; as the torque, in Nm."""
+set_torque: Any = lib.cpBodySetTorque
+position: Any = lib.cpBodyGetPosition
+angle: Any = lib.cpBodyGetAngle
+"""In rad; goes on growing beyond a turn."""
+velocity: Any = lib.cpBodyGetVelocity
+turn_rate: Any = lib.cpBodyGetAngularVelocity
+step: Any = lib.cpSpaceStep
+"""Let s pass in a space."""

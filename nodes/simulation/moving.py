@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pymunk
-from bot_console_robot.simulation.engine import Body
+from bot_console_robot.simulation.engine import pointer, set_position, set_velocity
 from bot_console_robot.simulation.geometry import Mover, Point
 
 PATIENCE = 2.0
@@ -24,10 +24,15 @@ class MovingObstacle:
         self._direction = 1
         self._waited = 0.0
         self.body = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
-        self._body = Body(self.body)
-        self.x, self.y = mover.route[0] if mover.route else self._random_place()
+        self._pointer = pointer(self.body)
+        self._place = mover.route[0] if mover.route else self._random_place()
         self._target = mover.route[1] if mover.route else self._random_place()
-        self.body.position = (self.x, self.y)
+        self.body.position = self._place
+
+    @property
+    def place(self) -> Point:
+        """Where it is now (m)."""
+        return self._place
 
     def _random_place(self) -> Point:
         assert self.mover.area is not None
@@ -36,26 +41,25 @@ class MovingObstacle:
 
     def advance(self, dt: float, robot: Point, radius: float) -> None:
         """Go on for `dt` s, unless that comes too near to the robot's hull of `radius` m."""
-        mover, begin_x, begin_y = self.mover, self.x, self.y
-        x, y = self._next_place(mover.speed * dt)
-        distance = math.dist((x, y), robot)
-        if distance < radius + mover.radius + mover.keep_off and distance < math.dist((begin_x, begin_y), robot):
-            self._wait(dt)
-        else:
-            self._waited = 0.0
-            self.x, self.y = x, y
-        # The engine moves the body by its velocity; the place it moves from is set, so that rounding never adds up.
-        self._body.move(begin_x, begin_y, (self.x - begin_x) / dt, (self.y - begin_y) / dt)
-
-    def _next_place(self, way: float) -> Point:
-        x, y = self.x, self.y
-        target_x, target_y = target = self._target
-        left = math.dist((x, y), target)
+        mover, begin = self.mover, self._place
+        begin_x, begin_y = begin
+        target_x, target_y = place = self._target
+        way, left = mover.speed * dt, math.dist(begin, place)
         if left <= way:
             self._choose_next()
-            return target
-        share = way / left
-        return x + (target_x - x) * share, y + (target_y - y) * share
+        else:
+            share = way / left
+            place = begin_x + (target_x - begin_x) * share, begin_y + (target_y - begin_y) * share
+        distance = math.dist(place, robot)
+        if distance < radius + mover.radius + mover.keep_off and distance < math.dist(begin, robot):
+            self._wait(dt)
+            place = begin
+        else:
+            self._waited = 0.0
+            self._place = place
+        # The engine moves the body by its velocity; the place it moves from is set, so that rounding never adds up.
+        set_position(self._pointer, begin)
+        set_velocity(self._pointer, ((place[0] - begin_x) / dt, (place[1] - begin_y) / dt))
 
     def _wait(self, dt: float) -> None:
         self._waited += dt

@@ -83,24 +83,28 @@ class Simulation:
 
     def step(self) -> bool:
         """Let 10 ms pass; whether a collision began."""
-        pose, drive = self.pose, self.drive
-        for mover in self._movers:
-            mover.advance(STEP, (pose.x, pose.y), drive.limits.radius)
+        drive, (begin_x, begin_y, before) = self.drive, self.pose
+        if self._movers:
+            robot, radius = (begin_x, begin_y), drive.limits.radius
+            for mover in self._movers:
+                mover.advance(STEP, robot, radius)
         drive.advance(STEP)
-        x, y, angle = self._space.step(STEP, drive.linear, drive.angular)
+        linear, angular = drive.linear, drive.angular
+        x, y, angle = self._space.step(STEP, linear, angular)
         self.steps += 1
-        self.odometry.advance(drive.linear * STEP, drive.angular * STEP)
+        self.odometry.advance(linear * STEP, angular * STEP)
         heading = math.remainder(angle, TURN)
-        turn = math.remainder(heading - pose.heading, TURN)
-        middle = pose.heading + 0.5 * turn
-        dx, dy = x - pose.x, y - pose.y
+        turn = math.remainder(heading - before, TURN)
+        middle = before + 0.5 * turn
+        dx, dy = x - begin_x, y - begin_y
         self.speed = speed = (dx * math.cos(middle) + dy * math.sin(middle)) / STEP
         self.turn_rate = turn / STEP
         self.pose = Pose(x, y, heading)
-        self.metrics.update(x, y, heading, speed)
+        metrics = self.metrics
+        metrics.update(x, y, heading, speed)
         # Nothing comes nearer than by the way that was driven: most steps need no look at what is around.
-        self._least_gap -= math.hypot(dx, dy) + self._movers_way
-        return self._least_gap < max(TOUCH, self.metrics.min_clearance) and self._look_around()
+        self._least_gap = gap = self._least_gap - (math.hypot(dx, dy) + self._movers_way)
+        return (gap < TOUCH or gap < metrics.min_clearance) and self._look_around()
 
     def _look_around(self) -> bool:
         """Whether a collision began; called whenever something may touch, or be nearer than anything was before."""
@@ -123,7 +127,7 @@ class Simulation:
 
     def moving(self) -> Floats:
         """The moving obstacles now, one row x, y, radius (m) each."""
-        return table([(each.x, each.y, each.mover.radius) for each in self._movers], 3)
+        return table([(*each.place, each.mover.radius) for each in self._movers], 3)
 
     def true_range(self, angle: float, reach: float) -> float:
         """The distance in m to the first thing in a direction of the map (rad), found by pymunk."""

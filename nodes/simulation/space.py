@@ -7,7 +7,8 @@ import math
 from typing import Any
 
 import pymunk
-from bot_console_robot.simulation.engine import Body, ffi, lib, pointer
+from bot_console_robot.simulation import engine
+from bot_console_robot.simulation.engine import ffi, lib, pointer
 from bot_console_robot.simulation.geometry import Disc, Pose, closed
 from bot_console_robot.simulation.memory import Memory
 from bot_console_robot.simulation.moving import MovingObstacle
@@ -49,7 +50,7 @@ class Space:
         hull.filter = ROBOT
         self._memory.take(self._robot, hull)
         self._space.add(self._robot, hull)
-        self._body, self._moment = Body(self._robot), self._robot.moment
+        self._body, self._moment = pointer(self._robot), self._robot.moment
         self.place(pose)
 
     def __del__(self) -> None:
@@ -87,19 +88,18 @@ class Space:
         Returns where it then is: x, y (m), and the angle (rad), which goes on growing beyond a turn.
         """
         body = self._body
-        vx, vy, turning = body.velocity()
+        velocity, turning = engine.velocity(body), engine.turn_rate(body)
         # A step moves bodies first and resolves contacts after, so a velocity set here would pass through walls.
         # As a force it is resolved against them; the heading is that of the middle of the move it leads to.
         heading = self._angle + (turning + 0.5 * angular) * dt
         push = MASS / dt
-        body.push(
-            (linear * math.cos(heading) - vx) * push,
-            (linear * math.sin(heading) - vy) * push,
-            (angular - turning) * self._moment / dt,
-        )
-        lib.cpSpaceStep(self._pointer, dt)
-        x, y, self._angle = body.pose()
-        return x, y, self._angle
+        force = (linear * math.cos(heading) - velocity.x) * push, (linear * math.sin(heading) - velocity.y) * push
+        engine.set_force(body, force)
+        engine.set_torque(body, (angular - turning) * self._moment / dt)
+        engine.step(self._pointer, dt)
+        place = engine.position(body)
+        self._angle = angle = engine.angle(body)
+        return place.x, place.y, angle
 
     def nearest(self, x: float, y: float) -> tuple[float, str]:
         """The gap in m between a robot standing there and the nearest thing, negative within it, and its kind."""

@@ -5,7 +5,8 @@ from __future__ import annotations
 import hashlib
 import struct
 
-_POSE = struct.Struct("<3d")
+_BATCH = 3 * 256
+"""How many numbers are kept before they are hashed together: the hash is of the bytes one after the other."""
 
 
 class PoseDigest:
@@ -13,12 +14,21 @@ class PoseDigest:
 
     def __init__(self) -> None:
         self._hash = hashlib.blake2b(digest_size=16)
+        self._kept: list[float] = []
 
     def add(self, x: float, y: float, heading: float) -> None:
         """Take the next pose: m, m, rad."""
-        self._hash.update(_POSE.pack(x, y, heading))
+        kept = self._kept
+        kept += (x, y, heading)
+        if len(kept) >= _BATCH:
+            self._take_in()
+
+    def _take_in(self) -> None:
+        self._hash.update(struct.pack(f"<{len(self._kept)}d", *self._kept))
+        self._kept.clear()
 
     @property
     def hex(self) -> str:
         """32 digits."""
+        self._take_in()
         return self._hash.hexdigest()
