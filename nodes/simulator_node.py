@@ -87,7 +87,9 @@ class Simulator(Node):
         self._clock_messages = self.create_publisher(ClockMessage, "/clock", 10)
         self._scans = self.create_publisher(LaserScan, "scan", 10)
         self._odometry = self.create_publisher(Odometry, "odom", 10)
+        self._told = messages.Odometer(messages.ODOM, self._model.footprint)
         self._truth = self.create_publisher(Odometry, "ground_truth", 10)
+        self._true = messages.Odometer(messages.MAP, self._model.footprint)
         self._bumper = self.create_publisher(Bool, "bumper", LATCHED)
         self._collisions = self.create_publisher(UInt32, "collisions", LATCHED)
         self._obstacles = self.create_publisher(MarkerArray, "obstacles", 10)
@@ -272,10 +274,10 @@ class Simulator(Node):
         stamp = messages.time_of(simulation.time_ns)
         wheels = (drive.linear, drive.angular)
         told = frames.in_odom(simulation.odometry.pose)
-        self._odometry.publish(messages.odometry_message(told, wheels, (messages.ODOM, self._model.footprint), stamp))
+        self._odometry.publish(self._told.tell(told, wheels, stamp))
         if wanted(self._truth):
             true, speeds = frames.in_map(simulation.pose), (simulation.speed, simulation.turn_rate)
-            self._truth.publish(messages.odometry_message(true, speeds, (messages.MAP, self._model.footprint), stamp))
+            self._truth.publish(self._true.tell(true, speeds, stamp))
         self._signals.publish(simulation, stamp)
 
     def _publish_scan(self) -> None:

@@ -62,16 +62,27 @@ def scan_message(scan: Scan, settings: LidarSettings, period: float, stamp: Time
     return message
 
 
-def odometry_message(pose: Pose, velocity: tuple[float, float], frames: tuple[str, str], stamp: Time) -> Odometry:
-    """A pose in the first frame and a velocity (m/s, rad/s) in the second, the robot's own."""
-    message = Odometry()
-    message.header.stamp = stamp
-    message.header.frame_id, message.child_frame_id = frames
-    message.pose.pose.position.x = pose.x
-    message.pose.pose.position.y = pose.y
-    message.pose.pose.orientation = quaternion(pose.heading)
-    message.twist.twist.linear.x, message.twist.twist.angular.z = velocity
-    return message
+class Odometer:
+    """Messages of a pose in the first of two frames and a velocity in the second, the robot's own.
+
+    It is the same message each time, with other numbers: what is published is copied, and making it costs more.
+    """
+
+    def __init__(self, frame: str, child_frame: str) -> None:
+        self._message = message = Odometry(child_frame_id=child_frame)
+        self._header, place, motion = message.header, message.pose.pose, message.twist.twist
+        self._header.frame_id = frame
+        self._position, self._orientation = place.position, place.orientation
+        self._linear, self._angular = motion.linear, motion.angular
+
+    def tell(self, pose: Pose, velocity: tuple[float, float], stamp: Time) -> Odometry:
+        """The message, to be published before the next call; m/s, rad/s."""
+        x, y, heading = pose
+        self._header.stamp = stamp
+        self._position.x, self._position.y = x, y
+        self._orientation.z, self._orientation.w = math.sin(0.5 * heading), math.cos(0.5 * heading)
+        self._linear.x, self._angular.z = velocity
+        return self._message
 
 
 def map_message(world: World, corner: Pose, resolution: float, stamp: Time) -> OccupancyGrid:

@@ -116,6 +116,8 @@ class Clock(AnyClock):
     def __init__(self, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> None:
         self._clock_type = clock_type
         self._source = current().clock
+        # Chosen once: a timer asks what time it is several times for each call.
+        self._read = self._source.steady_ns if clock_type is ClockType.STEADY_TIME else self._source.system_ns
         self._jump_handles: list[JumpHandle] = []
         self._timers: weakref.WeakSet[Any] = weakref.WeakSet()
         self._lock = threading.Lock()
@@ -138,9 +140,7 @@ class Clock(AnyClock):
         return Time._of(self._now_ns(), self._clock_type)
 
     def _now_ns(self) -> int:
-        if self._clock_type is ClockType.STEADY_TIME:
-            return self._source.steady_ns()
-        return self._source.system_ns()
+        return self._read()
 
     def _steady_deadline(self, when: int) -> int | None:
         """The steady time (ns) at which this clock shows `when`; None where something else drives the clock."""
@@ -214,7 +214,7 @@ class ROSClock(Clock):
         return self._active
 
     def _now_ns(self) -> int:
-        return self._ros_time if self._active else self._source.system_ns()
+        return self._ros_time if self._active else self._read()
 
     def _steady_deadline(self, when: int) -> int | None:
         return None if self._active else super()._steady_deadline(when)

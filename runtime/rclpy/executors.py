@@ -13,7 +13,7 @@ from types import TracebackType
 from typing import Any
 
 from bot_console.runtime.process import current
-from rclpy.executor_parts.ready_callbacks import ReadyCallbacks, begins
+from rclpy.executor_parts.ready_callbacks import ReadyCallbacks
 from rclpy.executor_parts.ready_callbacks import TimeoutObject as TimeoutObject
 from rclpy.executor_parts.ready_callbacks import await_or_execute as await_or_execute
 from rclpy.executor_parts.timer_heap import TimerHeap
@@ -205,9 +205,12 @@ class Executor(ReadyCallbacks):
                 if item.__class__ is Task:
                     self._polled = timeout == 0
                     return item
-                if item.sink is self and item.pending() and begins(item, item.callback_group):
-                    self._polled = timeout == 0
-                    return item
+                if item.sink is self and item.pending():
+                    group = item.callback_group
+                    if (not group.own_rules or group.can_execute(item)) and group.beginning_execution(item):
+                        self._polled = timeout == 0
+                        return item
+                    group.block(item)
             if self._is_shutdown:
                 raise ShutdownException
             if context.ended:
@@ -217,7 +220,8 @@ class Executor(ReadyCallbacks):
                 raise ConditionReachedException
             if not self._new_batch():
                 self._wait(deadline)
-                self._release_held()
+                if self._held:
+                    self._release_held()
 
     def _release_held(self) -> None:
         held, self._held = self._held, []
@@ -325,7 +329,11 @@ class SingleThreadedExecutor(Executor):
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
         """Run one callback."""
-        self._spin_once(timeout_sec)
+        try:
+            item = self._take(timeout_sec, None)
+        except (ShutdownException, TimeoutException):
+            return
+        self._run(item)
 
     def _spin_once(self, timeout_sec: float | None, condition: Condition | None = None) -> None:
         try:

@@ -171,10 +171,12 @@ class Baton:
                 return False
             else:
                 self._enlist(seat, wakeup, deadline)
-            if not self._hand_on(seat):
-                return self._withdraw(seat, wakeup)
-        self._await_turn(seat)
-        return self._withdraw(seat, wakeup)
+            waits = self._hand_on(seat)
+        if waits:
+            self._await_turn(seat)
+        if seat.waiting:
+            self._withdraw(seat, wakeup)
+        return seat.woken or (wakeup is not None and wakeup.flag)
 
     def _is_next(self, seat: Seat, deadline: int) -> bool:
         """Whether nothing happens before a wait of the holder is over, or at the same time."""
@@ -201,7 +203,8 @@ class Baton:
             seat.lock.acquire()
         finally:
             with self._guard:
-                self._withdraw(seat, wakeup)
+                if seat.waiting:
+                    self._withdraw(seat, wakeup)
         return seat.woken
 
     def rouse(self, seat: Seat) -> None:
@@ -272,13 +275,11 @@ class Baton:
         else:
             self._ready.append(seat)
 
-    def _withdraw(self, seat: Seat, wakeup: Awaited | None) -> bool:
-        """What a wait leaves behind; whether it ended by `set`."""
-        if seat.waiting:
-            seat.waiting = False
-            if wakeup is not None:
-                wakeup.waiters.remove(seat)
-        return seat.woken or (wakeup is not None and wakeup.flag)
+    def _withdraw(self, seat: Seat, wakeup: Awaited | None) -> None:
+        """End a wait that nothing has ended."""
+        seat.waiting = False
+        if wakeup is not None:
+            wakeup.waiters.remove(seat)
 
     def _next(self) -> Seat | None:
         """The thread whose turn it is now; time moves on when none is ready."""

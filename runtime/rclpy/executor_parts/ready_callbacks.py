@@ -23,14 +23,6 @@ async def await_or_execute(callback: Callable[..., Any], *args: Any) -> Any:
     return callback(*args)
 
 
-def begins(entity: Any, group: Any) -> bool:
-    """Whether a group lets an entity begin; where it does not, the entity has to wait."""
-    if (not group.own_rules or group.can_execute(entity)) and group.beginning_execution(entity):
-        return True
-    group.block(entity)
-    return False
-
-
 class ReadyCallbacks:
     """The part of `Executor` that hands work out instead of running it."""
 

@@ -30,8 +30,10 @@ class TimerHeap:
         entries = self.entries
         while entries:
             entry = entries[0]
-            if self._holds(entry, sink):
-                return entry[0]
+            deadline, _, timer = entry
+            if timer.heap_deadline == deadline >= timer.due_at and timer.heap is self and timer.sink is sink:
+                return deadline
+            self._put_right(entry, sink)
         return None
 
     def pop_due(self, now: int, sink: Any) -> list[Any]:
@@ -40,14 +42,17 @@ class TimerHeap:
         entries = self.entries
         while entries and entries[0][0] <= now:
             entry = entries[0]
-            if self._holds(entry, sink):
+            deadline, _, timer = entry
+            if timer.heap_deadline == deadline >= timer.due_at and timer.heap is self and timer.sink is sink:
                 heappop(entries)
-                entry[2].heap = None
-                due.append(entry[2])
+                timer.heap = None
+                due.append(timer)
+            else:
+                self._put_right(entry, sink)
         return due
 
-    def _holds(self, entry: tuple[int, int, Any], sink: Any) -> bool:
-        """Whether the first entry counts; takes it away or puts it back where it does not."""
+    def _put_right(self, entry: tuple[int, int, Any], sink: Any) -> None:
+        """Take the first entry, which does not count, away or put it back."""
         deadline, order, timer = entry
         # A stale entry: the timer has gone to another executor, or was pushed again for an earlier time.
         if timer.heap is not self or timer.heap_deadline != deadline:
@@ -58,6 +63,3 @@ class TimerHeap:
         elif timer.due_at > deadline:
             timer.heap_deadline = timer.due_at
             heapreplace(self.entries, (timer.due_at, order, timer))
-        else:
-            return True
-        return False
