@@ -94,7 +94,7 @@ class Avoidance:
         along = self._cos * x + self._sin * y
         across = self._cos * y - self._sin * x
         in_lane = (along > 0.0) & (np.abs(across) < half_width)
-        return np.where(in_lane, along, HORIZON).min(axis=1).clip(max=HORIZON)
+        return np.minimum(np.where(in_lane, along, HORIZON).min(axis=1), HORIZON)
 
     def _steer(self, room: Floats, rules: Rules) -> tuple[float, float]:
         """The velocity towards the best direction."""

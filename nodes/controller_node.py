@@ -38,7 +38,7 @@ class MotionController(Node):
         self._route: list[tuple[float, float]] = []
         self._desired: tuple[float, float] | None = None
         self._desired_stamp = 0
-        self._pose: tuple[float, float, float] | None = None
+        self._odometry: Odometry | None = None
         self._silent = True
         self._gains = self._read_gains()
         self._commands = self.create_publisher(Twist, "cmd_vel", 10)
@@ -80,9 +80,7 @@ class MotionController(Node):
         self.get_logger().info(f"Going to x = {place.x:.2f} m, y = {place.y:.2f} m")
 
     def _on_odometry(self, message: Odometry) -> None:
-        place = message.pose.pose
-        pose = (place.position.x, place.position.y, _heading(place.orientation))
-        self._pose = pose if all(map(math.isfinite, pose)) else None
+        self._odometry = message  # looked at when there is somewhere to go: it comes 20 times a second
 
     def _on_desired(self, message: Twist) -> None:
         wanted = (message.linear.x, message.angular.z)
@@ -93,10 +91,11 @@ class MotionController(Node):
         fresh = self._steady.now().nanoseconds - self._desired_stamp <= LIFETIME_NS
         allowed = self._desired if fresh else None
         target = self._follower.target
-        if self._pose and target and self._follower.arrived(self._pose[0], self._pose[1]):
+        pose = _pose_of(self._odometry) if target and self._odometry is not None else None
+        if pose and target and self._follower.arrived(pose[0], pose[1]):
             self.get_logger().info(f"Reached x = {target[0]:.2f} m, y = {target[1]:.2f} m")
-        if self._pose and self._follower.target:
-            wanted = self._follower.steer(self._pose, allowed, PERIOD, self._gains)
+        if pose and self._follower.target:
+            wanted = self._follower.steer(pose, allowed, PERIOD, self._gains)
         elif allowed:
             wanted = allowed
         else:
@@ -116,6 +115,13 @@ class MotionController(Node):
         command = Twist()
         command.linear.x, command.angular.z = linear, angular
         self._commands.publish(command)
+
+
+def _pose_of(message: Odometry) -> tuple[float, float, float] | None:
+    """x, y (m) and heading (rad); None where one of them is no finite number."""
+    place = message.pose.pose
+    pose = (place.position.x, place.position.y, _heading(place.orientation))
+    return pose if all(map(math.isfinite, pose)) else None
 
 
 def _heading(q: Quaternion) -> float:

@@ -29,6 +29,7 @@ class TelemetryPublisher(Node):
         self.add_post_set_parameters_callback(self._apply)
         self._trip = Trip()
         self._nearest: float | None = None
+        self._scan: LaserScan | None = None
         self._collisions = 0
         self._figures = {
             name: self.create_publisher(Float64, f"telemetry/{name}", 10)
@@ -61,13 +62,15 @@ class TelemetryPublisher(Node):
         self._trip.update(stamp.sec + stamp.nanosec * 1e-9, message.twist.twist.linear.x)
 
     def _on_scan(self, scan: LaserScan) -> None:
-        self._nearest = nearest_return(scan)
+        self._scan = scan  # looked at when it is told: scans come ten times as often
 
     def _on_collisions(self, message: UInt32) -> None:
         self._collisions = message.data
 
     def _publish(self) -> None:
-        trip = self._trip
+        trip, scan = self._trip, self._scan
+        if scan is not None:
+            self._nearest, self._scan = nearest_return(scan), None
         figures = {"speed": trip.speed, "distance": trip.distance, "nearest_obstacle": self._nearest}
         for name, value in figures.items():
             if value is not None:

@@ -17,7 +17,7 @@ def pointer(item: pymunk.Space | pymunk.Body | pymunk.Shape) -> Any:
 
 
 # What each step calls, looked up once and called as it is: a layer in between would cost as much again. All take what
-# `pointer` gives; it may not be used when the space is gone. A vector goes in as a tuple, and comes out with `x` and `y`.
+# `pointer` gives, which may not be used when the space is gone. A vector goes in as a tuple, and has `x` and `y`.
 set_position: Any = lib.cpBodySetPosition
 set_velocity: Any = lib.cpBodySetVelocity
 set_force: Any = lib.cpBodySetForce

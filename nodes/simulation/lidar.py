@@ -154,8 +154,7 @@ class Lidar:
         np.minimum(end, settings.beams, out=end)
         np.maximum(past, 0.0, out=past)
         # Turned round, so that both spans of a surface stand together; reckoned with in rows, which are faster.
-        first = past.T.astype(np.int64, "C").ravel()
-        count = end.T.astype(np.int64, "C").ravel()
+        first, count = _in_pairs(past), _in_pairs(end)
         count -= first
         np.maximum(count, 0, out=count)
         # The place among all pairs, less that of the span's first pair, is how far on from its first beam it is.
@@ -164,6 +163,11 @@ class Lidar:
         beam = first.repeat(count)
         beam += np.arange(len(beam))
         return self._owners.repeat(count), beam
+
+
+def _in_pairs(rows: Floats) -> Ints:
+    """Two rows as whole numbers, column after column."""
+    return np.transpose(rows).astype(np.int64, order="C").ravel()
 
 
 def _spans(angle: Floats, edges: int, ratio: Floats) -> tuple[Floats, Floats]:

@@ -211,17 +211,23 @@ class Executor(ReadyCallbacks):
                         self._polled = timeout == 0
                         return item
                     group.block(item)
-            if self._is_shutdown:
-                raise ShutdownException
-            if context.ended:
-                current().deliver_signals()
-                raise ShutdownException if self.is_global and not context.ended_by_signal else ExternalShutdownException
-            if condition is not None and condition():
-                raise ConditionReachedException
+            if self._is_shutdown or context.ended or condition is not None:
+                self._look_for_end(condition)
             if not self._new_batch():
                 self._wait(deadline)
                 if self._held:
                     self._release_held()
+
+    def _look_for_end(self, condition: Condition | None) -> None:
+        """Raise what says that there is no more work to wait for, if so."""
+        context = self._context
+        if self._is_shutdown:
+            raise ShutdownException
+        if context.ended:
+            current().deliver_signals()
+            raise ShutdownException if self.is_global and not context.ended_by_signal else ExternalShutdownException
+        if condition is not None and condition():
+            raise ConditionReachedException
 
     def _release_held(self) -> None:
         held, self._held = self._held, []

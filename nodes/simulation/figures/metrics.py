@@ -40,9 +40,7 @@ class Metrics:
         if self._driving:
             self._driving = False
             self.stops += 1
-        standing = self.steps - self._standing_since
-        if standing > self._longest:
-            self._longest = standing
+        self._longest = max(self._longest, self.steps - self._standing_since)
 
     def pass_by(self, clearance: float) -> None:
         """Take the room in m from the hull to the nearest thing, where it may be less than it ever was."""

@@ -78,8 +78,10 @@ class Observer:
         period = round(PROBE_PERIOD * 1e9)
         now = self._steady.now().nanoseconds
         self._due += period
-        self._late[round((now - self._due) * 1e-6, 3)] += 1
-        self._due += max(0, now - self._due) // period * period
+        late = now - self._due
+        self._late[round(late * 1e-6, 3) if late else 0.0] += 1
+        if late > 0:
+            self._due += late // period * period
         if self._waited_for and self._node is not None and self._topics is not None:
             self._listen(self._node, self._topics)
 
