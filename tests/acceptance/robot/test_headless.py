@@ -125,3 +125,22 @@ def test_wrong_words_get_one_clear_line(tmp_path, words, code, text):
     assert done.returncode == code, done.stderr
     assert text in done.stderr
     assert "Traceback" not in done.stderr
+
+
+LOOKED_AT = """
+import atexit, gc, json, sys
+from bot_console.tui.cli.main import program
+atexit.register(lambda: print(json.dumps(
+    [gc.isenabled(), gc.get_freeze_count(), sorted(each for each in sys.modules if ".plot" in each)]
+)))
+program()
+"""
+
+
+def test_garbage_is_collected_once_the_nodes_are_up_and_nothing_of_plots_is_imported(tmp_path):
+    words = ("--headless", "--fast", "--duration", "1")
+    run = [sys.executable, "-c", LOOKED_AT, *words]
+    done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, timeout=PATIENCE, check=True)
+    collects, frozen, plots = json.loads(done.stdout.splitlines()[-1])
+    assert collects and frozen > 10_000
+    assert plots == []

@@ -1,6 +1,9 @@
+import hashlib
 import math
+import struct
 
 import pytest
+from bot_console_robot.simulation.figures.digest import PoseDigest
 from bot_console_robot.simulation.figures.metrics import Metrics
 
 
@@ -39,3 +42,14 @@ def test_nothing_near_is_none_in_the_report() -> None:
 def test_the_digest_is_of_the_poses() -> None:
     assert run([1.0, 2.0]).digest == run([2.0, 1.0]).digest
     assert run([1.0]).digest != run([1.0, 1.0]).digest
+
+
+def test_the_digest_is_the_hash_of_all_poses_whenever_it_is_asked_for() -> None:
+    digest, plain = PoseDigest(), hashlib.blake2b(digest_size=16)
+    for number in range(1000):
+        pose = 0.1 * number, -0.2 * number, math.sin(number)
+        digest.add(*pose)
+        plain.update(struct.pack("<3d", *pose))
+        if number % 301 == 0:
+            assert digest.hex == plain.hexdigest()
+    assert digest.hex == digest.hex == plain.hexdigest()
