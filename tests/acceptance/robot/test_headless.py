@@ -144,3 +144,29 @@ def test_garbage_is_collected_once_the_nodes_are_up_and_nothing_of_plots_is_impo
     collects, frozen, plots = json.loads(done.stdout.splitlines()[-1])
     assert collects and frozen > 10_000
     assert plots == []
+
+
+DRAWS = """
+import random
+import numpy as np
+import rclpy
+
+rclpy.init()
+node = rclpy.create_node("draws")
+print("DRAWN", random.random(), np.random.rand(), flush=True)
+rclpy.spin_once(node, timeout_sec=0.1)
+"""
+
+
+def test_what_a_node_draws_is_the_same_again(tmp_path):
+    (tmp_path / "draws.py").write_text(DRAWS)
+
+    def drawn(seed: str) -> list[str]:
+        words = ("run", "--headless", "--fast", "--no-simulator", "--duration", "1", "--seed", seed, "draws.py")
+        run = [sys.executable, "-m", "bot_console.tui", *words]
+        done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, timeout=PATIENCE, check=False)
+        return [line for line in done.stderr.splitlines() if "DRAWN" in line]
+
+    first = drawn("3")
+    assert len(first) == 1 and first == drawn("3")
+    assert first != drawn("4")
