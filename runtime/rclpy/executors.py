@@ -257,15 +257,6 @@ class Executor(ReadyCallbacks):
         batch.extend(entities)
         return bool(batch)
 
-    def _collect_tasks(self) -> list[Task[Any]]:
-        """Tasks that can go on, the newest first."""
-        with self._lock:
-            tasks, self._ready_tasks = self._ready_tasks, []
-            if len(tasks) > 1:
-                order = {task: place for place, task in enumerate(self._tasks)}
-                tasks.sort(key=lambda task: order.get(task, 0), reverse=True)
-        return tasks
-
     def _wait(self, deadline: int | None) -> None:
         with self._lock:
             timer = self._timers.next_deadline(self)
@@ -314,12 +305,6 @@ class Executor(ReadyCallbacks):
         error = task.exception()
         if error is not None:
             raise error
-
-    def _forget(self, task: Task[Any]) -> None:
-        with self._lock:
-            entity = self._tasks.pop(task, None)
-        if entity is not None:
-            self._ended(entity)
 
     def _ended(self, entity: Any) -> None:
         group = entity.callback_group

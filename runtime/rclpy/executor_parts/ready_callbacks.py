@@ -32,6 +32,8 @@ class ReadyCallbacks:
     _ended: Callable[[Any], None]
     _resume: Callable[[Task[Any]], None]
     _tasks: dict[Task[Any], Any]
+    _ready_tasks: list[Task[Any]]
+    _lock: Any
 
     def wait_for_ready_callbacks(
         self,
@@ -78,3 +80,18 @@ class ReadyCallbacks:
             self._resume(task)
         else:
             self._ended(item)
+
+    def _collect_tasks(self) -> list[Task[Any]]:
+        """Tasks that can go on, the newest first."""
+        with self._lock:
+            tasks, self._ready_tasks = self._ready_tasks, []
+            if len(tasks) > 1:
+                order = {task: place for place, task in enumerate(self._tasks)}
+                tasks.sort(key=lambda task: order.get(task, 0), reverse=True)
+        return tasks
+
+    def _forget(self, task: Task[Any]) -> None:
+        with self._lock:
+            entity = self._tasks.pop(task, None)
+        if entity is not None:
+            self._ended(entity)
