@@ -38,7 +38,8 @@ def bag(suffix: str) -> Callable[[str], None]:
 
 
 def metadata(text: str) -> None:
-    from bot_console.tui.console.bags.reader import NoBag, _files, _profiles
+    from bot_console.tui.console.bags.damage import NoBag
+    from bot_console.tui.console.bags.reader import _files, _profiles
 
     folder = file(text, "metadata.yaml").parent
     with suppress(NoBag):

@@ -33,7 +33,7 @@ def targets() -> list[Target]:
     from bot_console.runtime.rmw.parameter_overrides import ParameterYamlError
     from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
     from bot_console.runtime.rosidl.parse import DefinitionError
-    from bot_console.tui.console.bags.reader import NoBag
+    from bot_console.tui.console.bags.damage import NoBag
     from bot_console.tui.console.plot.arrays import NotPlottable
     from bot_console.tui.files.save_file import NotSaved
     from bot_console.tui.layout.form import NoLayout

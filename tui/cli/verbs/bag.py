@@ -33,8 +33,8 @@ READY = 0.5
 def run(words: Sequence[str]) -> int:
     """Run a `bag` command line; 0 done, 1 failed, 2 wrong usage."""
     install()
+    from bot_console.tui.console.bags.damage import NoBag
     from bot_console.tui.console.bags.needed import Missing
-    from bot_console.tui.console.bags.reader import NoBag
 
     given = _parser().parse_args(words)
     try:
@@ -187,8 +187,9 @@ def _snapshot(given: argparse.Namespace) -> int:
 
 
 def _play(given: argparse.Namespace) -> int:
+    from bot_console.tui.console.bags.damage import NoBag
     from bot_console.tui.console.bags.player import Player, Playing
-    from bot_console.tui.console.bags.reader import Bag, NoBag
+    from bot_console.tui.console.bags.reader import Bag
 
     bag = Bag(given.bag)
     _tell_mended(bag)
@@ -276,7 +277,7 @@ def _open(given: argparse.Namespace) -> int:
 
 def _tell_mended(bag: Any) -> None:
     for each in bag.mended:
-        print(f"{each} had no end, as a killed recorder leaves it, and was given one", file=sys.stderr)
+        print(harmless(each), file=sys.stderr)
 
 
 def _size(count: int) -> str:

@@ -8,7 +8,8 @@ from collections.abc import Callable, Iterator
 from types import MappingProxyType
 from typing import Any
 
-from bot_console.tui.console.bags.reader import Bag, NoBag
+from bot_console.tui.console.bags.damage import NoBag
+from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.console.logs.store import LogStore
 from bot_console.tui.console.model import Change, ChangeSource, ParameterInfo, ParameterTree
 from bot_console.tui.console.robot.past_poses import PastPoses, heading

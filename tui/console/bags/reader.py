@@ -4,38 +4,20 @@ from __future__ import annotations
 
 import heapq
 import sqlite3
-import struct
-from collections.abc import Callable, Collection, Generator, Iterable, Iterator
-from contextlib import closing, contextmanager, suppress
+from collections.abc import Collection, Iterable, Iterator
+from contextlib import closing, suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple, cast
 
 import yaml
+from bot_console.tui.console.bags.damage import NoBag, mend, told
 from bot_console.tui.console.bags.metadata import FILE, Metadata, Topic
 from bot_console.tui.console.bags.needed import check
 from bot_console.tui.text.yaml_faults import UNREADABLE
 
-MAGIC = b"\x89MCAP0\r\n"
 LATEST = 2**63 - 1
 """The last moment, in ns since the epoch, that a message may have come at."""
-
-DAMAGED = (
-    ValueError,
-    LookupError,
-    TypeError,
-    OverflowError,
-    MemoryError,
-    EOFError,
-    OSError,
-    struct.error,
-    sqlite3.Error,
-)
-"""What the libraries let fall over a file that was damaged, besides `McapError`: lengths and offsets lead nowhere."""
-
-
-class NoBag(ValueError):
-    """A path leads to nothing that can be read as a bag; the text says which path and why."""
 
 
 class Entry(NamedTuple):
@@ -54,8 +36,8 @@ class Bag:
         check()
         self.path = path
         self.files = _files(path)
-        self.mended = [each.name for each in self.files if each.suffix == ".mcap" and _mend(each)]
-        """Files whose end was missing, and has been added."""
+        self.mended = [done for each in self.files if each.suffix == ".mcap" and (done := mend(each))]
+        """What was done to files whose end was missing."""
         self.metadata = Metadata(self.files[0].name)
         for each in self.files:
             for topic in _topics(each, self.metadata):
@@ -97,7 +79,7 @@ def _topics(path: Path, metadata: Metadata) -> Iterable[Topic]:
 
 def _messages(path: Path, topics: Collection[str] | None, begin: int) -> Iterator[Entry]:
     came = 0
-    with _told(path, lambda: f" after {came} messages"):
+    with told(path, lambda: f" after {came} messages"):
         for each in (_sqlite_messages if path.suffix == ".db3" else _mcap_messages)(path, topics, begin):
             if not 0 <= each.received <= LATEST:
                 raise ValueError(f"a message came at {each.received} ns since 1970")
@@ -105,23 +87,10 @@ def _messages(path: Path, topics: Collection[str] | None, begin: int) -> Iterato
             yield each
 
 
-@contextmanager
-def _told(path: Path, where: Callable[[], str] = str) -> Generator[None]:
-    """What reading a file lets fall is told as `NoBag`."""
-    from mcap.exceptions import McapError
-
-    try:
-        yield
-    except NoBag:
-        raise
-    except (McapError, *DAMAGED) as error:
-        raise NoBag(f"{path} is damaged{where()}: {error or type(error).__name__}") from None
-
-
 def _mcap_topics(path: Path, metadata: Metadata) -> Iterable[Topic]:
     from mcap.reader import make_reader
 
-    with _told(path), path.open("rb") as file:
+    with told(path), path.open("rb") as file:
         summary = make_reader(file).get_summary()
     if summary is None or summary.statistics is None:
         raise NoBag(f"{path}: says nothing of its messages")
@@ -151,7 +120,7 @@ def _sqlite_topics(path: Path, metadata: Metadata) -> Iterable[Topic]:
         "select name, type, offered_qos_profiles, count(messages.id), min(timestamp), max(timestamp) "
         "from topics left join messages on messages.topic_id = topics.id group by topics.id"
     )
-    with _told(path), closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as base:
+    with told(path), closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True)) as base:
         rows = base.execute(asked).fetchall()
     for name, type, qos, count, first, last in rows:
         if count:
@@ -185,46 +154,3 @@ def _profiles(text: str) -> list[dict[str, Any]]:
         return []
     found = cast("list[Any]", data) if isinstance(data, list) else []
     return [each for each in found if isinstance(each, dict)]
-
-
-def _mend(path: Path) -> bool:
-    """Give a file that was cut off an end, and keep all that came whole; whether it had none."""
-    from mcap.stream_reader import StreamReader
-
-    with path.open("rb") as file:
-        if file.read(len(MAGIC)) != MAGIC:
-            raise NoBag(f"{path}: is no MCAP file")
-        file.seek(0, 2)
-        file.seek(max(len(MAGIC), file.tell() - len(MAGIC)))
-        if file.read() == MAGIC:
-            return False
-        file.seek(0)
-        _write_again(path, StreamReader(file).records)
-    return True
-
-
-def _write_again(path: Path, records: Iterable[Any]) -> None:
-    from mcap.exceptions import McapError
-    from mcap.records import Channel, Message, Schema
-    from mcap.writer import CompressionType, Writer
-
-    beside = path.with_suffix(".mending")
-    with beside.open("wb") as file:
-        writer = Writer(file, compression=CompressionType.NONE)
-        writer.start(profile="ros2", library="bot-console")
-        schemas: dict[int, int] = {0: 0}
-        channels: dict[int, int] = {}
-        with suppress(McapError, *DAMAGED):  # the cut
-            for each in records:
-                if isinstance(each, Schema) and each.id not in schemas:
-                    schemas[each.id] = writer.register_schema(each.name, each.encoding, each.data)
-                elif isinstance(each, Channel) and each.id not in channels:
-                    channels[each.id] = writer.register_channel(
-                        each.topic, each.message_encoding, schemas.get(each.schema_id, 0), each.metadata
-                    )
-                elif isinstance(each, Message) and each.channel_id in channels:
-                    writer.add_message(
-                        channels[each.channel_id], each.log_time, each.data, each.publish_time, each.sequence
-                    )
-        writer.finish()
-    beside.replace(path)

@@ -29,7 +29,7 @@ def parse_yaw(text: str) -> float:
 
 def angles_text(q: Any) -> str:
     """A quaternion in degrees: its yaw, and roll and pitch where there are any."""
-    norm = math.sqrt(q.x**2 + q.y**2 + q.z**2 + q.w**2)
+    norm = math.hypot(q.x, q.y, q.z, q.w)
     if not math.isfinite(norm):
         return "not finite"
     if norm < 1e-6:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import os
 import shutil
 import sqlite3
 import threading
@@ -11,10 +13,11 @@ from pathlib import Path
 import pytest
 import rclpy
 from bot_console.tui.console.bags.contents import Contents
+from bot_console.tui.console.bags.damage import NoBag
 from bot_console.tui.console.bags.definitions import definition, type_name
 from bot_console.tui.console.bags.player import Player, Playing
 from bot_console.tui.console.bags.qos import noted, offered
-from bot_console.tui.console.bags.reader import Bag, NoBag
+from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.console.bags.recorder import OVERHEAD, Recorder, Ring, in_order
 from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.files.save_file import NotSaved
@@ -109,8 +112,36 @@ def test_a_file_that_was_cut_is_mended_and_keeps_what_came_whole(tmp_path: Path,
     file.write_bytes(whole[: int(len(whole) * part)])
     bag = Bag(folder)
     found = [int(each) for each in texts(bag)]
-    assert bag.mended == ["bag_0.mcap"] and found == list(range(1, len(found) + 1)) and len(found) > 15
+    assert len(bag.mended) == 1 and found == list(range(1, len(found) + 1)) and len(found) > 15
     assert not Bag(folder).mended and Bag(folder).metadata.count == len(found)
+
+
+def test_what_is_damaged_before_its_end_is_kept_as_it_was(tmp_path: Path) -> None:
+    file = words(tmp_path / "bag", "first", *(["x" * 4_000_000] * 8)) / "bag_0.mcap"
+    whole = file.read_bytes()
+    begin = whole.index(b"x" * 100)
+    broken = whole[: begin + 4_000_010] + b"\xff" * 100 + whole[begin + 4_000_110 : -100]
+    file.write_bytes(broken)
+    bag = Bag(file.parent)
+    kept = file.with_name("bag_0.mcap.damaged")
+    assert f"kept as {kept.name}" in bag.mended[0] and kept.read_bytes() == broken
+    assert texts(bag)[0] == "first" and not Bag(file.parent).mended
+
+
+def test_a_full_disk_costs_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    file = words(tmp_path / "bag", "mine") / "bag_0.mcap"
+    cut = file.read_bytes()[:-20]
+    file.write_bytes(cut)
+
+    def full(handle: int) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    with monkeypatch.context() as patched:
+        patched.setattr(os, "fsync", full)
+        with pytest.raises(NoBag, match="cannot be given one: No space left"):
+            Bag(file.parent)
+    assert file.read_bytes() == cut and len(list(file.parent.iterdir())) == 2
+    assert texts(Bag(file.parent)) == ["mine"]
 
 
 def test_bags_of_sqlite_are_read(tmp_path: Path) -> None:
