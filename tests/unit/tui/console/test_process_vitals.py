@@ -6,7 +6,7 @@ import os
 
 import pytest
 from bot_console.tui.cli.live.vitals import SystemVitals
-from bot_console.tui.console.launch.vitals import Usage
+from bot_console.tui.console.launch.vitals import FROZEN, HANGS, Usage
 
 
 class Told:
@@ -16,6 +16,7 @@ class Told:
         self.seconds: float | None = 0.0
         self.wanted: float | None = None
         self.stopped = False
+        self.held = ""
         self.bytes: int | None = 20_400_000
 
     def cpu_seconds(self) -> float | None:
@@ -29,6 +30,9 @@ class Told:
 
     def is_stopped(self) -> bool:
         return self.stopped
+
+    def holds_lock_in(self) -> str:
+        return self.held
 
     def hangs_in(self) -> str:
         return ""
@@ -71,12 +75,23 @@ def test_a_frozen_one_is_seen_within_half_a_second() -> None:
     usage = Usage(told, 0.0)
     told.stopped = True
     usage.look(0.4)
-    assert not usage.stopped
+    assert not usage.stands
     usage.look(0.5)
-    assert usage.stopped
+    assert usage.stands == FROZEN
     told.stopped = False
     usage.look(1.0)
-    assert not usage.stopped
+    assert not usage.stands
+
+
+def test_one_whose_lock_is_held_is_seen_with_the_line() -> None:
+    told = Told()
+    usage = Usage(told, 0.0)
+    told.held = "holds.py:12, in tick"
+    usage.look(0.5)
+    assert usage.stands.startswith(f"{HANGS} holds.py:12, in tick")
+    told.held = ""
+    usage.look(1.0)
+    assert not usage.stands
 
 
 def test_what_nobody_tells_is_not_known() -> None:
