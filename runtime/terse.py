@@ -8,17 +8,20 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
+DELETED = "the folder you are in was deleted; go to another one (cd) and try again"
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG)
 
 
 def place_fault(error: BaseException) -> str:
     """What to say of an error that names no file: of standard output, or of the working directory; else empty."""
+    if isinstance(error, SystemError) and not _has_folder():  # so says an import of Python 3.13.0 there
+        return DELETED
     if not isinstance(error, OSError) or error.filename is not None:
         return ""
     if error.errno in FULL:
         return f"the output cannot be written: {error.strerror}"
     if error.errno == errno.ENOENT and not _has_folder():
-        return "the folder you are in was deleted; go to another one (cd) and try again"
+        return DELETED
     return ""
 
 
@@ -56,7 +59,7 @@ def told(run: Callable[[], int]) -> int:
     except BrokenPipeError:  # as of `head`, which has read enough
         _give_up_output()
         return code or 1
-    except OSError as error:
+    except (OSError, SystemError) as error:
         text = place_fault(error)
         if not text:
             raise

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import io
 import os
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from bot_console.runtime.terse import told
 from bot_console.tui.cli.live.own_host import start_host
 from bot_console.tui.cli.system.workspaces import PROGRAM_LAUNCH
 from bot_console.tui.console.launch_host.proxy import HostedLauncher
@@ -69,6 +71,24 @@ def test_a_folder_that_was_deleted_is_told(words: list[str], tmp_path: Path) -> 
     assert done.stderr.strip().endswith("the folder you are in was deleted; go to another one (cd) and try again")
 
 
+def test_an_import_that_fails_in_a_deleted_folder_is_told_as_such(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def fails() -> int:
+        raise SystemError("error return without exception set")  # what Python 3.13.0 says
+
+    with pytest.raises(SystemError):
+        told(fails)
+    there = tmp_path / "gone"
+    there.mkdir()
+    monkeypatch.chdir(there)
+    there.rmdir()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("sys.stdout", io.StringIO())
+        assert told(fails) == 1
+    assert capsys.readouterr().err.endswith("the folder you are in was deleted; go to another one (cd) and try again\n")
+
+
 def test_a_launch_goes_on_without_log_files_where_the_home_cannot_be_written(tmp_path: Path) -> None:
     (tmp_path / "say.launch.py").write_text(
         "from launch import LaunchDescription\nfrom launch.actions import LogInfo\n"
@@ -95,8 +115,8 @@ def test_files_of_the_working_folder_are_no_libraries_of_the_launch_host(
     monkeypatch.chdir(tmp_path)
     host = start_host(log=tmp_path / "host.log")
     launcher = HostedLauncher(host.connection, lambda *record: None, lambda *printed: None)
-    told = launcher.launch(str(PROGRAM_LAUNCH), {"program": str(node), "isolation": isolation}).result(PATIENCE)
+    answer = launcher.launch(str(PROGRAM_LAUNCH), {"program": str(node), "isolation": isolation}).result(PATIENCE)
     states = [each.state for each in launcher.info().processes]
     launcher.close()
     host.end()
-    assert told.ok and states == [ProcessState.RUNNING], (told.text, (tmp_path / "host.log").read_text())
+    assert answer.ok and states == [ProcessState.RUNNING], (answer.text, (tmp_path / "host.log").read_text())
