@@ -83,6 +83,16 @@ class Publisher:
             self._refuse()
         self._endpoint.publish_own(msg)
 
+    def _is_wanted(self) -> bool:
+        """Whether a message is given to anybody, or kept for who comes later."""
+        return self._endpoint.is_wanted()
+
+    def _skip(self) -> None:
+        """Do as `_publish_own` does with a message that is not wanted, which need not be made then."""
+        if self.destroyed or self._context.ended:
+            self._refuse()
+        self._endpoint.skip()
+
     def _publish_other(self, msg: Any) -> None:
         if self.destroyed or self._context.ended:
             self._refuse()

@@ -77,6 +77,17 @@ class LocalPublisher:
             self._give(message)
         return self.open
 
+    def is_wanted(self) -> bool:
+        """Whether a message is given to anybody, or kept for who comes later."""
+        return self.history is not None or self.is_heard()
+
+    def skip(self) -> None:
+        """Count a message that was not made, since it is not wanted; it is a sign of life all the same."""
+        if self.open:
+            if self.lease is not None or self.on_publish is not None:
+                self.assert_liveliness()
+            self._number += 1
+
     def _give(self, message: Message) -> None:
         """Put a message of the middleware's own into the queue of each matched subscription."""
         if self.lease is not None or self.on_publish is not None:

@@ -34,6 +34,9 @@ from rclpy.parameter import Parameter
 
 SETS = 5_000
 ENTRIES = 1_000
+TOGETHER = 40_000
+MANY = 10_000
+"""Parameters that are set together."""
 
 
 def validate(parameters: list[Parameter]) -> SetParametersResult:
@@ -78,6 +81,19 @@ def local_set(watched: bool) -> float:
         node.create_subscription(ParameterEvent, "/parameter_events", lambda event: None, 10)
     values = [1.0 + number % 100 / 100 for number in range(SETS)]
     cost = per_call(lambda number: node.set_parameters([Parameter("speed", value=values[number])]), SETS)
+    node.destroy_node()
+    return cost
+
+
+def together(count: int) -> float:
+    """`set_parameters_atomically` of so many, for each of them; nobody hears the event, as of most nodes."""
+    node = rclpy.create_node("together")
+    for number in range(count):
+        node.declare_parameter(f"p{number}", 0.0)
+    rounds = [
+        [Parameter(f"p{number}", value=float(turn)) for number in range(count)] for turn in range(TOGETHER // count)
+    ]
+    cost = per_call(lambda number: node.set_parameters_atomically(rounds[number]), len(rounds)) / count
     node.destroy_node()
     return cost
 
@@ -129,6 +145,8 @@ MEASURES: dict[str, Callable[[], float]] = {
     "floor_us": floor_of_a_change,
     "local_set_us": lambda: local_set(False),
     "local_set_watched_us": lambda: local_set(True),
+    "together_10_us_each": lambda: together(10),
+    f"together_{MANY}_us_each": lambda: together(MANY),
     "service_call_us": service_call,
     "get_parameter_us": read,
     "file_and_declare_us_each": parameter_file,
@@ -147,6 +165,8 @@ def main(runs: int) -> None:
     }
     ratios = [set_ / floor for set_, floor in zip(rows["local_set_us"], rows["floor_us"], strict=True)]
     found["local_set_over_floor"] = round(statistics.median(ratios), 2)
+    pairs = zip(rows[f"together_{MANY}_us_each"], rows["together_10_us_each"], strict=True)
+    found["together_many_over_ten"] = round(statistics.median(many / ten for many, ten in pairs), 2)
     print(json.dumps(found, indent=2))
     rclpy.shutdown()
 

@@ -15,6 +15,7 @@ from rclpy.parameter import Parameter
 
 CARRIED_AS_THEY_ARE = frozenset((bool, float, str))
 """Classes whose every value goes over the wire as it is."""
+INT64 = 1 << 63
 NANO = 1_000_000_000
 
 
@@ -29,6 +30,18 @@ def parameter_event(node: str, now: int, new: list[Any], changed: list[Any], del
         deleted_parameters=deleted,
         check_fields=False,
     )
+
+
+def check_carried(parameter: Parameter) -> None:
+    """Raise `FieldTypeError` where `event_parameter` would, without a message for what goes as it is.
+
+    A message is seven objects for the garbage collector: of ten thousand that nobody gets, they would take two thirds
+    of the time in which those parameters are set.
+    """
+    value = parameter._value
+    kind = value.__class__
+    if kind not in CARRIED_AS_THEY_ARE and not (kind is int and -INT64 <= value < INT64):
+        event_parameter(parameter)
 
 
 def event_parameter(parameter: Parameter) -> ParameterMsg:

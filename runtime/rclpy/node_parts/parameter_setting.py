@@ -11,7 +11,7 @@ from typing import Any
 from rcl_interfaces.msg import ParameterDescriptor, ParameterEvent, SetParametersResult
 from rclpy.exceptions import ParameterNotDeclaredException
 from rclpy.node_parts.parameter_descriptors import refusal
-from rclpy.node_parts.parameter_events import event_parameter, parameter_event
+from rclpy.node_parts.parameter_events import check_carried, event_parameter, parameter_event
 from rclpy.parameter import Parameter
 
 EMPTIED = (
@@ -93,8 +93,12 @@ class ParameterSetting:
             if not result.successful:
                 return result
         self._ros_use()  # the event names the node, and a destroyed one refuses that before anything is stored
-        event = self._ros_store(parameters, descriptors, keep_not_set)
-        self._parameter_event_publisher._publish_own(event)
+        publisher = self._parameter_event_publisher
+        if publisher._is_wanted():
+            publisher._publish_own(self._ros_store(parameters, descriptors, keep_not_set, event_parameter))
+        else:
+            self._ros_store(parameters, descriptors, keep_not_set, check_carried)
+            publisher._skip()
         for callback in self._post_set_parameters_callbacks:
             callback(parameters)
         return SetParametersResult(successful=True, check_fields=False)
@@ -122,8 +126,9 @@ class ParameterSetting:
         parameters: Sequence[Parameter],
         descriptors: dict[str, ParameterDescriptor] | None,
         keep_not_set: bool,
+        told: Callable[[Parameter], Any],
     ) -> ParameterEvent:
-        """Take the values over; returns the event that tells of them."""
+        """Take the values over; returns the event of what is `told` of each."""
         stored = self._parameters
         new: list[Any] = []
         changed: list[Any] = []
@@ -133,14 +138,14 @@ class ParameterSetting:
             if parameter._type_ is NOT_SET and not keep_not_set:
                 stored.pop(name, None)
                 self._descriptors.pop(name, None)
-                deleted.append(event_parameter(parameter))
+                deleted.append(told(parameter))
                 continue
             if descriptors is not None:
                 self._descriptors[name] = descriptors[name]
             elif name not in self._descriptors:
                 self._descriptors[name] = ParameterDescriptor(dynamic_typing=True)
             before = stored.get(name)
-            (new if before is None or before._type_ is NOT_SET else changed).append(event_parameter(parameter))
+            (new if before is None or before._type_ is NOT_SET else changed).append(told(parameter))
             stored[name] = parameter
         return parameter_event(self._ros_event_node_name, self._clock._now_ns(), new, changed, deleted)
 

@@ -328,3 +328,29 @@ def test_an_event_holds_values_of_its_own(ros: Any) -> None:
     (event,) = listener.events
     assert event.changed_parameters[0].value.string_array_value == ["a", "b"]
     assert type(event.changed_parameters[1].value.integer_value) is int
+
+
+def test_events_are_counted_although_nobody_hears_them(ros: Any) -> None:
+    node, heard = node_of(ros), []
+    before = node._parameter_event_publisher._endpoint.published
+    node.set_parameters([given("a", 1), given("b", 2)])
+    node.set_parameters_atomically([given("a", 3), given("b", 4)])
+
+    def hear(event: ParameterEvent, info: Any) -> None:
+        heard.append(([each.name for each in event.changed_parameters], info["publication_sequence_number"]))
+
+    node.create_subscription(ParameterEvent, "/parameter_events", hear, qos_profile_parameter_events)
+    node.set_parameters_atomically([given("a", 5), given("c", 6)])
+    ros.settle()
+    assert heard == [(["a", "c"], before + 4)]
+
+
+@pytest.mark.parametrize("listens", [False, True])
+def test_a_value_that_no_message_carries_is_refused_whether_or_not_anybody_hears_of_it(ros: Any, listens: bool) -> None:
+    node = node_of(ros)
+    if listens:
+        node.create_subscription(ParameterEvent, "/parameter_events", lambda event: None, qos_profile_parameter_events)
+    for value in (1 << 63, -(1 << 63) - 1):
+        with pytest.raises(TypeError, match="integer_value"):
+            node.set_parameters([given("a", value)])
+    assert node.set_parameters([given("a", (1 << 63) - 1), given("b", -(1 << 63))])[0].successful
