@@ -7,7 +7,8 @@ import os
 import sys
 
 from bot_console.runtime.importer import install
-from bot_console.runtime.rmw.zenoh.domain.domain_bus import is_in_range, share_domains
+from bot_console.runtime.rmw.zenoh.domain.discovery_range import is_in_range
+from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
 
 
 def give_way(name: str) -> None:

@@ -3,48 +3,29 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from bot_console.tui import keymap
 from bot_console.tui.arrangement.stage import Stage
-from bot_console.tui.commanding.desk import Desk
-from bot_console.tui.console.connection.no_console import NoCommandLine
-from bot_console.tui.console.connection.read_only import ReadOnlyConsole
-from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.console.protocol import CommandLine, Console, Launcher
-from bot_console.tui.faults import Faults
+from bot_console.tui.arrival import COMING_STATUS, ORDERED, ArrivingApp, System
 from bot_console.tui.files.crash import keep, reason
-from bot_console.tui.format import brief, counted, harmless
 from bot_console.tui.keys.keyboard import Keyboard
 from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.look import Look
 from bot_console.tui.opening import Opening
 from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.pane_wishes import PaneWishes
-from bot_console.tui.panes.broken import BrokenPane
-from bot_console.tui.panes.pane import Pane
-from bot_console.tui.panes.parameters.pane import ParametersPane
-from bot_console.tui.panes.plot.pane import PlotPane
 from bot_console.tui.recording import RecordingApp
-from bot_console.tui.safety.quitting import Quitting
-from bot_console.tui.safety.safety_news import SafetyNews
-from bot_console.tui.safety.stopping import Stopping
-from bot_console.tui.screens.arrange import ArrangeScreen
-from bot_console.tui.screens.help import HelpScreen
-from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.screens.tuning.door import TuningDoor
-from bot_console.tui.terminal.leaving import Leaving
+from bot_console.tui.text.shown import brief, counted, harmless
 from bot_console.tui.theme import THEMES
 from bot_console.tui.time_cursor import TimeCursor
+from bot_console.tui.widgets.coming_pane import ComingPane
 from bot_console.tui.widgets.key_bar import KeyBar
 from bot_console.tui.widgets.pane_area import PaneArea
-from bot_console.tui.widgets.prompt.line import Prompt
-from bot_console.tui.widgets.prompt.question import Asker
-from bot_console.tui.widgets.status_bar import StatusBar
-from bot_console.tui.widgets.stream_panel import StreamPanel
 from bot_console.tui.widgets.tabs import Tabs
 from textual import events
 from textual.app import ComposeResult
@@ -54,18 +35,23 @@ from textual.notifications import SeverityLevel
 from textual.types import CSSPathType
 from textual.widgets import Static
 
+if TYPE_CHECKING:
+    from bot_console.tui.console.protocol import CommandLine, Console, Launcher
+    from bot_console.tui.panes.broken import BrokenPane
+    from bot_console.tui.panes.pane import Pane
+
 HERE = Path(__file__).parent
 SEEN_AT_ONCE = 2
 """Notifications for which the corner has room."""
 
-P = TypeVar("P", bound=Pane)
+P = TypeVar("P", bound="Pane")
 
 AT_ONCE = frozenset(next(key.keys for key in keymap.TABLE["app"] if key.id == "app.quit_now").split(","))
 """Keys that never wait for those typed before."""
 STOPS = frozenset(next(key.keys for key in keymap.TABLE["app"] if key.id == "app.stop").split(","))
 
 
-class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes):
+class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
     """rqt for the terminal."""
 
     TITLE = "bot-console"
@@ -78,16 +64,21 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes):
 
     def __init__(
         self,
-        console: Console,
+        console: Console | None = None,
         launcher: Launcher | None = None,
         command_line: CommandLine | None = None,
         *,
         refresh_hz: float = 10.0,
         opening: Opening | None = None,
-        on_first_frame: Callable[[], None] | None = None,
+        on_first_frame: Callable[[], None] = lambda: None,
         look: Look | None = None,
         plugins: Callable[[], Sequence[PaneEntry]] = tuple,
+        reach: Callable[[], System] | None = None,
     ) -> None:
+        """Show a console; with `reach` instead of one, a frame first, then what that gives, with keys typed meanwhile.
+
+        `on_first_frame` is called once the first frame of the panes has been seen.
+        """
         super().__init__()
         for each in THEMES.values():
             self.register_theme(each)
@@ -96,23 +87,34 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes):
         self.use_colours()
         self.plain, self.kept = look.plain, look.kept
         self.set_keymap({**look.keys})
-        self.console_of_robot = console
-        self.launcher = launcher
         self._refresh_hz = refresh_hz
         self._opening = opening or Opening()
         self.time_cursor = TimeCursor()
         self._on_first_frame = on_first_frame
-        self._snapshot = ConsoleSnapshot()
         self.stage = Stage(self, look.arrangement, self._opening.pane, lambda: self._snapshot)
-        self._quitting = Quitting(self, console)
-        self._stopping = Stopping(self, console)
-        self._leaving = Leaving(self, console, self.redraw, holds=not isinstance(console, ReadOnlyConsole))
-        lines = command_line or NoCommandLine()
-        self.desk = Desk(self, self.stage, self._stopping, console, lines, self.open, self._leaving.run)
-        self._safety_news = SafetyNews(console)
         self._plugins = plugins
-        self.faults = Faults(self, self, self._panes_changed)
         self._keyboard = Keyboard(self, self._deal)
+        self._reach, self._reached = reach, False
+        if console is not None:
+            self.take_up(System(console, launcher, command_line))
+        else:
+            self._keyboard.passes = lambda _: False
+
+    def take_up(self, system: System) -> None:
+        """Act on a system from now on."""
+        from bot_console.tui.console.model import ConsoleSnapshot
+        from bot_console.tui.crew import Crew
+
+        self.console_of_robot, self.launcher = system.console, system.launcher
+        self._snapshot = ConsoleSnapshot()
+        self.crew = Crew(
+            *(self, self, self.stage, system.console, system.command_line),
+            redraw=self.redraw,
+            open=self.open,
+            changed=self.panes_changed,
+        )
+        self.desk, self.faults = self.crew.desk, self.crew.faults
+        self._reached = True
 
     async def on_event(self, event: events.Event) -> None:
         """Keys are dealt with one after the other; those that quit from anywhere wait for nothing."""
@@ -127,18 +129,20 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes):
     async def _deal(self, event: events.Event) -> None:
         # The question whether to quit is not answered by what was typed before the key that asked it.
         early = isinstance(event, events.Key) and event.key not in STOPS and self._keyboard.was_overtaken(event)
-        if not (early and self._quitting.asking):
+        if not (early and self._reached and self.crew.quitting.asking):
             await super().on_event(event)
 
     def compose(self) -> ComposeResult:
-        """Tabs, panes, status, footer, and a word for terminals that are too small."""
+        """Tabs, panes, status, footer, and a word for terminals that are too small; at first only their places."""
         yield Tabs()
         with PaneArea(id="panes"):
-            for each in sorted(PANES, key=lambda entry: entry.place):
-                yield self.made(each.load(), each.id)
-        yield StreamPanel()
-        yield self.desk.field()
-        yield StatusBar()
+            if self._reached:
+                yield from (self.made(each.load(), each.id) for each in ORDERED)
+            else:
+                yield from (
+                    ComingPane(id, title, chosen=chosen) for id, title, chosen in self.stage.at_first(self.size)
+                )
+        yield from self.crew.widgets() if self._reached else (Static("", id=COMING_STATUS, markup=False),)
         yield KeyBar()
         yield Static("", id="too-small", markup=False)
 
@@ -146,14 +150,33 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes):
         """Choose the theme, lay out, and begin to pull."""
         self.ask()
         self.stage.resized(self.size)
+        if self._reached:
+            self.begin_to_pull()
+            self._open_first()
+            self.call_after_refresh(self._on_first_frame)
+            self.call_after_refresh(self._add_plugins)
+        elif self._reach is not None:
+            self.arrive(self._reach, self._all_there)
+
+    def begin_to_pull(self) -> None:
+        """Take snapshots from now on."""
         self.pull()
-        if self._opening != Opening(self._opening.pane):
-            self.open(self._opening)
         if self._refresh_hz > 0:
             self.set_interval(1.0 / self._refresh_hz, self._beat)
-        if self._on_first_frame is not None:
-            self.call_after_refresh(self._on_first_frame)
-        self.call_after_refresh(self._add_plugins)
+
+    def _open_first(self) -> None:
+        if self._opening != Opening(self._opening.pane):
+            self.open(self._opening)
+
+    def is_stop(self, key: object) -> bool:
+        """Whether a key is one that stops the robot."""
+        return isinstance(key, events.Key) and key.key in STOPS
+
+    def _all_there(self) -> None:
+        self._open_first()
+        self._on_first_frame()
+        self.call_later(self._keyboard.let_go)
+        self.call_later(self._add_plugins)
 
     async def _add_plugins(self) -> None:
         """Panes of others, looked for when the first frame has been seen, which they are not to delay."""
@@ -179,19 +202,12 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes):
         with self.batch_update():
             for pane in self.visible_panes():
                 pane.show(snapshot)
-            for bar in self.screen_stack[0].children:  # none while the screen is made or taken away
-                if isinstance(bar, StatusBar):
-                    bar.show(snapshot, self.gate.held_back)
-        for asker in self._askers():
+            if self.crew.status.is_attached:  # not while the screen is made or taken away
+                self.crew.status.show(snapshot, self.gate.held_back)
+        for asker in self.crew.askers():
             asker.look()
-        for text in self._safety_news.since(snapshot):
+        for text in self.crew.safety_news.since(snapshot):
             self.notify(text, severity="warning")
-
-    def _askers(self) -> Iterable[Asker[Any]]:
-        """Whatever has a question open."""
-        yield from (each for each in self.screen_stack[0].walk_children(Prompt) if each.is_open)
-        if isinstance(self.screen, QuestionScreen):
-            yield self.screen
 
     def entries(self) -> Sequence[PaneEntry]:
         """All panes that there are."""
@@ -254,26 +270,28 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes):
     def action_arrange(self) -> None:
         """Arrange the panes by key."""
         self.stage.go(OVERVIEW)
-        if self.stage.arranging.begin():
-            self.push_screen(ArrangeScreen(self.stage.arranging))
+        self.crew.arrange()
 
     def action_all_stop(self) -> None:
         """Hold the robot still, or let it go."""
-        if self._quitting.keep_held():
+        if self.crew.quitting.keep_held():
             self.notify("The robot stays held.")
         else:
-            self._stopping.wanted()
+            self.crew.stopping.wanted()
             self.pull()
 
     async def action_quit(self) -> None:
         """End, but ask first where values would be lost."""
-        self._quitting.wanted()
+        if self._reached:
+            self.crew.quitting.wanted()
+        else:
+            self.exit()
 
     def action_help(self) -> None:
         """Help for the pane that has the keyboard."""
         pane = self.current_pane
         if pane is not None:
-            self.push_screen(HelpScreen(pane.scopes, pane.TITLE, pane.HELP or ""))
+            self.crew.help(pane)
 
     def action_palette(self) -> None:
         """Ask for a command: an action by its words."""
@@ -285,13 +303,13 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes):
 
     def on_pane_alarms_hold(self, event: Pane.AlarmsHold) -> None:
         """Name the alarms that hold in the status bar."""
-        bar = self.screen_stack[0].query_one(StatusBar)
+        bar = self.crew.status
         bar.alarms = event.names
         bar.show(self._snapshot, self.gate.held_back)
 
     def action_acknowledge(self) -> None:
         """Count only the errors that come from now on."""
-        bar = self.screen_stack[0].query_one(StatusBar)
+        bar = self.crew.status
         bar.acknowledge(self._snapshot)
         bar.show(self._snapshot, self.gate.held_back)
 
@@ -313,10 +331,11 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes):
     def open(self, opening: Opening) -> None:
         """Show a pane with the curves and the node that are asked for; both may come later."""
         self.action_pane(opening.pane)
-        for plot in self.query(PlotPane) if opening.curves else ():
-            plot.expect(opening.curves)
-        for parameters in self.query(ParametersPane) if opening.node else ():
-            parameters.expect(opening.node)
+        for pane in self.panes():
+            if opening.curves and pane.id == "plot":
+                pane.expect(opening.curves)
+            elif opening.node and pane.id == "parameters":
+                pane.go_to(opening.node)
         for pane in self.visible_panes():
             pane.show(self._snapshot)
         for note in opening.notes:
@@ -338,15 +357,15 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes):
 
     def contain(self, error: Exception, culprits: list[DOMNode]) -> bool:
         """A fault ends the pane, or what lies over the panes, in whose code it happened."""
-        return self._running and self.faults.contain(error, culprits)
+        return self._running and self._reached and self.faults.contain(error, culprits)
 
     async def on_broken_pane_reopen(self, event: BrokenPane.Reopen) -> None:
         """Open a pane again that has ended by a fault."""
         event.stop()
         await self.faults.reopen(event.pane)
 
-    def _panes_changed(self) -> None:
-        """A pane stands where another was: lay out, and show all of them what there is."""
+    def panes_changed(self) -> None:
+        """A pane stands where another was, or none did: lay out, and show all of them what there is."""
         self._snapshot = replace(self._snapshot)
         self._keyboard.release()
         self.stage.changed()
@@ -361,7 +380,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes):
 
     def action_sleep(self) -> None:
         """Give the terminal back to the shell; the robot is held meanwhile."""
-        self._leaving.sleep()
+        self.crew.leaving.sleep()
 
     def on_text_selected(self) -> None:
         """Text was selected with the mouse: it is on the clipboard."""

@@ -78,17 +78,20 @@ class Faults:
     async def reopen(self, broken: BrokenPane) -> None:
         """Put the pane itself into its place again."""
         entry = next(each for each in self._maker.entries() if each.id == broken.id)
-        await self._replace(broken, self._made(entry))
+        await self._replace(broken, self.made(entry))
 
     async def add(self, entries: Sequence[PaneEntry]) -> None:
         """Put panes that others bring behind the own ones; one that cannot be made says why in its place."""
-        made = [self._made(entry) for entry in entries]
+        made = [self.made(entry) for entry in entries]
         for pane in made:
             pane.display = False
-        await self._app.screen_stack[0].query_one("#panes", Container).mount(*made)
-        self._changed()
+        panes = self._app.screen_stack[0].query_one("#panes", Container)
+        if panes.is_attached:  # not where a signal has ended the app meanwhile
+            await panes.mount(*made)
+            self._changed()
 
-    def _made(self, entry: PaneEntry) -> Pane:
+    def made(self, entry: PaneEntry) -> Pane:
+        """The pane, or what says why it cannot be made."""
         try:
             return self._maker.made(entry.load(), entry.id)
         except Exception as error:  # the border to the code of others, which may not even be importable

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import math
 import re
-import unicodedata
 from shlex import quote
 
 from bot_console.tui.console.model import ConsoleSnapshot, Kind, ParameterInfo, Range, Severity, Value
 from bot_console.tui.console.parameter_types import ARRAYS
+from bot_console.tui.text.shown import brief as brief
+from bot_console.tui.text.shown import counted as counted
+from bot_console.tui.text.shown import cut as cut
+from bot_console.tui.text.shown import harmless as harmless
 from bot_console.tui.text.yaml_flow import in_quotes, is_plain, items, quoted, unquoted
-from rich.cells import cell_len, set_cell_size
-
-WIDE_MARK = "\ufe0f"
-"""Asks for a symbol in colour; terminals disagree whether that makes it one cell wide or two."""
 
 LETTERS = {
     Severity.UNSET: " ",
@@ -23,11 +22,6 @@ LETTERS = {
     Severity.ERROR: "E",
     Severity.FATAL: "F",
 }
-
-
-def counted(number: int, word: str) -> str:
-    """A number and a word, in the plural where it belongs."""
-    return f"{number} {word}{'' if number == 1 else 's'}"
 
 
 def profile_text(snapshot: ConsoleSnapshot) -> str:
@@ -191,25 +185,6 @@ def _byte(text: str) -> bytes:
         raise ValueError(f"'{_short(text)}' is no byte: 0x00 .. 0xff, or 0 .. 255") from None
 
 
-def harmless(text: str) -> str:
-    """A text with control characters and bidirectional marks made visible, so that none acts on the screen."""
-    text = text.replace(WIDE_MARK, "")
-    if text.isprintable():
-        return text
-    return "".join(each if each.isprintable() or each == " " else _visible(each) for each in text)
-
-
-def _visible(letter: str) -> str:
-    code = ord(letter)
-    if letter == "\t":
-        return "    "
-    if letter == "\n":
-        return "⏎ "
-    if code < 32:
-        return chr(0x2400 + code)
-    return "␡" if code == 127 else ("" if unicodedata.category(letter) == "Cf" else "�")
-
-
 def command_of(parameter: ParameterInfo, value: Value) -> str:
     """The `ros2` command that does the same, quoted for a shell; a comment that says why where there is none."""
     if value is None or value == () or parameter.kind is Kind.BYTE_ARRAY:
@@ -219,24 +194,6 @@ def command_of(parameter: ParameterInfo, value: Value) -> str:
     # What begins with a dash is an option for ros2, unless a blank stands in it, which YAML ignores.
     text = f" {text}" if text.startswith("-") and not re.fullmatch(r"-\d+|-\d*\.\d+", text) else text
     return f"ros2 param set {quote(parameter.node)} {quote(parameter.name)} {quote(text)}"
-
-
-def cut(text: str, width: int, *, pad: bool = False) -> str:
-    """A text of at most so many cells; what is cut ends in an ellipsis. With `pad` blanks fill it up."""
-    if cell_len(text) > width:
-        text = set_cell_size(text, width - 1).rstrip() + "…" if width > 0 else ""
-    return text + " " * (width - cell_len(text)) if pad else text
-
-
-MOST_LINES, MOST_LETTERS = 6, 400
-"""What a notification says at most; the log and the panes have the rest."""
-
-
-def brief(text: str) -> str:
-    """A text for a notification: its first lines, harmless, and how many more there are."""
-    lines = [harmless(line) for line in cut(text, MOST_LETTERS).splitlines()]
-    more = len(text.splitlines()) - MOST_LINES
-    return "\n".join(lines if more <= 0 else [*lines[: MOST_LINES - 1], f"... and {counted(more + 1, 'line')} more"])
 
 
 def clock_text(stamp: int) -> str:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from bot_console.tui.commanding.desk import Desk
-from bot_console.tui.panes.pane import Pane
-from bot_console.tui.panes.plot.pane import PlotPane
-from bot_console.tui.terminal.leaving import Leaving
+from typing import TYPE_CHECKING, cast
+
 from textual.app import App
+
+if TYPE_CHECKING:
+    from bot_console.tui.crew import Crew
+    from bot_console.tui.panes.pane import Pane
 
 PLOT = "plot"
 
@@ -14,8 +16,7 @@ PLOT = "plot"
 class PaneWishes(App[None]):
     """An app whose panes may ask for what another part of it does."""
 
-    desk: Desk
-    _leaving: Leaving
+    crew: Crew
 
     def action_pane(self, name: str) -> None:
         """Show a pane."""
@@ -24,24 +25,23 @@ class PaneWishes(App[None]):
     def on_pane_plot_wanted(self, event: Pane.PlotWanted) -> None:
         """Plot a path that another pane names."""
         event.stop()
-        plot = self.query_one(f"#{PLOT}", Pane)
-        if isinstance(plot, PlotPane):
-            plot.add(event.path)
+        plot = self.query_one(f"#{PLOT}")
+        cast("Pane", plot).go_to(event.path)
         if not plot.display:
             self.action_pane(PLOT)
 
     def on_pane_line_wanted(self, event: Pane.LineWanted) -> None:
         """Run a line that a pane names."""
         event.stop()
-        self.desk.runner.run(event.line)
+        self.crew.desk.runner.run(event.line)
 
     def on_pane_pane_wanted(self, event: Pane.PaneWanted) -> None:
         """Show another pane at what one names."""
         event.stop()
         self.action_pane(event.pane)
-        self.query_one(f"#{event.pane}", Pane).go_to(event.name)
+        cast("Pane", self.query_one(f"#{event.pane}")).go_to(event.name)
 
     def on_pane_edit_wanted(self, event: Pane.EditWanted) -> None:
         """Open a line of a file in the person's editor."""
         event.stop()
-        self._leaving.edit(event.file, event.line)
+        self.crew.leaving.edit(event.file, event.line)

@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.protocol import Console
 from bot_console.tui.terminal.guard import GuardedApp
 
 if TYPE_CHECKING:
+    from bot_console.tui.console.protocol import Console
     from bot_console.tui.panes.pane import Pane
 
 

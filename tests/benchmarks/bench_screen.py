@@ -1,11 +1,14 @@
-"""What the screen costs: `python tests/benchmarks/bench_screen.py [RUNS]`, JSON out. Linux; three minutes a run.
+"""What the screen costs: `python tests/benchmarks/bench_screen.py [RUNS]`, JSON out. Linux; five minutes a run.
 
 The console with its robot, and a screen of stock Textual widgets with the same kind of data beside it, each in a
 pseudo-terminal whose link can be slow. Medians of the runs as [median, least, most]; ratios are within one run.
 
+first      the first complete frame: its bytes, seconds and processor time (ms, all threads) until then, these beside
+           an app of one word; the processes that the console has started by then are not counted
 start      seconds from the command until parameters, log and robot are on the screen; bytes sent until then
 live       bytes and frames per second, percent of a processor (the console's with robot, nodes and simulator in it)
 keys       milliseconds from a press to the changed screen; `lost` are not answered within 5 s
+drawing    percent of a processor that the thread that draws takes, in each pane, the robot under way
 stall      a terminal that reads nothing for 10 s: seconds until the screen is up to date again, bytes that came late,
            seconds that ending takes while it is stalled
 """
@@ -26,10 +29,12 @@ from typing import Any
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
 
+from bot_console.tui.pane_table import PANES
 from pty_meter import Link, Terminal
 
 CONSOLE = [sys.executable, "-m", "bot_console.tui"]
 STOCK = [sys.executable, str(Path(__file__).with_name("stock_screen.py"))]
+TRIVIAL = [sys.executable, str(Path(__file__).with_name("trivial_screen.py"))]
 WIDE, NARROW = (120, 40), (80, 24)
 LINKS = {
     "local": Link(),
@@ -43,6 +48,43 @@ CURSOR = "48;2;43;74;107"
 PRESSES = 20
 LOST = 4
 """Keys without an answer after which no more are pressed."""
+
+
+def first_frame(command: list[str]) -> dict[str, float]:
+    """What comes before the end of the first frame."""
+    terminal = Terminal(command, WIDE, shown=False)
+    terminal.run(60, lambda: terminal.frames_ended)
+    took, used = time.monotonic() - terminal.began, sum(terminal.threads().values())
+    found = {"s": took, "cpu ms": used * 1e3, "bytes": terminal.received}
+    terminal.run(1)
+    terminal.close()
+    return found
+
+
+def first_frames() -> dict[str, float]:
+    """The console's, and how it compares with the least that Textual shows."""
+    least, ours = first_frame(TRIVIAL), first_frame(CONSOLE)
+    return {
+        **ours,
+        "cpu ms, trivial": least["cpu ms"],
+        "s, console / trivial": ours["s"] / least["s"],
+        "cpu, console / trivial": ours["cpu ms"] / least["cpu ms"],
+    }
+
+
+def drawing() -> dict[str, float]:
+    """What the thread that draws takes, pane by pane; 0 is the overview."""
+    terminal = Terminal(CONSOLE, WIDE, shown=False)
+    terminal.run(8)
+    found: dict[str, float] = {}
+    for key in ("0", *(each.digit for each in PANES)):
+        terminal.press(key)
+        terminal.run(2)
+        began, before = time.monotonic(), terminal.threads()[terminal.pid]
+        terminal.run(5)
+        found[key] = 100 * (terminal.threads()[terminal.pid] - before) / (time.monotonic() - began)
+    terminal.close()
+    return found
 
 
 def started(options: list[str], size: tuple[int, int], *wanted: re.Pattern[str]) -> dict[str, float]:
@@ -119,6 +161,7 @@ def counted(terminal: Terminal) -> object:
 
 def run() -> dict[str, Any]:
     found: dict[str, Any] = {
+        "first": first_frames(),
         "start 120x40": started([], WIDE, PARAMETERS, LOG, ROBOT),
         "start 80x24, parameters": started([], NARROW, PARAMETERS),
         "start 80x24, log": started(["--pane", "logs"], NARROW, LOG),
@@ -135,6 +178,7 @@ def run() -> dict[str, Any]:
     for name, link in LINKS.items():
         found[f"keys {name}"] = keys(CONSOLE, link, "jk", cursor)
     found["keys 1 Mbit/s, 40 ms, stock"] = keys(STOCK, LINKS["1 Mbit/s, 40 ms"], "j", counted)
+    found["drawing"] = drawing()
     found["stall"] = stalled()
     return found
 

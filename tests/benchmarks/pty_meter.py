@@ -20,7 +20,7 @@ from emulator import Emulator
 
 ANSWERS = {b"\x1b[6n": b"\x1b[1;1R", b"\x1b[?2026$p": b"\x1b[?2026;2$y"}
 """Questions that the terminal answers: where is the cursor, and does it know synchronized output."""
-FRAME = b"\x1b[?2026h"
+FRAME, FRAME_END = b"\x1b[?2026h", b"\x1b[?2026l"
 CUT_OFF = re.compile(r"\x1b(\[[\d;?<>=$]*|\][^\x07\x1b]*)?$")
 UNSHOWN = re.compile(r"\x1b\][^\x07\x1b]*(\x07|\x1b\\)|\x1b\[[?<>=][\d;$]*[@-~]|[\x00-\x1a\x7f]")
 """Sequences that change no cell: titles, modes, questions; single control letters."""
@@ -55,7 +55,7 @@ class Terminal:
         self.screen = Emulator(*size) if shown else None
         self.reading = True
         self.over = False
-        self.received = self.frames = 0
+        self.received = self.frames = self.frames_ended = 0
         self.began = self._last = time.monotonic()
         self.pid, self._pty = pty.fork()
         if self.pid == 0:
@@ -85,6 +85,17 @@ class Terminal:
         with open(f"/proc/{self.pid}/stat", "rb") as file:
             fields = file.read().rpartition(b")")[2].split()
         return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    def threads(self) -> dict[int, float]:
+        """Processor time (s) of each thread that lives, to the nanosecond; the one that draws has the program's id."""
+        found: dict[int, float] = {}
+        for each in os.listdir(f"/proc/{self.pid}/task"):
+            try:
+                with open(f"/proc/{self.pid}/task/{each}/schedstat") as file:
+                    found[int(each)] = int(file.read().split()[0]) / 1e9
+            except OSError:  # it has ended meanwhile
+                continue
+        return found
 
     def close(self, grace: float = 5.0) -> float:
         """End it as a closing session does; seconds until it was gone."""
@@ -131,6 +142,7 @@ class Terminal:
         self.received += len(data)
         both = self._end + data
         self.frames += both.count(FRAME) - self._end.count(FRAME)
+        self.frames_ended += both.count(FRAME_END) - self._end.count(FRAME_END)
         for question, answer in ANSWERS.items():
             for _ in range(both.count(question) - self._end.count(question)):
                 self._typed.append((now + self._link.delay, answer))

@@ -3,23 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, cast
 
-from bot_console.tui.arrangement.arranging import Arranging
-from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.layout.arrangement import Arrangement
 from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.layout.tree import Tree, panes
 from bot_console.tui.pane_table import PANES, PaneEntry
-from bot_console.tui.panes.pane import Pane
 from bot_console.tui.screens.door import screen_for
 from bot_console.tui.widgets.key_bar import KeyBar
 from bot_console.tui.widgets.pane_area import PaneArea
-from bot_console.tui.widgets.prompt.question import Question
 from bot_console.tui.widgets.tabs import Tabs
 from textual.app import App
 from textual.geometry import Size
 from textual.widgets import Input, Static
+
+if TYPE_CHECKING:
+    from bot_console.tui.arrangement.arranging import Arranging
+    from bot_console.tui.console.model import ConsoleSnapshot
+    from bot_console.tui.panes.pane import Pane
+    from bot_console.tui.widgets.prompt.question import Question
 
 SMALLEST = (60, 20)
 """Columns and lines below which nothing is shown but a word about it."""
@@ -40,7 +43,14 @@ class Stage:
         self._panes: list[Pane] = []
         self.plugins: list[PaneEntry] = []
         """Panes that others bring."""
-        self.arranging = Arranging(self, arrangement)
+        self.arrangement = arrangement
+
+    @cached_property
+    def arranging(self) -> Arranging:
+        """What changes the arrangement; made when it is first asked for, which the first frame need not wait for."""
+        from bot_console.tui.arrangement.arranging import Arranging
+
+        return Arranging(self, self.arrangement)
 
     def entries(self) -> Sequence[PaneEntry]:
         """All panes that there are."""
@@ -48,21 +58,22 @@ class Stage:
 
     def panes(self) -> list[Pane]:
         """All panes, in the order in which they stand on the screen."""
-        self._panes = self._panes or list(self._app.screen_stack[0].query(Pane))
+        self._panes = self._panes or cast("list[Pane]", list(self._app.screen_stack[0].query("Pane")))
         return self._panes
 
     def visible(self) -> list[Pane]:
         """The panes that are drawn now, from the upper left."""
         order = panes(self._shown())
-        return sorted((each for each in self.panes() if each.display), key=lambda each: order.index(each.id or ""))
+        seen = (each for each in self.panes() if each.id in order and each.display)
+        return sorted(seen, key=lambda each: order.index(each.id or ""))
 
     def current(self) -> Pane | None:
         """The pane that has the keyboard, else the one chosen last."""
-        focused = self._app.screen_stack[0].focused
+        focused, known = self._app.screen_stack[0].focused, self.panes()
         for widget in focused.ancestors_with_self if focused else ():
-            if isinstance(widget, Pane):
-                return widget
-        return next((each for each in self.panes() if each.id == self._focused), None)
+            if widget in known:
+                return cast("Pane", widget)
+        return next((each for each in known if each.id == self._focused), None)
 
     def cells(self) -> tuple[int, int]:
         """Columns and lines of the terminal."""
@@ -89,6 +100,13 @@ class Stage:
         """Say something in a corner."""
         self._app.notify(text, markup=False)
 
+    def at_first(self, size: Size) -> list[tuple[str, str, bool]]:
+        """What is to be seen in a terminal of a size: ids and titles of panes, and which is to have the keyboard."""
+        self._extent = size
+        shown = panes(self._shown())
+        chosen = self._focused if self._focused in shown else shown[0]
+        return [(each.id, each.title, each.id == chosen) for each in PANES if each.id in shown]
+
     def resized(self, size: Size) -> None:
         """The terminal has another size."""
         self._extent = size
@@ -104,7 +122,7 @@ class Stage:
         self._wanted = name
         if name != OVERVIEW:
             self._focused = name
-        elif (tree := self.arranging.tree) is not None and self._focused not in panes(tree):
+        elif (tree := self._tree()) is not None and self._focused not in panes(tree):
             self._focused = FIRST if FIRST in panes(tree) else panes(tree)[0]
         self._app.screen_stack[0].set_focus(None)
         self.lay_out()
@@ -159,15 +177,20 @@ class Stage:
         """Show the keys of the pane that has the keyboard."""
         if len(self._app.screen_stack) == 1:
             pane = self.current()
-            self._app.query_one(KeyBar).show(pane.scopes if pane else (), self.typing(), self._primary())
+            self._app.query_one(KeyBar).show(
+                pane.scopes if pane else (self._focused,), self.typing(), self._primary(), self._extent.width
+            )
 
     def _shown(self) -> Tree:
-        tree = self.arranging.tree if self._wanted == OVERVIEW else None
+        tree = self._tree() if self._wanted == OVERVIEW else None
         return tree or (self._focused if self._wanted == OVERVIEW else self._wanted)
 
+    def _tree(self) -> Tree | None:
+        return self.arrangement.tree(*self.cells())
+
     def _tabs(self, shown: Tree) -> None:
-        together = self._wanted == OVERVIEW and self.arranging.tree is not None
-        name = self.arranging.arrangement.title
+        together = self._wanted == OVERVIEW and self._tree() is not None
+        name = self.arrangement.title
         long, short = (name.capitalize(), "All") if name == OVERVIEW else (name, name)
         marks = [("0", long, short, OVERVIEW, together)]
         marks += [

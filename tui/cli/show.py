@@ -7,16 +7,19 @@ import sys
 from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from bot_console.runtime.importer import install
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.live.own_host import Host, start_host
-from bot_console.tui.cli.system.domain import domain, is_in_range, robot_there, take_part
-from bot_console.tui.cli.system.workspaces import choose
-from bot_console.tui.console.model import Severity
+from bot_console.tui.cli.live.session import Session
+from bot_console.tui.cli.system.domain import domain, is_in_range, others_take_part, robot_there, take_part, why_alone
 from bot_console.tui.files.folders import state_folder
 from bot_console.tui.settings.settings import read_settings
+
+if TYPE_CHECKING:
+    from bot_console.tui.cli.live.connected import Connected
 
 ATTACHED = "Attached to ROS domain {}: q ends the console alone, and what was started from it."
 HOST_LOG = "launch-host.log"
@@ -28,16 +31,16 @@ def run(options: Options) -> int:
     if problem:
         print(problem, file=sys.stderr)
         return 1
-    install()
-    choose(options.workspace)
-    alone = take_part()
+    alone = why_alone()
     if alone and options.attach:
         print(alone, file=sys.stderr)
         return 1
-    if not (alone or options.attach or options.launch) and (there := robot_there()):
-        if not _attach_instead(there):
+    if not (alone or options.attach or options.launch) and others_take_part():
+        _prepare(options)
+        there = robot_there()
+        if there and not _attach_instead(there):
             return 1
-        options = replace(options, attach=True)
+        options = replace(options, attach=bool(there))
     with ExitStack() as hosts:
 
         def start() -> Host:
@@ -47,23 +50,36 @@ def run(options: Options) -> int:
 
         together = not alone and is_in_range()
         own = start() if together and not options.attach else None  # while this process imports the screen
-        return _show(options, alone, own, start)
+        return Session(options, partial(_connect, options, alone, own, start)).run()
 
 
-def _show(options: Options, alone: str, own: Host | None, start: Callable[[], Host]) -> int:
+def _prepare(options: Options) -> None:
+    """Let the ROS names mean the runtime, and this process share its domain."""
+    from bot_console.runtime.importer import install
+    from bot_console.tui.cli.system.workspaces import choose
+
+    install()
+    choose(options.workspace)
+    take_part()
+
+
+def _connect(options: Options, alone: str, own: Host | None, start: Callable[[], Host]) -> Connected:
+    """What is shown, made when the first frame has been seen: these imports take longer than all that is before it."""
+    _prepare(options)
+    from bot_console.tui.cli.live.connected import Connected
     from bot_console.tui.cli.live.launchers import attached, embedded, hosted
     from bot_console.tui.cli.live.past import HostsPast, overhear
-    from bot_console.tui.cli.live.session import Session
+    from bot_console.tui.console.model import Severity
 
     said = [(Severity.WARN, f"No second terminal reaches this system: {alone}")] if alone else []
     if options.attach:
         said.append((Severity.INFO, ATTACHED.format(domain())))
-        return Session(options, said, attached(start)).run()
+        return Connected(options, said, attached(start))
     size = read_settings().kept
     if own is None:
-        return Session(options, said, embedded, overhear(size) if size else None).run()
+        return Connected(options, said, embedded, overhear(size) if size else None)
     past = HostsPast(size.seconds) if size else None
-    return Session(options, said, hosted(own, past), past).run()
+    return Connected(options, said, hosted(own, past), past)
 
 
 def _refusal(options: Options) -> str:

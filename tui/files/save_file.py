@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import secrets
 import stat
 import time
 from collections.abc import Callable
@@ -71,7 +70,7 @@ def _save(path: Path, content: bytes, check: Callable[[bytes], None] | None) -> 
     except OSError as error:
         raise NotSaved(f"{path}: its folder cannot be made: {_reason(target, error)}") from error
     _clear_left_overs(target.parent)
-    temporary = target.parent / f"{PREFIX}{secrets.token_hex(4)}{SUFFIX}"
+    temporary = target.parent / f"{PREFIX}{os.urandom(4).hex()}{SUFFIX}"
     try:
         _write(temporary, content, 0o666 if old is None else 0o600)
         if old is not None:

@@ -34,8 +34,15 @@ class Keyboard:
         self._under_way = 0
         """Which key is being dealt with; 0 when none is."""
         self._count = 0
+        self.passes: Callable[[Typed], bool] = lambda _: True
+        """Whether a key may be dealt with yet; one that may not holds those behind it up."""
         self._overtaken = 0.0
         """When the last key was typed that waited for nothing, by the clock of Textual's events."""
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether what a key brings about is still under way."""
+        return bool(self._under_way)
 
     def overtake(self, event: events.Key) -> None:
         """Note a key that does not wait for those before it."""
@@ -54,7 +61,7 @@ class Keyboard:
             self._be_patient()
 
     async def _next(self) -> None:
-        while self._waiting and not self._under_way:
+        while self._waiting and not self._under_way and self.passes(self._waiting[0]):
             event = self._waiting.popleft()
             self._count += 1
             self._under_way = number = self._count
@@ -63,6 +70,15 @@ class Keyboard:
             self._follow(number, [*target.ancestors_with_self] * PASSES)
             if self._waiting:
                 self._be_patient()
+
+    async def hold(self, passes: Callable[[Typed], bool]) -> None:
+        """Deal only with keys that may pass, as long as they are the next ones."""
+        self.passes = passes
+        await self._next()
+
+    async def let_go(self) -> None:
+        """Deal with all keys that were held, and hold none any more."""
+        await self.hold(lambda _: True)
 
     def release(self) -> None:
         """Go on with the next key: what the last one was with has ended."""

@@ -205,6 +205,9 @@ class Pane(Container):
     def go_to(self, name: str) -> None:
         """Go to a node or a topic, as soon as it is there; the pane has just been shown."""
 
+    def expect(self, wanted: Sequence[str]) -> None:
+        """Show topics or paths instead of what the pane shows by itself, each as soon as it is there."""
+
     def let_go(self) -> None:
         """Stop whatever must not go on without the pane; called when it ends by a fault."""
 

@@ -1,28 +1,37 @@
-"""The door for questions that need more room than a line: which screen asks which."""
+"""The door for questions that need more room than a line: which screen asks which, imported when it first does."""
 
 from __future__ import annotations
 
-from typing import Any
+import importlib
+from typing import TYPE_CHECKING, Any
 
-from bot_console.tui.screens.confirm import ConfirmScreen
-from bot_console.tui.screens.elements import ElementsScreen
-from bot_console.tui.screens.fill import FillScreen
-from bot_console.tui.screens.launch_arguments import ArgumentsScreen
-from bot_console.tui.screens.picker import PickerScreen
-from bot_console.tui.screens.question import QuestionScreen
-from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Elements, Fill, Form, Question
+if TYPE_CHECKING:
+    from bot_console.tui.screens.question import QuestionScreen
+    from bot_console.tui.widgets.prompt.question import Question
+
+SCREENS = {
+    "Confirmation": ("confirm", "ConfirmScreen"),
+    "Choice": ("picker", "PickerScreen"),
+    "Elements": ("elements", "ElementsScreen"),
+    "Form": ("launch_arguments", "ArgumentsScreen"),
+    "Fill": ("fill", "FillScreen"),
+}
+"""The module in this folder and the class of the screen for each kind of question, by the name of its class."""
 
 
 def screen_for(question: Question[Any]) -> QuestionScreen[Any]:
     """The screen that asks a question; raises `TypeError` for a kind that has none."""
-    if isinstance(question, Confirmation):
-        return ConfirmScreen(question)
-    if isinstance(question, Choice):
-        return PickerScreen(question)
-    if isinstance(question, Elements):
-        return ElementsScreen(question)
-    if isinstance(question, Form):
-        return ArgumentsScreen(question)
-    if isinstance(question, Fill):
-        return FillScreen(question)
+    for kind in type(question).__mro__:
+        if kind.__name__ in SCREENS:
+            return _screen(*SCREENS[kind.__name__])(question)
     raise TypeError(f"no screen asks a {type(question).__name__}")
+
+
+def prepare() -> None:
+    """Import all of them, so that no first question has to wait for that."""
+    for module, name in SCREENS.values():
+        _screen(module, name)
+
+
+def _screen(module: str, name: str) -> type[QuestionScreen[Any]]:
+    return getattr(importlib.import_module(f"bot_console.tui.screens.{module}"), name)

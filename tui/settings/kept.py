@@ -5,10 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from zlib import crc32
 
-import yaml
 from bot_console.tui.files.folders import config_folder, state_folder
 from bot_console.tui.files.save_file import NotSaved, save_file
-from bot_console.tui.text.yaml_faults import UNREADABLE
+from bot_console.tui.settings.plain_file import NotPlainData, read, written
 
 LARGEST = 1_000_000
 """Bytes of a file that is read; what is larger was not written here."""
@@ -32,13 +31,13 @@ class FileKept:
         try:
             with self._path(name).open("rb") as file:
                 content = file.read(LARGEST + 1)
-            return None if len(content) > LARGEST else yaml.load(content, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-        except (OSError, *UNREADABLE):
+            return None if len(content) > LARGEST else read(content)
+        except (OSError, NotPlainData):
             return None
 
     def put(self, name: str, data: object) -> str:
         """Write the file."""
-        text = HEADS.get(name, "") + yaml.safe_dump(data, sort_keys=False, allow_unicode=True)
+        text = HEADS.get(name, "") + written(data, allow_unicode=True)
         try:
             save_file(self._path(name), text)
         except NotSaved as error:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import contextlib
+import json
 from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any, cast
 
-import yaml
 from bot_console.tui.files.folders import config_folder, state_folder
 from bot_console.tui.files.save_file import NotSaved, save_file
 from bot_console.tui.layout.form import NoLayout, data_of, tree_of
@@ -15,7 +15,7 @@ from bot_console.tui.layout.named import OVERVIEW, Layout
 from bot_console.tui.layout.perspective import perspective_tree
 from bot_console.tui.layout.tree import Tree
 from bot_console.tui.opening import RQT_PANES
-from bot_console.tui.text.yaml_faults import UNREADABLE, fault_of
+from bot_console.tui.settings.plain_file import NotPlainData, read, written
 
 HEAD = """\
 # A layout of bot-console. `beside` and `below` hold panes or further splits; `share` says how they share the room.
@@ -47,7 +47,7 @@ class FileLayouts:
     def save(self, name: str, tree: Tree) -> str:
         """Keep a tree under a name and give the file; raises `NotSaved`."""
         path = _folder() / f"{name}.yaml"
-        text = yaml.safe_dump({"layout": data_of(tree)}, sort_keys=False, default_flow_style=None)
+        text = written({"layout": data_of(tree)}, flow=None)
         save_file(path, HEAD.format(panes=", ".join(sorted(self._panes))) + text)
         return str(path)
 
@@ -57,7 +57,7 @@ class FileLayouts:
         if tree is not None:
             data["layout"] = data_of(tree)
         with contextlib.suppress(NotSaved):
-            save_file(_last(), yaml.safe_dump(data, sort_keys=False, default_flow_style=None))
+            save_file(_last(), json.dumps(data))
 
     def last(self) -> tuple[str, Tree | None]:
         """The layout that was on the screen at the end of the last run, and its tree where it was changed."""
@@ -98,9 +98,9 @@ def _data(path: Path) -> Mapping[str, Any]:
     if len(content) > LARGEST:
         raise NoLayout("is too large for a layout")
     try:
-        data = yaml.load(content, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-    except UNREADABLE as error:
-        raise NoLayout(fault_of(error)) from None
+        data = read(content)
+    except NotPlainData as error:
+        raise NoLayout(str(error)) from None
     if not isinstance(data, Mapping):
         raise NoLayout("a layout file has a line `layout:` with panes below it")
     return cast("Mapping[str, Any]", data)

@@ -7,12 +7,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, cast
 
-import yaml
 from bot_console.tui.console.recording import RingSize
 from bot_console.tui.files.folders import config_folder
 from bot_console.tui.keys.remapping import wrong_keys
 from bot_console.tui.settings.names import GLYPHS, THEME_NAMES
-from bot_console.tui.text.yaml_faults import UNREADABLE, fault_of
+from bot_console.tui.settings.plain_file import NotPlainData, read
 
 LARGEST = 100_000
 """Bytes of a settings file; what is larger is none."""
@@ -82,9 +81,9 @@ def read_settings(path: Path | None = None) -> Settings:
     if len(content) > LARGEST:
         return Settings(problems=(f"{path}: larger than {LARGEST} bytes; no settings file is",))
     try:
-        data = yaml.load(content, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-    except UNREADABLE as error:
-        return Settings(problems=(f"{path}: {fault_of(error)}",))
+        data = read(content)
+    except NotPlainData as error:
+        return Settings(problems=(f"{path}: {error}",))
     return _settings(data, str(path))
 
 

@@ -6,11 +6,13 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from bot_console.tui.console.protocol import Console
 from bot_console.tui.terminal.editor import editing
 from textual.app import App, SuspendNotSupported
+
+if TYPE_CHECKING:
+    from bot_console.tui.console.protocol import Console
 
 PATIENCE = 1.0
 """Seconds that the robot's stop has to be acknowledged before the terminal is left anyway."""

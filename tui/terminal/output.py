@@ -9,7 +9,6 @@ one never blocks the event loop.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from importlib.metadata import version
 from typing import Any, cast
 
 from bot_console.tui.terminal.clipboard import osc52, within
@@ -17,6 +16,7 @@ from bot_console.tui.terminal.closing import let_go
 from bot_console.tui.terminal.difference import ShownScreen
 from bot_console.tui.terminal.gate import AnswerGate
 from bot_console.tui.terminal.gone import LastingFile
+from bot_console.tui.terminal.installed_version import installed_version
 from bot_console.tui.terminal.leaving import takes_up_again
 from rich.color import ColorSystem
 from textual import events
@@ -32,7 +32,7 @@ SYNC_BEGIN, SYNC_END = "\x1b[?2026h", "\x1b[?2026l"
 BUSY = 0.03
 """Seconds after which is looked again whether earlier output has left."""
 
-SUPPORTED = version("textual").startswith("8.2.")
+SUPPORTED = installed_version("textual").startswith("8.2.")
 """Follows the bounds in `pyproject.toml`; who overrules those gets Textual's own drawing, not a broken screen."""
 
 
@@ -114,6 +114,8 @@ class SparingApp(App[None]):
         driver: Any = super()._build_driver(*args, **kwargs)
         # Drivers without a terminal, as for tests, have none.
         if hasattr(driver, "_file"):
+            # Else Textual draws for 80x24 until it has been told the size, which is a first frame to throw away.
+            driver._size = driver._size or driver._get_terminal_size()
             driver._file = LastingFile(driver._file)
         if hasattr(driver, "_key_thread"):
             takes_up_again(driver)

@@ -30,12 +30,15 @@ class KeyBar(Static):
         super().__init__("", markup=False)
         self._shown: object = None
         self._keys: list[Shown] = []
-        self._asked: tuple[Sequence[str], bool, str] | None = None
+        self._asked: tuple[Sequence[str], bool, str, int] | None = None
 
-    def show(self, scopes: Sequence[str], typing: bool, colour: str) -> None:
-        """Show the keys of scopes of the key table; while typing, those of a text field."""
-        self._asked = (scopes, typing, colour)
-        width = self.size.width - 2
+    def show(self, scopes: Sequence[str], typing: bool, colour: str, columns: int) -> None:
+        """Show the keys of scopes of the key table; while typing, those of a text field.
+
+        `columns` is how wide the bar is where it has not been laid out yet.
+        """
+        self._asked = (scopes, typing, colour, columns)
+        width = (self.size.width or columns) - 2
         now = (scopes, typing, colour, width)
         if now == self._shown or width < 1:
             return

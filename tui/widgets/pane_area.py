@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from bot_console.tui.layout.placing import Border, Box, borders, boxes
 from bot_console.tui.layout.tree import Split, Tree, change_at, move_border
+from bot_console.tui.widgets.coming_pane import ComingPane
 from textual.containers import Container
 from textual.events import MouseDown, MouseMove, MouseUp
 from textual.geometry import NULL_OFFSET, NULL_SPACING, Region, Size
@@ -23,10 +24,11 @@ class TreeLayout(Layout):
     def arrange(self, parent: Widget, children: list[Widget], size: Size, greedy: bool = True) -> ArrangeResult:
         """A place for each child that the tree has."""
         places = boxes(self.tree, Box(0, 0, size.width, size.height))
+        named = [(child.stands_for if isinstance(child, ComingPane) else child.id, child) for child in children]
         return [
-            WidgetPlacement(Region(*places[child.id]), NULL_OFFSET, NULL_SPACING, child)
-            for child in children
-            if child.id in places
+            WidgetPlacement(Region(*places[name]), NULL_OFFSET, NULL_SPACING, child)
+            for name, child in named
+            if name in places
         ]
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TypeAlias
 
-from bot_console.tui.format import harmless
+from bot_console.tui.text.shown import harmless
 from rich.style import Style
 from rich.text import Text
 from textual.events import Click

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.format import harmless
+from bot_console.tui.text.shown import harmless
 from rich.text import Text
 from textual.widgets import Static
 

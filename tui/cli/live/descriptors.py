@@ -14,7 +14,6 @@ import threading
 from collections.abc import Callable, Generator, Iterator
 from typing import IO
 
-from bot_console.tui.console.model import Severity
 from bot_console.tui.terminal.guarding import guarded
 
 Printed = Callable[[int, str, str], None]
@@ -97,6 +96,8 @@ def _captured(number: int, name: str, printed: Printed) -> Generator[None]:
 
 def _tell(descriptor: int, printed: Printed) -> None:
     for line in _lines(descriptor):
+        from bot_console.tui.console.model import Severity  # with the first line, which most runs never have
+
         printed(Severity.INFO, LABEL, line)
 
 

@@ -19,22 +19,30 @@ CONNECT_VARIABLE = "BOT_CONSOLE_CONNECT"
 NO_SOCKETS = "programs cannot meet on this system yet, which has no Unix sockets: this one is alone"
 
 
-def take_part() -> str:
-    """Let the contexts that are initialised from now on share the graph of their domain; never in a stepped run.
-
-    Gives why that cannot be, in one line; empty where it can.
-    """
-    global _taking_part
+def why_alone() -> str:
+    """Why this program cannot meet others in its domain, in one line; empty where it can."""
     if os.name == "nt":
         return NO_SOCKETS
-    from bot_console.runtime.child_range import let_children_meet
-    from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
     from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
 
     try:
         domain_folder(domain())
     except FolderRefusedError as refused:
         return str(refused)
+    return ""
+
+
+def take_part() -> str:
+    """Let the contexts that are initialised from now on share the graph of their domain; never in a stepped run.
+
+    Gives why that cannot be, in one line; empty where it can.
+    """
+    global _taking_part
+    if alone := why_alone():
+        return alone
+    from bot_console.runtime.child_range import let_children_meet
+    from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
+
     share_domains()
     let_children_meet(True)
     _taking_part = True
@@ -53,9 +61,9 @@ def run_apart() -> None:
 
 def is_in_range() -> bool:
     """Whether the environment lets programs of this machine find each other, as it does unless asked not to."""
-    from bot_console.runtime.rmw.zenoh.domain import domain_bus
+    from bot_console.runtime.rmw.zenoh.domain.discovery_range import is_in_range
 
-    return domain_bus.is_in_range()
+    return is_in_range()
 
 
 def others_take_part() -> bool:

@@ -10,7 +10,8 @@ from bot_console.runtime.process.current import MAIN
 from bot_console.runtime.process.notices import notify
 from bot_console.runtime.process.watch.busy_watch import busy_watch
 from bot_console.runtime.process.watch.lock_watch import LockWatch
-from bot_console.runtime.rmw.zenoh.domain.domain_bus import is_in_range, share_domains
+from bot_console.runtime.rmw.zenoh.domain.discovery_range import is_in_range
+from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
 
 SHARE = f"{share_domains.__module__}:{share_domains.__name__}"
 

@@ -86,6 +86,9 @@ class RosConsole(ConsoleRelay):
         self._foreign = foreign
         self._past = past
         self._zeroed = False
+        self._linking = threading.RLock()  # a signal that ends the console stops too, amid a stop
+        self._early_stop: tuple[bool, str] | None = None
+        """The newest stop, or its release, that was asked for before there was a link."""
         self._problem = ""
         self._ready = threading.Event()
         self._connected = False
@@ -134,7 +137,10 @@ class RosConsole(ConsoleRelay):
                 self._now = NoConsole(CLOSED, linked)
                 node.close(CLOSED)
                 return
-            self._now = linked
+            with self._linking:
+                self._now = linked
+                if self._early_stop is not None:
+                    linked.all_stop(*self._early_stop)
             self._ready.set()
             node.spin()
         except Exception as error:  # the border of the thread: the panes show what ended it
@@ -198,6 +204,12 @@ class RosConsole(ConsoleRelay):
             # What waits in a link that is cut comes late: a zero is to be the last of it.
             self._zeroed = True
             super().drive(0.0, 0.0)
+
+    def all_stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
+        """Stop the robot, or take that back; what is asked before there is a link is done as soon as there is one."""
+        with self._linking:
+            self._early_stop = (hold, reason)
+            super().all_stop(hold, reason)
 
     def _zero_again(self) -> None:
         """After a long silence what had waited in the link is lost, the zero among it: it is said once more."""

@@ -139,12 +139,8 @@ class ParametersPane(EditPane):
         self._describe()
 
     def go_to(self, name: str) -> None:
-        """Go to a node."""
-        self.expect(name)
-
-    def expect(self, node: str) -> None:
         """Go to a node, as soon as it is there; how the tree was left in the last run is no hindrance."""
-        self._expected = node
+        self._expected = name
         if not self._chosen:
             self._left, self.words, self._view = None, "", View()
         self._arrange()

@@ -86,6 +86,10 @@ class PlotPane(PlotQuestions):
             if path is not None and path not in self.paths:
                 self._timeline.add(path)
 
+    def go_to(self, name: str) -> None:
+        """Plot a path."""
+        self.add(name)
+
     def expect(self, wanted: Sequence[str]) -> None:
         """Plot these topics or paths in place of the defaults, each as soon as it is there."""
         if not self._touched:

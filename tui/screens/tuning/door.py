@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from bot_console.tui.panes.pane import Pane
-from bot_console.tui.screens.tuning.progress import TuningScreen
-from bot_console.tui.tuning.tuner import Tuner
+from typing import TYPE_CHECKING
+
 from textual.app import App
+
+if TYPE_CHECKING:
+    from bot_console.tui.panes.pane import Pane
+    from bot_console.tui.tuning.tuner import Tuner
 
 NO_TUNER = "Nothing is tuned here: this console only looks on, or was given no simulator."
 
@@ -24,4 +27,6 @@ class TuningDoor(App[None]):
         if tuner is None or problem:
             self.notify(problem, severity="warning", markup=False)
         else:
+            from bot_console.tui.screens.tuning.progress import TuningScreen
+
             self.push_screen(TuningScreen(event.question, tuner.begin(event.question), event.take))

@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 import atexit
-import os
 import threading
 from typing import TYPE_CHECKING
 
 from bot_console.runtime.rmw.bus import Bus
 from bot_console.runtime.rmw.local import local_bus
 from bot_console.runtime.rmw.middleware import choose_middleware, is_chosen
+from bot_console.runtime.rmw.zenoh.domain.discovery_range import is_in_range
 
 if TYPE_CHECKING:
     from bot_console.runtime.rmw.zenoh.bus import ZenohBus
-
-RANGE_VARIABLE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
 
 _buses: dict[int, ZenohBus] = {}
 _lock = threading.Lock()
@@ -37,11 +35,6 @@ def shared_bus(domain: int) -> Bus:
             session.watch()
             _buses[domain] = ZenohBus(session, local_bus(domain))
         return _buses[domain]
-
-
-def is_in_range() -> bool:
-    """Whether the environment lets the processes of this machine find each other."""
-    return os.environ.get(RANGE_VARIABLE, "").upper() != "OFF"
 
 
 def share_domains() -> None:

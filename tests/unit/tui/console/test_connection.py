@@ -83,3 +83,19 @@ def test_closing_before_it_has_connected_leaves_no_thread(console):
     console.start()
     console._thread.join(PATIENCE)
     assert not console._thread.is_alive()
+
+
+def test_a_stop_that_is_asked_for_before_it_has_begun_is_sent_as_soon_as_it_is_linked(console):
+    console.all_stop(True, "at the first key")
+    console.start()
+    assert console.wait_ready(PATIENCE)
+    assert console.snapshot().drive.stopped_here
+    assert console.snapshot().drive.stop_reason == "at the first key"
+
+
+def test_a_stop_that_was_taken_back_before_it_has_begun_is_not_sent(console):
+    console.all_stop(True)
+    console.all_stop(False)
+    console.start()
+    assert console.wait_ready(PATIENCE)
+    assert not console.snapshot().drive.stopped

@@ -1,0 +1,17 @@
+"""The least that Textual shows: one word, and it ends when it is told to."""
+
+from __future__ import annotations
+
+from textual.app import App, ComposeResult
+from textual.widgets import Static
+
+
+class TrivialScreen(App[None]):
+    """One widget."""
+
+    def compose(self) -> ComposeResult:
+        yield Static("hello")
+
+
+if __name__ == "__main__":
+    TrivialScreen().run()

@@ -1,0 +1,139 @@
+"""A console that shows its frame first: what is typed before the panes are there, and what stands there in the end."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable
+
+import pytest
+from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.arrival import ORDERED, System
+from bot_console.tui.pane_table import PaneEntry
+from bot_console.tui.panes.broken import BrokenPane
+from bot_console.tui.panes.plot.pane import PlotPane
+from bot_console.tui.screens.picker import PickerScreen
+from bot_console.tui.widgets.coming_pane import ComingPane
+from bot_console.tui.widgets.command_line import CommandField
+from fakes.command_line import FakeCommandLine
+from piloting import Session, run
+from rest import at_rest
+from samples import live
+from textual import events
+from textual.widgets import Input
+
+SIZE = (120, 40)
+
+
+def arrive(typed: str, play: Callable[[Session], Awaitable[None]]) -> None:
+    """Run an app that is given its system late, with letters typed at the very moment when it is asked for."""
+
+    async def main() -> None:
+        console, launcher = live()
+
+        def reach() -> System:
+            assert app.query(ComingPane) and not app.query("Pane")
+            for letter in typed:
+                app.post_message(events.Key({"!": "exclamation_mark", ":": "colon"}.get(letter, letter), letter))
+            return System(console, launcher, FakeCommandLine(console.asked))
+
+        app = BotConsoleApp(reach=reach, refresh_hz=0)
+        with at_rest():
+            async with app.run_test(size=SIZE, notifications=True) as pilot:
+                while not app.current_pane or not app.query("#images"):
+                    await pilot.pause()
+                session = Session(app, pilot, console, launcher)
+                await session.settle()
+                await play(session)
+
+    asyncio.run(main())
+
+
+def test_in_the_end_all_looks_as_if_it_had_been_there_at_once() -> None:
+    seen: list[str] = []
+
+    async def look(session: Session) -> None:
+        assert [each.id for each in session.app.panes()] == [each.id for each in ORDERED]
+        assert not session.app.query(ComingPane) and not session.app.query("#coming-status")
+        seen.append(session.text())
+        await session.press("tab", "7")
+        seen.append(session.text())
+
+    arrive("", look)
+    run(live(), look, SIZE)
+    assert seen[:2] == seen[2:]
+
+
+def test_the_first_frame_has_the_places_of_the_panes_the_tabs_and_the_keys(monkeypatch: pytest.MonkeyPatch) -> None:
+    async def never(app: BotConsoleApp) -> None:
+        return
+
+    monkeypatch.setattr(BotConsoleApp, "bring_next", never)
+
+    async def main() -> None:
+        app = BotConsoleApp(reach=lambda: System(live()[0]), refresh_hz=0)
+        with at_rest():
+            async with app.run_test(size=SIZE) as pilot:
+                await pilot.pause()
+                text = "\n".join(strip.text for strip in app.screen._compositor.render_strips())
+                assert all(word in text for word in ("0 All", "Parameters", "World", "Plot", "Logs", "! Stop"))
+                await pilot.press("exclamation_mark", "q", "ctrl+z")
+                assert app.is_running and app._keyboard._waiting, "what needs a console waits for it"
+                await pilot.press("ctrl+c")
+                assert not app.screen.is_attached, "whoever wants to quit does not wait"
+
+    asyncio.run(main())
+
+
+def test_keys_typed_before_the_panes_are_there_act_on_them_in_turn() -> None:
+    async def play(session: Session) -> None:
+        field = session.pane(CommandField)
+        assert session.app.current_pane is not None and session.app.current_pane.id == "logs"
+        assert field.is_open and field.query_one(Input).value == "ros!"
+        assert ("all_stop", True) not in session.console.asked
+
+    arrive("2:ros!", play)
+
+
+def test_keys_for_a_pane_wait_until_it_is_there() -> None:
+    async def play(session: Session) -> None:
+        assert session.pane(PlotPane).display
+        assert isinstance(session.app.screen, PickerScreen)
+        assert session.app.screen.query_one(Input).value == "a!b"
+        assert ("all_stop", True) not in session.console.asked
+
+    arrive("4aa!b", play)
+
+
+def test_a_stop_typed_first_waits_for_no_pane(monkeypatch: pytest.MonkeyPatch) -> None:
+    panes_then: list[int] = []
+    act = BotConsoleApp.action_all_stop
+
+    def stop(app: BotConsoleApp) -> None:
+        panes_then.append(len(app.query("Pane")))
+        act(app)
+
+    monkeypatch.setattr(BotConsoleApp, "action_all_stop", stop)
+
+    async def play(session: Session) -> None:
+        assert panes_then == [0] and ("all_stop", True) in session.console.asked
+        assert session.app.current_pane is not None and session.app.current_pane.id == "launch"
+
+    arrive("!8", play)
+
+
+def test_a_pane_that_cannot_be_made_takes_no_other_with_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    load = PaneEntry.load
+
+    def fails(entry: PaneEntry) -> object:
+        if entry.id in ("world", "history"):
+            raise ImportError("no such thing")
+        return load(entry)
+
+    monkeypatch.setattr(PaneEntry, "load", fails)
+
+    async def play(session: Session) -> None:
+        assert {each.id for each in session.app.query(BrokenPane)} == {"world", "history"}
+        assert "no such thing" in session.text()
+        assert len(session.app.panes()) == len(ORDERED)
+
+    arrive("", play)

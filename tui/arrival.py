@@ -1,0 +1,134 @@
+"""A start that shows where everything will be, and then brings it: the console, the panes that are seen, the others."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Awaitable, Callable
+from functools import partial
+from typing import TYPE_CHECKING, NamedTuple
+
+from bot_console.tui.arrangement.stage import Stage
+from bot_console.tui.pane_table import PANES, PaneEntry
+from bot_console.tui.screens.door import prepare
+from bot_console.tui.widgets.coming_pane import ComingPane
+from bot_console.tui.widgets.key_bar import KeyBar
+from bot_console.tui.widgets.pane_area import PaneArea
+from textual.app import App
+from textual.widget import MountError
+
+if TYPE_CHECKING:
+    from bot_console.tui.console.protocol import CommandLine, Console, Launcher
+    from bot_console.tui.crew import Crew
+    from bot_console.tui.keys.keyboard import Keyboard
+    from bot_console.tui.panes.pane import Pane
+
+COMING_STATUS = "coming-status"
+"""The id of what stands in the place of the status bar."""
+SOON = 0.005
+"""Seconds after which is looked again whether a key has been dealt with."""
+ORDERED = sorted(PANES, key=lambda entry: entry.place)
+"""The panes as they stand on the screen, from the upper left."""
+
+
+class System(NamedTuple):
+    """What is shown, and whom processes and lines are asked of."""
+
+    console: Console
+    launcher: Launcher | None = None
+    command_line: CommandLine | None = None
+
+
+class ArrivingApp(App[None]):
+    """An app whose first frame is seen before there is a console.
+
+    It brings one part after the other, and in between deals with what it was sent: with a stop before all else.
+    """
+
+    crew: Crew
+    stage: Stage
+    _keyboard: Keyboard
+
+    def take_up(self, system: System) -> None:
+        """Act on a system from now on."""
+        raise NotImplementedError
+
+    def begin_to_pull(self) -> None:
+        """Take snapshots from now on."""
+        raise NotImplementedError
+
+    def panes_changed(self) -> None:
+        """Lay out, and show all panes what there is."""
+        raise NotImplementedError
+
+    def is_stop(self, key: object) -> bool:
+        """Whether a key is one that stops the robot."""
+        raise NotImplementedError
+
+    def arrive(self, reach: Callable[[], System], there: Callable[[], None]) -> None:
+        """Bring everything; `reach` gives the system, `there` is called when all of it stands."""
+        self._there = there
+        self._steps: deque[Callable[[], Awaitable[None]]] = deque([partial(self._bring_system, reach)])
+        self.call_after_refresh(self.bring_next)
+
+    async def bring_next(self) -> None:
+        """Bring the next part, and go on as soon as the app has seen to its messages."""
+        if not self.is_running:
+            return
+        if self._keyboard.is_busy:
+            self.set_timer(SOON, self.bring_next)
+            return
+        try:
+            await self._steps.popleft()()
+        except MountError:
+            if self.screen_stack[0].is_attached:
+                raise
+            return  # a signal has ended the app meanwhile
+        if self._steps:
+            self.call_later(self.bring_next)
+        else:
+            self._there()
+
+    async def _bring_system(self, reach: Callable[[], System]) -> None:
+        self.take_up(reach())
+        screen = self.screen_stack[0]
+        with self.batch_update():
+            await screen.query_one(f"#{COMING_STATUS}").remove()
+            await screen.mount(*self.crew.widgets(), before=screen.query_one(KeyBar))
+        self.begin_to_pull()
+        await self._keyboard.hold(self.is_stop)
+        places = {each for each, _, _ in self.stage.at_first(self.size)}
+        seen = [each for each in ORDERED if each.id in places]
+        self._steps += [partial(self._import_pane, each) for each in seen]
+        self._steps.append(partial(self._bring_seen, seen))
+        self._steps += [partial(self._bring_hidden, each) for each in ORDERED if each not in seen]
+        self._steps.append(self._complete)
+
+    async def _import_pane(self, entry: PaneEntry) -> None:
+        """Import what a pane is made of; what is wrong with it is told where the pane is made."""
+        try:
+            entry.load()
+        except Exception:  # the border to whatever a pane imports
+            return
+
+    async def _bring_seen(self, entries: list[PaneEntry]) -> None:
+        area = self.screen_stack[0].query_one(PaneArea)
+        await area.mount(*map(self._made, entries))
+        coming = area.query(ComingPane)
+        for each in coming:  # all in one frame: else there is one without any panes in between
+            each.display = False
+        self.panes_changed()
+        await coming.remove()
+
+    async def _bring_hidden(self, entry: PaneEntry) -> None:
+        area = self.screen_stack[0].query_one(PaneArea)
+        behind = {each.id for each in ORDERED[ORDERED.index(entry) + 1 :]}
+        await area.mount(self._made(entry), before=next((each for each in area.children if each.id in behind), None))
+
+    async def _complete(self) -> None:
+        self.panes_changed()
+        prepare()
+
+    def _made(self, entry: PaneEntry) -> Pane:
+        pane = self.crew.faults.made(entry)
+        pane.display = False  # until it is laid out, and shown the newest
+        return pane

@@ -1,0 +1,147 @@
+"""What a console shows, and what is launched for it: imported when the first frame has been seen."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+from bot_console.runtime.process import NodeProcess
+from bot_console.runtime.process.virtual.install import reinstall_stdio
+from bot_console.tui.arrival import System
+from bot_console.tui.cli.arguments import Options
+from bot_console.tui.cli.live import robot_beside
+from bot_console.tui.cli.live.for_panes import for_panes
+from bot_console.tui.cli.live.launchers import ConsoleLauncher, embedded
+from bot_console.tui.cli.live.process_news import tell_news
+from bot_console.tui.cli.live.ros2_command_line import Ros2CommandLine
+from bot_console.tui.cli.system.plugins import find_plugins
+from bot_console.tui.cli.system.type_source import DomainTypes
+from bot_console.tui.cli.system.workspaces import SYSTEM_LAUNCH, config_folders
+from bot_console.tui.cli.tune.tuner import LocalTuner
+from bot_console.tui.console.connection.ros_console import RosConsole
+from bot_console.tui.console.model import LaunchInfo, Severity
+from bot_console.tui.console.recording import Keeper
+from bot_console.tui.files.folders import config_folder, state_folder
+from bot_console.tui.pane_table import PaneEntry
+
+ROOT = Path(__file__).resolve().parents[3]
+LAST_WORD = 0.2
+"""Seconds that the final zero Twist has to reach the robot before anything is shut down."""
+READY = 20.0
+HISTORY = "history.sqlite"
+"""Holds the changes of parameters of all runs, in the user's folder for state."""
+
+
+class Connected:
+    """The console, the launcher, and the system that it starts."""
+
+    def __init__(
+        self,
+        options: Options,
+        said: Sequence[tuple[Severity, str]] = (),
+        system: Callable[[RosConsole], ConsoleLauncher] = embedded,
+        past: Keeper | None = None,
+    ) -> None:
+        """`said` are lines for the log that were known before there was one; `system` makes the launcher.
+
+        In this process unless it says otherwise. `past` keeps the last minutes.
+        """
+        self._options = options
+        self._said = said
+        self._looking: NodeProcess | None = None
+        self._forget_notices: Callable[[], None] = lambda: None
+        self.console = RosConsole(
+            launch_info=self._launch_info,
+            profile_folders=[ROOT / "profiles", *options.profile_folders],
+            active_profile="" if options.launch or options.attach else options.profile,
+            graph_events=graph_events,
+            frozen=frozen_nodes,
+            history=state_folder() / HISTORY,
+            own_profiles=config_folder() / "profiles",
+            workspace_profiles=config_folders,
+            fetch=_fetched,
+            past=past,
+            types=DomainTypes(),
+        )
+        self.launcher = system(self.console)
+        self._local_tuner = LocalTuner()
+        self.tuner = None if options.read_only else self._local_tuner
+
+    def _launch_info(self) -> LaunchInfo:
+        return self.launcher.info()
+
+    def begin(self) -> System:
+        """Connect, and start the system as soon as that is done; gives what the panes are to be given."""
+        reinstall_stdio()
+        self.console.start()
+        threading.Thread(target=self._launch, name="start", daemon=True).start()
+        lines = Ros2CommandLine(self.launcher)
+        return System(*for_panes(self.console, self.launcher, lines, read_only=self._options.read_only))
+
+    def plugins(self) -> Sequence[PaneEntry]:
+        """Panes that others bring."""
+        return find_plugins()
+
+    def _launch(self) -> None:
+        """Start the system as soon as the console listens, so that not even its first log line is lost."""
+        if not self.console.wait_ready(READY):
+            return
+        self._forget_notices = tell_news(self.console.printed, self.console.learn)
+        options = self._options
+        for severity, line in self._said:
+            self.console.printed(severity, "bot-console", line)
+        if options.attach:
+            return
+        if options.launch:
+            self.launcher.launch(options.launch, options.launch_arguments)
+            system = robot_beside.System(self._processes, self._tell, self._start_robot)
+            self._looking = robot_beside.begin(options, system)
+            return
+        arguments = {"profile": options.profile, **robot_beside.arguments(options), **options.launch_arguments}
+        self.launcher.launch(SYSTEM_LAUNCH, arguments)
+
+    def _tell(self, text: str) -> None:
+        self.console.printed(Severity.INFO, "bot-console", text)
+
+    def _start_robot(self, arguments: Mapping[str, str]) -> None:
+        self.launcher.launch(robot_beside.LAUNCH_FILE, arguments)
+
+    def _processes(self) -> tuple[int, int]:
+        return robot_beside.processes(self.launcher.info())
+
+    def close(self) -> None:
+        """Zero velocity, then end the launched processes, then leave the graph.
+
+        A robot that was attached to goes on, but for one that this console steers: leaving the graph locks that.
+        """
+        if not self._options.attach:
+            self.console.all_stop(True, "bot-console was quit")
+            threading.Event().wait(LAST_WORD)
+        if self._looking is not None:
+            self._looking.stop()
+        self.launcher.close()
+        self._local_tuner.close()
+        self._forget_notices()
+        self.console.close()  # whose own zero is the last word to a robot that outlives this program
+
+
+def graph_events(domain: int, changed: Callable[[tuple[str, str]], None]) -> Callable[[], None]:
+    """Call back after each change of the graph of a domain with name and namespace; returns what ends that."""
+    from bot_console.runtime.rmw.middleware import bus_of
+
+    return bus_of(domain).on_graph_change(changed)
+
+
+def _fetched(address: str) -> Path:
+    """The copy of a parameter file on a server."""
+    from bot_console.runtime.remote_parameters import local_copy
+
+    return local_copy(address)
+
+
+def frozen_nodes(domain: int) -> Mapping[int, Sequence[str]]:
+    """The stopped processes of a domain, by pid, with their nodes."""
+    from bot_console.runtime.rmw.middleware import bus_of
+
+    return bus_of(domain).stopped()

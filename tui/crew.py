@@ -1,0 +1,83 @@
+"""Who acts for the app once there is a console: on words, on the keys for safety, on faults, on the way out.
+
+The app imports this when its frame has been seen. All that knows the model hangs on it, and a start that waited for
+that would show its first frame a third later.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from bot_console.tui.arrangement.stage import Stage
+from bot_console.tui.commanding.desk import Desk
+from bot_console.tui.console.connection.no_console import NoCommandLine
+from bot_console.tui.console.connection.read_only import ReadOnlyConsole
+from bot_console.tui.console.protocol import CommandLine, Console
+from bot_console.tui.faults import Faults, PaneMaker
+from bot_console.tui.opening import Opening
+from bot_console.tui.panes.pane import Pane
+from bot_console.tui.safety.quitting import Quitting
+from bot_console.tui.safety.safety_news import SafetyNews
+from bot_console.tui.safety.stopping import Stopping
+from bot_console.tui.screens.arrange import ArrangeScreen
+from bot_console.tui.screens.help import HelpScreen
+from bot_console.tui.screens.question import QuestionScreen
+from bot_console.tui.terminal.leaving import Leaving
+from bot_console.tui.widgets.prompt.line import Prompt
+from bot_console.tui.widgets.prompt.question import Asker
+from bot_console.tui.widgets.status_bar import StatusBar
+from bot_console.tui.widgets.stream_panel import StreamPanel
+from textual.app import App
+from textual.widget import Widget
+
+
+class Crew:
+    """Made for one app and one console."""
+
+    def __init__(
+        self,
+        app: App[None],
+        maker: PaneMaker,
+        stage: Stage,
+        console: Console,
+        lines: CommandLine | None,
+        *,
+        redraw: Callable[[], None],
+        open: Callable[[Opening], None],
+        changed: Callable[[], None],
+    ) -> None:
+        """`redraw` sends every cell again, `open` shows what is asked for, `changed` is told of another pane."""
+        self._app = app
+        self._stage = stage
+        self.quitting = Quitting(app, console)
+        self.stopping = Stopping(app, console)
+        self.leaving = Leaving(app, console, redraw, holds=not isinstance(console, ReadOnlyConsole))
+        self.desk = Desk(app, stage, self.stopping, console, lines or NoCommandLine(), open, self.leaving.run)
+        self.safety_news = SafetyNews(console)
+        self.faults = Faults(app, maker, changed)
+        self.status = StatusBar()
+
+    def widgets(self) -> Sequence[Widget]:
+        """What stands between the panes and the keys, from above."""
+        return StreamPanel(), self.desk.field(), self.status
+
+    def arrange(self) -> None:
+        """Arrange the panes by key, where there is room for that."""
+        if self._stage.arranging.begin():
+            self._app.push_screen(ArrangeScreen(self._stage.arranging))
+
+    def help(self, pane: Pane) -> None:
+        """Show what a pane is for, and its keys."""
+        self._app.push_screen(HelpScreen(pane.scopes, pane.TITLE, pane.HELP or ""))
+
+    def askers(self) -> Sequence[Asker[Any]]:
+        """Whatever has a question open."""
+        # An open prompt has the keyboard; nobody has it while the terminal has lost it. To look through all that is on
+        # the screen at each snapshot takes a tenth of what the thread that draws does in a pane where nothing changes.
+        screen = self._app.screen_stack[0]
+        within = screen.focused.ancestors if screen.focused is not None else screen.walk_children(Prompt)
+        found: list[Asker[Any]] = [each for each in within if isinstance(each, Prompt) and each.is_open]
+        if isinstance(self._app.screen, QuestionScreen):
+            found.append(self._app.screen)
+        return found

@@ -1,0 +1,36 @@
+"""The console's own files as plain data, in YAML; PyYAML is imported when the first of them needs it.
+
+That is a twentieth of the time to the first frame. What the program alone writes and reads at each start is JSON, which
+is YAML too.
+"""
+
+from __future__ import annotations
+
+import json
+
+
+class NotPlainData(ValueError):
+    """A file cannot be read; the text says why, on one line."""
+
+
+def read(content: bytes) -> object:
+    """The data of a file; raises `NotPlainData`."""
+    if content.startswith(b"{"):
+        try:
+            return json.loads(content)
+        except (ValueError, RecursionError):  # YAML's own flow syntax
+            pass
+    import yaml
+    from bot_console.tui.text.yaml_faults import UNREADABLE, fault_of
+
+    try:
+        return yaml.load(content, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+    except UNREADABLE as error:
+        raise NotPlainData(fault_of(error)) from None
+
+
+def written(data: object, *, flow: bool | None = False, allow_unicode: bool = False) -> str:
+    """Data as YAML; `flow` None: the innermost in flow style."""
+    import yaml
+
+    return yaml.safe_dump(data, sort_keys=False, default_flow_style=flow, allow_unicode=allow_unicode)
