@@ -129,7 +129,7 @@ def test_what_a_node_prints_is_in_the_log_and_not_on_the_screen(crashing, capfd)
 def test_hostile_text_is_kept_and_does_nothing(crashing):
     async def run():
         async with live(crashing) as it:
-            found = await it.until(lambda: [each for each in it.log() if "hostile" in each], "the log line")
+            found = await it.until(lambda: [each for each in it.log() if each.startswith("hostile")], "the log line")
             assert found == ["hostile \x1b[2J\x07 [red]text[/red]"]
             await it.pilot.press("2")
             await it.pilot.pause(0.3)
