@@ -10,6 +10,7 @@ from typing import Any
 
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.bus import PublisherEndpoint
+from bot_console.runtime.rmw.qos_matching import LATCHING
 from bot_console.runtime.rosidl.conversion import FieldTypeError
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.duration import Duration
@@ -85,7 +86,7 @@ class Publisher:
 
     def _is_wanted(self) -> bool:
         """Whether a message is given to anybody, or kept for who comes later."""
-        return self._endpoint.is_wanted()
+        return self._endpoint.is_heard() or self._endpoint.endpoint.qos.durability.name in LATCHING
 
     def _skip(self) -> None:
         """Do as `_publish_own` does with a message that is not wanted, which need not be made then."""

@@ -51,10 +51,6 @@ class PublisherEndpoint(Publisher, Protocol):
         """
         ...
 
-    def is_wanted(self) -> bool:
-        """Whether a message is given to anybody, or kept for who comes later."""
-        ...
-
     def skip(self) -> None:
         """Count a message that was not made, since it is not wanted."""
         ...

@@ -77,10 +77,6 @@ class LocalPublisher:
             self._give(message)
         return self.open
 
-    def is_wanted(self) -> bool:
-        """Whether a message is given to anybody, or kept for who comes later."""
-        return self.history is not None or self.is_heard()
-
     def skip(self) -> None:
         """Count a message that was not made, since it is not wanted; it is a sign of life all the same."""
         if self.open:

@@ -18,7 +18,7 @@ from bot_console.runtime.importer import install
 install()
 
 import rclpy
-from bot_console.tui.cli.live.connected import graph_events
+from bot_console.tui.cli.system.connected import graph_events
 from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.graph.watch import GraphWatch
 from rcl_interfaces.msg import ParameterEvent

@@ -19,7 +19,7 @@ from bot_console.tui.files.folders import state_folder
 from bot_console.tui.settings.settings import read_settings
 
 if TYPE_CHECKING:
-    from bot_console.tui.cli.live.connected import Connected
+    from bot_console.tui.cli.system.connected import Connected
 
 ATTACHED = "Attached to ROS domain {}: q ends the console alone, and what was started from it."
 HOST_LOG = "launch-host.log"
@@ -66,9 +66,9 @@ def _prepare(options: Options) -> None:
 def _connect(options: Options, alone: str, own: Host | None, start: Callable[[], Host]) -> Connected:
     """What is shown, made when the first frame has been seen: these imports take longer than all that is before it."""
     _prepare(options)
-    from bot_console.tui.cli.live.connected import Connected
     from bot_console.tui.cli.live.launchers import attached, embedded, hosted
     from bot_console.tui.cli.live.past import HostsPast, overhear
+    from bot_console.tui.cli.system.connected import Connected
     from bot_console.tui.console.model import Severity
 
     said = [(Severity.WARN, f"No second terminal reaches this system: {alone}")] if alone else []

@@ -83,7 +83,7 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
         if not stays or size.width != self.virtual_size.width:
             self.virtual_size = size
             return
-        self.set_reactive(RowList.virtual_size, size)
+        self.set_reactive(RowList.virtual_size, size)  # pyright: ignore[reportArgumentType] -- a reactive of Textual, which tells no type of it
         self.vertical_scrollbar.window_virtual_size = size.height
         self.scroll_y = self.validate_scroll_y(self.scroll_y)
 

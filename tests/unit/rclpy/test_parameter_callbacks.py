@@ -8,7 +8,7 @@ from rcl_interfaces.msg import ParameterDescriptor, ParameterEvent, SetParameter
 from rclpy.exceptions import ParameterNotDeclaredException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
-from rclpy.qos import qos_profile_parameter_events
+from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_parameter_events
 
 Log = list[Any]
 
@@ -354,3 +354,13 @@ def test_a_value_that_no_message_carries_is_refused_whether_or_not_anybody_hears
         with pytest.raises(TypeError, match="integer_value"):
             node.set_parameters([given("a", value)])
     assert node.set_parameters([given("a", (1 << 63) - 1), given("b", -(1 << 63))])[0].successful
+
+
+def test_events_that_are_kept_for_who_comes_later_are_made_although_nobody_hears_them_yet(ros: Any) -> None:
+    node, heard = node_of(ros), []
+    latched = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    node._parameter_event_publisher = node.create_publisher(ParameterEvent, "/kept_events", latched)
+    node.set_parameters_atomically([given("a", 3), given("b", 4)])
+    node.create_subscription(ParameterEvent, "/kept_events", heard.append, latched)
+    ros.settle()
+    assert [[each.name for each in event.changed_parameters] for event in heard] == [["a", "b"]]

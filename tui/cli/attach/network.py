@@ -37,7 +37,7 @@ def run_network(options: AttachOptions) -> int:
         print(error, file=sys.stderr)
         return 1
     choose(options.look.workspace)
-    from bot_console.tui.cli.live.connected import frozen_nodes, graph_events
+    from bot_console.tui.cli.system.connected import frozen_nodes, graph_events
 
     console = RosConsole(
         capabilities=CAPABILITIES,

@@ -20,8 +20,8 @@ from bot_console.tui.cli.look import look_of
 if TYPE_CHECKING:
     from bot_console.tui.arrival import System
     from bot_console.tui.cli.arguments import Options
-    from bot_console.tui.cli.live.connected import Connected
     from bot_console.tui.cli.live.launchers import ConsoleLauncher
+    from bot_console.tui.cli.system.connected import Connected
     from bot_console.tui.console.connection.ros_console import RosConsole
     from bot_console.tui.pane_table import PaneEntry
 
@@ -65,7 +65,7 @@ class Session:
         return self.connected.launcher
 
     def _embedded(self) -> Connected:
-        from bot_console.tui.cli.live.connected import Connected
+        from bot_console.tui.cli.system.connected import Connected
 
         return Connected(self._options)
 

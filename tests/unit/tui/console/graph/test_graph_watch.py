@@ -4,7 +4,7 @@ import itertools
 
 import pytest
 import rclpy
-from bot_console.tui.cli.live.connected import graph_events
+from bot_console.tui.cli.system.connected import graph_events
 from bot_console.tui.console.graph.watch import GraphWatch
 from rclpy.context import Context
 from std_msgs.msg import Float64
