@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from bot_console.tui import keymap
+from bot_console.tui.arrangement.arrival import COMING_STATUS, ORDERED, ArrivingApp, System
 from bot_console.tui.arrangement.stage import Stage
-from bot_console.tui.arrival import COMING_STATUS, ORDERED, ArrivingApp, System
 from bot_console.tui.files.crash import keep, reason
 from bot_console.tui.keys.keyboard import Keyboard
 from bot_console.tui.layout.named import OVERVIEW

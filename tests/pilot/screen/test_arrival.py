@@ -7,7 +7,7 @@ from collections.abc import Awaitable, Callable
 
 import pytest
 from bot_console.tui.app import BotConsoleApp
-from bot_console.tui.arrival import ORDERED, System
+from bot_console.tui.arrangement.arrival import ORDERED, System
 from bot_console.tui.pane_table import PaneEntry
 from bot_console.tui.panes.broken import BrokenPane
 from bot_console.tui.panes.plot.pane import PlotPane

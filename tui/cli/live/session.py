@@ -18,7 +18,7 @@ from bot_console.tui.cli.live.hangup import hangup_as_signal
 from bot_console.tui.cli.look import look_of
 
 if TYPE_CHECKING:
-    from bot_console.tui.arrival import System
+    from bot_console.tui.arrangement.arrival import System
     from bot_console.tui.cli.arguments import Options
     from bot_console.tui.cli.live.launchers import ConsoleLauncher
     from bot_console.tui.cli.system.connected import Connected

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from bot_console.runtime.process import NodeProcess
 from bot_console.runtime.process.virtual.install import reinstall_stdio
-from bot_console.tui.arrival import System
+from bot_console.tui.arrangement.arrival import System
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.live import robot_beside
 from bot_console.tui.cli.live.for_panes import for_panes
