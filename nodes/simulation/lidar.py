@@ -108,9 +108,9 @@ class Lidar:
         lost = ranges > settings.range_max
         if settings.dropout > 0.0:
             lost |= rng.random(settings.beams) < settings.dropout
-        np.putmask(ranges, ranges < settings.range_min, -math.inf)  # in half the time of an index
-        np.putmask(ranges, lost, math.inf)
-        np.putmask(intensities, lost, 0.0)
+        ranges[ranges < settings.range_min] = -math.inf
+        ranges[lost] = math.inf
+        intensities[lost] = 0.0
         return Scan(ranges, intensities)
 
     def _add_dust(self, ranges: Floats, intensities: Floats, rng: np.random.Generator) -> None:
@@ -145,29 +145,16 @@ class Lidar:
     def _pairs(self, start: Floats, span: Floats, heading: float) -> tuple[Ints, Ints]:
         """Which surface is met by which beam: two arrays of indices in the order of surfaces, from spans in rad."""
         settings, step = self.settings, self._step
-        past = np.empty((2, len(start)))  # the first beam past where a span begins, in this turn and in the one before
-        np.mod(start - (heading + settings.first_angle + EDGE), TURN, out=past[0])
-        past[0] /= step
-        past[0] += 1.0
-        np.subtract(past[0], TURN / step, out=past[1])
-        end = past + (span + 2.0 * EDGE) / step
-        np.minimum(end, settings.beams, out=end)
-        np.maximum(past, 0.0, out=past)
-        # Turned round, so that both spans of a surface stand together; reckoned with in rows, which are faster.
-        first, count = _in_pairs(past), _in_pairs(end)
-        count -= first
-        np.maximum(count, 0, out=count)
+        past = np.empty((len(start), 2))  # the first beam past where a span begins
+        past[:, 0] = np.mod(start - (heading + settings.first_angle + EDGE), TURN) / step + 1.0
+        past[:, 1] = past[:, 0] - TURN / step
+        end = np.minimum(past + ((span + 2.0 * EDGE) / step)[:, None], settings.beams).astype(np.int64).ravel()
+        first = np.maximum(past, 0.0).astype(np.int64).ravel()
+        count = np.maximum(end - first, 0)
         # The place among all pairs, less that of the span's first pair, is how far on from its first beam it is.
-        first += count
-        first -= count.cumsum()
-        beam = first.repeat(count)
+        beam = (first - count.cumsum() + count).repeat(count)
         beam += np.arange(len(beam))
         return self._owners.repeat(count), beam
-
-
-def _in_pairs(rows: Floats) -> Ints:
-    """Two rows as whole numbers, column after column."""
-    return np.transpose(rows).astype(np.int64, order="C").ravel()
 
 
 def _spans(angle: Floats, edges: int, ratio: Floats) -> tuple[Floats, Floats]:
@@ -183,10 +170,10 @@ def _spans(angle: Floats, edges: int, ratio: Floats) -> tuple[Floats, Floats]:
     np.add(begin, np.minimum(width, 0.0), out=start[:edges])
     np.abs(width, out=span[:edges])
     half = np.arcsin(np.minimum(ratio, 1.0))
-    np.putmask(half, ratio >= 1.0, math.pi)
+    half[ratio >= 1.0] = math.pi
     np.subtract(centre, half, out=start[edges:])
     np.add(half, half, out=span[edges:])
-    np.putmask(span, span < END_ON, -1.0)
+    span[span < END_ON] = -1.0
     return start, span
 
 

@@ -120,7 +120,8 @@ class Publisher:
 
     def get_subscription_count(self) -> int:
         """How many subscriptions receive."""
-        self._use()
+        if self.destroyed:
+            self._use()
         return self._endpoint.matched_count()
 
     def _is_heard(self) -> bool:
