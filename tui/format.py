@@ -81,6 +81,11 @@ def number_text(value: float) -> str:
     return text if any(letter in text for letter in ".en") else text + ".0"
 
 
+def figure(value: float, sign: str = "") -> str:
+    """A measured number with one decimal place, and short whatever a node sends; `sign` as in a format."""
+    return f"{value:{sign}.1f}" if abs(value) < 1e5 else f"{value:{sign}.0e}"
+
+
 def range_text(limits: Range | None, kind: Kind) -> str:
     """A range as `0.1 .. 5.0`, with its step when it has one."""
     if limits is None:

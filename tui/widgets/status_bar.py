@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from bot_console.tui.console.model import ConsoleSnapshot, LinkInfo, ProcessState, Severity
 from bot_console.tui.console.robot.robot_model import DriveInfo
-from bot_console.tui.format import counted, harmless, profile_text
+from bot_console.tui.format import counted, figure, harmless, profile_text
 from bot_console.tui.safety.stop_words import stop_text
 from bot_console.tui.widgets.words import Words
 
@@ -91,14 +91,14 @@ def drive_text(drive: DriveInfo) -> str:
         return "no robot yet" if drive.nothing_to_stop else "no command and no odometry yet"
     parts: list[str] = []
     if drive.asked is not None:
-        parts.append(f"asked {drive.asked[0]:+.1f}")
+        parts.append(f"asked {figure(drive.asked[0], '+')}")
     if drive.final is not None:
         why = f" ({harmless(drive.limited_by)})" if drive.limited_by else ""
-        parts.append(f"command {drive.final[0]:+.1f} m/s {drive.final[1]:+.1f} rad/s{why}")
+        parts.append(f"command {figure(drive.final[0], '+')} m/s {figure(drive.final[1], '+')} rad/s{why}")
     elif drive.limited_by:
         parts.append(harmless(drive.limited_by))
     if drive.actual is not None:
-        parts.append(f"actual {drive.actual[0]:+.1f} m/s")
+        parts.append(f"actual {figure(drive.actual[0], '+')} m/s")
     elif drive.silent_s:
         parts.append(f"the robot is SILENT for {drive.silent_s} s")
     return " → ".join(parts)

@@ -12,9 +12,9 @@ from bot_console.tui.console.bags.damage import NoBag
 from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.console.logs.store import LogStore
 from bot_console.tui.console.model import Change, ChangeSource, ParameterInfo, ParameterTree
-from bot_console.tui.console.robot.past_poses import PastPoses, heading
-from bot_console.tui.console.robot.robot_model import Pose, WorldInfo
-from bot_console.tui.console.robot.world_watch import PREFERRED, TRAIL, TRAIL_STEP, best, grid_of
+from bot_console.tui.console.robot.past_poses import PastPoses
+from bot_console.tui.console.robot.robot_model import WorldInfo
+from bot_console.tui.console.robot.world_watch import PREFERRED, TRAIL, TRAIL_STEP, best, grid_of, pose_of
 from bot_console.tui.console.values import info
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.serialization import deserialize_message
@@ -123,13 +123,15 @@ class Contents:
         maps = topics["nav_msgs/msg/OccupancyGrid"]
         grid = None
         for _, message in self.messages(maps) if maps else ():
-            grid = grid_of(message)
+            grid = grid_of(message) or grid
         source = topics["nav_msgs/msg/Odometry"]
         pose, trail = None, list[tuple[float, float]]()
         for stamp, message in self.messages(source) if source else ():
-            at = message.pose.pose
-            self.past.add(stamp, at)
-            pose = Pose(at.position.x, at.position.y, heading(at.orientation))
+            at = pose_of(message.pose.pose)
+            if at is None:
+                continue
+            self.past.add(stamp, message.pose.pose)
+            pose = at
             if not trail or math.dist(trail[-1], (pose.x, pose.y)) >= TRAIL_STEP:
                 trail.append((pose.x, pose.y))
         self.world = WorldInfo(grid, pose, source if pose else "", tuple(trail[-TRAIL * 10 :]))

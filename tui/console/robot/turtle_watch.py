@@ -73,6 +73,8 @@ class TurtleWatch:
         )
 
     def _on_pose(self, topic: str, message: Any) -> None:
+        if not (math.isfinite(message.x) and math.isfinite(message.y)):
+            return
         trail = self._trails[topic]
         if not trail or math.dist(trail[-1], (message.x, message.y)) >= TRAIL_STEP:
             trail.append((message.x, message.y))
@@ -81,7 +83,11 @@ class TurtleWatch:
             self.fresh = True
 
     def _on_canvas(self, topic: str, message: Any) -> None:
-        if message.encoding == "rgba8" and len(message.data) == 4 * message.width * message.height:
+        if (
+            message.encoding == "rgba8"
+            and len(message.data)
+            and len(message.data) == 4 * message.width * message.height
+        ):
             self._drawings[topic] = Drawing(message.width, message.height, bytes(message.data))
             self.fresh = True
 

@@ -26,6 +26,8 @@ from sensor_msgs.msg import LaserScan
 TRAIL = 400
 TRAIL_STEP = 0.1
 """Metres between two points of the trail."""
+FARTHEST, FINEST = 1e7, 1e-6
+"""The greatest place and the smallest cell, in m, that are taken for real."""
 SILENT_S = 1.0
 """Without a pose for so long the robot is silent: slower robots tell theirs more often than once a second."""
 
@@ -90,10 +92,10 @@ class WorldWatch:
         self._fresh = True
 
     def _on_odometry(self, message: Odometry) -> None:
-        place = message.pose.pose.position
-        if not self._trail or math.dist(self._trail[-1], (place.x, place.y)) >= TRAIL_STEP:
-            self._trail.append((place.x, place.y))
-        self.past.add(time.time_ns(), message.pose.pose)
+        if pose := pose_of(message.pose.pose):
+            if not self._trail or math.dist(self._trail[-1], (pose.x, pose.y)) >= TRAIL_STEP:
+                self._trail.append((pose.x, pose.y))
+            self.past.add(time.time_ns(), message.pose.pose)
         self._odometry = message
         self._heard = self._now()
         self._fresh = True
@@ -118,8 +120,7 @@ class WorldWatch:
         odometry, scan = self._odometry, self._scan
         pose, speed, turn = None, 0.0, 0.0
         if odometry:
-            place = odometry.pose.pose
-            pose = Pose(place.position.x, place.position.y, heading(place.orientation))
+            pose = pose_of(odometry.pose.pose)
             speed, turn = odometry.twist.twist.linear.x, odometry.twist.twist.angular.z
         hits, nearest = _hits(scan, pose) if scan else ((), None)
         source = self._subscriptions.get("nav_msgs/msg/Odometry")
@@ -137,10 +138,22 @@ class WorldWatch:
         )
 
 
-def grid_of(message: OccupancyGrid) -> GridMap:
-    """A map as the console shows it."""
+def pose_of(message: Any) -> Pose | None:
+    """A `geometry_msgs/Pose` on the plane; None where it is nowhere that could be drawn."""
+    place = message.position
+    inside = abs(place.x) <= FARTHEST and abs(place.y) <= FARTHEST  # False for what is no number
+    return Pose(place.x, place.y, heading(message.orientation)) if inside else None
+
+
+def grid_of(message: OccupancyGrid) -> GridMap | None:
+    """A map as the console shows it; None for one whose size, place or number of cells are impossible."""
     meta = message.info
-    origin = Pose(meta.origin.position.x, meta.origin.position.y, heading(meta.origin.orientation))
+    origin = pose_of(meta.origin)
+    count = meta.width * meta.height
+    if origin is None or not count or count != len(message.data):
+        return None
+    if not (meta.resolution >= FINEST and max(meta.width, meta.height) * meta.resolution <= FARTHEST):
+        return None
     cells = np.asarray(message.data, np.int8).tobytes()  # -1, unknown, is the byte 255
     return GridMap(meta.width, meta.height, meta.resolution, origin, cells)
 
@@ -162,7 +175,8 @@ def _hits(scan: LaserScan, pose: Pose | None) -> tuple[tuple[tuple[float, float]
     if not valid.any():
         return (), None
     nearest = float(ranges[valid].min())
-    if pose is None:
+    bearings = (scan.angle_min, scan.angle_increment * len(ranges))
+    if pose is None or not all(map(math.isfinite, (pose.heading, *bearings))) or ranges[valid].max() > FARTHEST:
         return (), nearest
     angles = pose.heading + scan.angle_min + scan.angle_increment * np.flatnonzero(valid)
     x = pose.x + ranges[valid] * np.cos(angles)

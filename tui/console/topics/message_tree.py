@@ -96,7 +96,8 @@ def _summary(owner: Any, name: str, value: Any, element: str) -> str:
     finite = numbers[np.isfinite(numbers)]
     if not finite.size:
         return f"{count} values, none of them finite"
-    text = f"{count} values, {finite.min():.4g} .. {finite.max():.4g}, mean {finite.mean():.4g}"
+    with np.errstate(over="ignore", invalid="ignore"):  # the mean of numbers at the end of what floats can hold
+        text = f"{count} values, {finite.min():.4g} .. {finite.max():.4g}, mean {finite.mean():.4g}"
     return text + (f", {count - finite.size} not finite" if finite.size < count else "")
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.robot.robot_model import Pose, TurtleField, WorldInfo
-from bot_console.tui.format import clock_text
+from bot_console.tui.format import clock_text, figure
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.prompt.line import Prompt
@@ -159,9 +159,9 @@ class WorldPane(Pane):
             text = snapshot.problem or text
         else:
             pose = self._then or world.pose
-            near = "free" if world.nearest is None else f"{world.nearest:.1f} m"
+            near = "free" if world.nearest is None else f"{figure(world.nearest)} m"
             where = f"x {pose.x:6.1f}  y {pose.y:6.1f}" if pose else "pose unknown"
-            speed = f"SILENT for {world.silent_s} s" if world.silent_s else f"{world.speed:+.1f} m/s"
+            speed = f"SILENT for {world.silent_s} s" if world.silent_s else f"{figure(world.speed, '+')} m/s"
             text = f"{where}  {speed}  nearest {near}  {drawn.scale}{more}"
             stamp = self.time_cursor.stamp
             if stamp is not None:
@@ -193,6 +193,7 @@ class WorldPane(Pane):
 def _of_turtles(field: TurtleField) -> str:
     """Where the turtles are, the first ones first: the line may be short."""
     each = (
-        f"{turtle.name} {turtle.pose.x:.1f}, {turtle.pose.y:.1f} {turtle.speed:.1f} m/s" for turtle in field.turtles
+        f"{turtle.name} {figure(turtle.pose.x)}, {figure(turtle.pose.y)} {figure(turtle.speed)} m/s"
+        for turtle in field.turtles
     )
     return f"{field.node}: " + "; ".join(each)

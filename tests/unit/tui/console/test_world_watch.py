@@ -1,13 +1,20 @@
 """What the console says of a robot that tells nothing any more: how old it is, and no speed."""
 
+import math
+
+import pytest
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.robot.drive_link import DriveLink
-from bot_console.tui.console.robot.world_watch import WorldWatch
+from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
+from bot_console.tui.console.robot.world_watch import WorldWatch, grid_of
+from bot_console.tui.panes.world.view import WorldDrawing, fitting, following, scale_text
 from bot_console.tui.widgets.status_bar import drive_text
-from nav_msgs.msg import Odometry
+from geometry_msgs.msg import Point, Pose
+from nav_msgs.msg import MapMetaData, OccupancyGrid, Odometry
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from sensor_msgs.msg import LaserScan
 
 GRAPH = GraphInfo(nodes=(NodeInfo("/robot", publishers=(Endpoint("/odom", ("nav_msgs/msg/Odometry",)),)),))
 
@@ -43,3 +50,47 @@ def test_a_robot_that_has_gone_silent_has_no_actual_speed():
         console.destroy_node()
         robot.destroy_node()
         context.try_shutdown()
+
+
+EXTREMES = (math.nan, math.inf, -math.inf, 1.7e308, -1.7e308, 1e200, 5e-324, 0.0)
+
+
+def watched(*, grid: OccupancyGrid | None = None, odometry: Odometry, scan: LaserScan) -> WorldInfo:
+    """What a console knows after these messages."""
+    context = Context()
+    context.init([], domain_id=3901)
+    node = Node("console", context=context)
+    world = WorldWatch(node)
+    if grid:
+        world._on_map(grid)
+    world._on_odometry(odometry)
+    world._on_odometry(Odometry())
+    world._on_odometry(odometry)
+    world._on_scan(scan)
+    info = world.info
+    node.destroy_node()
+    context.try_shutdown()
+    return info
+
+
+@pytest.mark.parametrize("number", EXTREMES)
+def test_whatever_numbers_come_they_are_drawn_or_left_out(number):
+    small = max(-3e38, min(3e38, number)) if math.isfinite(number) else number
+    odometry = Odometry()
+    odometry.pose.pose.position.x = odometry.pose.pose.orientation.z = odometry.twist.twist.linear.x = number
+    scan = LaserScan(ranges=[1.0, small, 2.0], angle_increment=small, angle_min=small, range_max=math.inf)
+    grid = OccupancyGrid(info=MapMetaData(width=2, height=1, resolution=small), data=[0, 100])
+    info = watched(grid=grid, odometry=odometry, scan=scan)
+    for window in (fitting(info, 40, 12), following(info, 40, 12, 8.0)):
+        assert len(WorldDrawing().rows(info, window, 40, 12)) == 12
+        assert scale_text(window, 40)
+    assert len(drive_text(DriveInfo(asked=(number, 0.0), final=(number, number), actual=(number, 0.0)))) < 80
+
+
+@pytest.mark.parametrize(
+    ("width", "height", "resolution", "x"),
+    [(0, 0, 0.1, 0.0), (3, 1, 0.1, 0.0), (2, 1, 0.0, 0.0), (2, 1, -1.0, 0.0), (2, 1, 1e30, 0.0), (2, 1, 0.1, math.nan)],
+)
+def test_a_map_that_cannot_be_is_none(width, height, resolution, x):
+    info = MapMetaData(width=width, height=height, resolution=resolution, origin=Pose(position=Point(x=x)))
+    assert grid_of(OccupancyGrid(info=info, data=[0, 100][: width * height])) is None
