@@ -12,7 +12,7 @@ from bot_console.tui import keymap
 from bot_console.tui.arrangement.arrival import COMING_STATUS, ORDERED, ArrivingApp, System
 from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.files.crash import keep, reason
-from bot_console.tui.keys.keyboard import Keyboard
+from bot_console.tui.keys.keyboard import LONGEST_PASTE, Keyboard
 from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.look import Look
 from bot_console.tui.opening import Opening
@@ -120,6 +120,11 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
         """Keys are dealt with one after the other; those that quit from anywhere wait for nothing."""
         if not isinstance(event, (events.Key, events.Paste)) or event.is_forwarded:
             await self._deal(event)
+        elif isinstance(event, events.Paste) and len(event.text) > LONGEST_PASTE:
+            self.notify(
+                f"{len(event.text):,} letters were pasted, and none of them taken: {LONGEST_PASTE:,} at most",
+                severity="error",
+            )
         elif isinstance(event, events.Key) and event.key in AT_ONCE:
             self._keyboard.overtake(event)
             await self._deal(event)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from bot_console.tui.keys.keyboard import LONGEST_PASTE
 from bot_console.tui.panes.plot.pane import PlotPane
 from bot_console.tui.screens.output import OutputScreen
 from bot_console.tui.screens.picker import PickerScreen
 from bot_console.tui.widgets.command_line import CommandField
 from piloting import Session, run
 from samples import SPEED, live
+from textual.events import Paste
 from textual.widgets import Input
 
 
@@ -38,6 +40,23 @@ def test_what_is_wrong_is_said_and_the_line_stays() -> None:
         assert "did you mean topic?" in session.text() and field(session) == "topc list"
         await session.press("escape")
         assert not session.pane(CommandField).is_open
+
+    run(live(), play, (120, 40))
+
+
+def test_what_is_pasted_is_taken_or_all_of_it_refused() -> None:
+    async def play(session: Session) -> None:
+        await session.press("colon")
+        for letters in (LONGEST_PASTE, LONGEST_PASTE + 1):
+            session.app.post_message(Paste("x" * letters))
+        await session.press("space", "y")
+        assert field(session) == "x" * LONGEST_PASTE + " y"
+        assert "20,001 letters were pasted, and none of them taken: 20,000 at most" in told(session)
+        await session.press("escape", "exclamation_mark")
+        assert session.console.asked[-1] == ("all_stop", True)
+
+    def told(session: Session) -> str:
+        return " ".join(each.message for each in session.app._notifications)
 
     run(live(), play, (120, 40))
 
