@@ -19,8 +19,11 @@ PATIENCE = 1.0
 """Seconds after which a key that has not ended, for instance since its widget was removed, holds up no other."""
 
 LONGEST_PASTE = 20_000
-"""Letters that may be pasted at once. Each change of a line is checked and completed as a whole: a million letters would
-keep the screen, and what is typed to stop the robot, waiting for a minute."""
+"""Letters that may be pasted at once.
+
+Each change of a line is checked and completed as a whole: a million letters would keep the screen, and what is typed to
+stop the robot, waiting for a minute.
+"""
 
 PASSES = 2
 """A key goes from what has the keyboard up to the app, where its binding acts; then once more what the action sent."""
