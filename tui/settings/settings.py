@@ -84,7 +84,10 @@ def read_settings(path: Path | None = None) -> Settings:
         data = read(content)
     except NotPlainData as error:
         return Settings(problems=(f"{path}: {error}",))
-    return _settings(data, str(path))
+    try:
+        return _settings(data, str(path))
+    except ValueError:  # Python writes no whole number of more than 4,300 digits, and no setting is one
+        return Settings(problems=(f"{path}: a whole number has thousands of digits",))
 
 
 def _settings(data: object, path: str) -> Settings:

@@ -101,7 +101,10 @@ def _wanted(given: argparse.Namespace) -> Callable[[str], bool]:
 def _find(name: str) -> Any:
     from rosidl_runtime_py.utilities import get_message
 
-    return get_message(name)
+    try:
+        return get_message(name)
+    except TypeError:  # of a name without a package
+        raise ValueError(f"'{name}' is no type of a message") from None
 
 
 def _record(given: argparse.Namespace) -> int:

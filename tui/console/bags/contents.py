@@ -73,7 +73,7 @@ class Contents:
         What is no message of the topic's type is left out. Raises `ImportError` and the like where there is no such
         type here.
         """
-        kind = get_message(self.metadata.topics[topic].type)
+        kind = _class_of(self.metadata.topics[topic].type)
         for stamp, data in self._messages[topic]:
             try:
                 message = deserialize_message(data, kind)
@@ -88,7 +88,7 @@ class Contents:
 
     def message(self, topic: str, at: int) -> Any:
         """One message of a topic; raises what `messages` does."""
-        return deserialize_message(self._messages[topic][at][1], get_message(self.metadata.topics[topic].type))
+        return deserialize_message(self._messages[topic][at][1], _class_of(self.metadata.topics[topic].type))
 
     def size(self, topic: str) -> int:
         """Bytes of the messages of a topic that are held."""
@@ -144,3 +144,10 @@ class Contents:
 
 def _stamp(held: tuple[int, bytes]) -> int:
     return held[0]
+
+
+def _class_of(type_name: str) -> Any:
+    try:
+        return get_message(type_name)
+    except TypeError:  # of a name without a package
+        raise ValueError(f"'{type_name}' is no type of a message") from None

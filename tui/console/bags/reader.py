@@ -59,12 +59,12 @@ def _files(path: Path) -> list[Path]:
         return [path]
     if not path.is_dir():
         raise NoBag(f"{path}: there is no such bag")
-    named: list[Path] = []
+    found: list[Path] = []
     with suppress(OSError, *UNREADABLE):
         loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
         about: Any = yaml.load((path / FILE).read_text(encoding="utf-8"), loader)["rosbag2_bagfile_information"]
         named = [path / str(each) for each in about["relative_file_paths"]]
-    found = [each for each in named if each.is_file() and each.resolve().parent == path.resolve()]
+        found = [each for each in named if each.is_file() and each.resolve().parent == path.resolve()]
     found = found or sorted((*path.glob("*.mcap"), *path.glob("*.db3")))
     if not found:
         raise NoBag(f"{path}: no .mcap and no .db3 file in it")

@@ -21,7 +21,7 @@ def message_class(type_name: str) -> Any:
     package, _, rest = type_name.partition("/")
     try:
         return getattr(importlib.import_module(f"{package}.msg"), rest.rsplit("/", 1)[-1])
-    except (ImportError, AttributeError):
+    except (ImportError, AttributeError, TypeError, ValueError):  # the latter two of what is no name
         raise NotPlottable(f"the message type {type_name} is not known here") from None
 
 

@@ -57,6 +57,7 @@ def test_what_is_set_is_taken(tmp_path: Path) -> None:
         ("theme: !!python/object:os.system x", "settings.yaml"),
         ("a: &a [*a]", "is no setting"),
         ("\x00", "settings.yaml"),
+        (f"keys: {{app.quit: 0x{'f' * 5000}}}", "a whole number has thousands of digits"),
     ],
 )
 def test_what_is_wrong_is_named_and_the_rest_is_taken(tmp_path: Path, text: str, says: str) -> None:

@@ -15,6 +15,7 @@ import rclpy
 from bot_console.tui.console.bags.contents import Contents
 from bot_console.tui.console.bags.damage import NoBag
 from bot_console.tui.console.bags.definitions import definition, type_name
+from bot_console.tui.console.bags.opened import OpenedBag
 from bot_console.tui.console.bags.player import Player, Playing
 from bot_console.tui.console.bags.qos import noted, offered
 from bot_console.tui.console.bags.reader import Bag
@@ -202,8 +203,23 @@ def test_a_message_from_no_time_is_told(tmp_path: Path, stamp: str) -> None:
 
 def test_metadata_that_are_no_yaml_do_not_matter(tmp_path: Path) -> None:
     folder = words(tmp_path / "bag", "mine")
-    (folder / "metadata.yaml").write_text("rosbag2_bagfile_information: !!int")
-    assert texts(Bag(folder)) == ["mine"]
+    for about in ("!!int", f"{{relative_file_paths: [{'long' * 100}.mcap]}}"):
+        (folder / "metadata.yaml").write_text(f"rosbag2_bagfile_information: {about}")
+        assert texts(Bag(folder)) == ["mine"]
+
+
+@pytest.mark.parametrize("type_name", ["", "/msg/String", "std_msgs", "std_msgs/msg/", "../x/y", "a b/msg/C"])
+def test_a_topic_of_an_impossible_type_is_told_of(tmp_path: Path, type_name: str) -> None:
+    with sqlite3.connect(tmp_path / "bag_0.db3") as base:
+        base.execute("create table topics (id integer, name, type, serialization_format, offered_qos_profiles)")
+        base.execute("create table messages (id integer primary key, topic_id, timestamp, data)")
+        base.execute("insert into topics values (1, '/words', ?, 'cdr', '')", (type_name,))
+        base.execute("insert into messages (topic_id, timestamp, data) values (1, 5, x'00')")
+    console = OpenedBag(Contents(Bag(tmp_path)), "bag")
+    console.topics.listen("/words")
+    assert "cannot be read" in console.topics.heard().problem
+    assert not console.watch("/words/data").ok
+    console.close()
 
 
 def test_metadata_lead_nowhere_else(tmp_path: Path) -> None:
