@@ -1,8 +1,9 @@
 """What messages cost between two processes: `python tests/benchmarks/bench_processes.py [COUNT]`, JSON out.
 
-Each kind of message goes as bytes through a bare Zenoh session and then through rclpy, in the same run and with nothing
-dropped: messages/s until the last one is there, processor time of both processes for one (us), and the round trip (us,
-median). `share` is rclpy's throughput as a part of the bare one's, `longer` its round trip in those of the bare one.
+Each kind of message goes as bytes through a bare Zenoh session, which calls back from its own threads as it does in
+rclpy, and then through rclpy, in the same run and with nothing dropped: messages/s until the last one is there,
+processor time of both processes for one (us), and the round trip (us, median). `share` is rclpy's throughput as a part
+of the bare one's, `longer` its round trip in those of the bare one.
 A service call costs the processor time of both sides (us).
 """
 
@@ -24,6 +25,7 @@ from bot_console.runtime.importer import install
 install()
 
 import rclpy
+import zenoh
 from bot_console.runtime.rmw.middleware import choose_middleware
 from bot_console.runtime.rmw.zenoh.domain.domain_bus import shared_bus
 from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
@@ -51,18 +53,27 @@ Send = Callable[[], Any]
 
 
 class Bare:
-    """Bytes through a Zenoh session."""
+    """Bytes through Zenoh's own Python API, in a session with the settings and links of ours."""
 
     def __init__(self) -> None:
         self.session = open_session(BARE_DOMAIN)
+        self.declared: list[Any] = []
 
     def publisher(self, name: str, topic: str) -> Send:
         payload = serialize_message(SAMPLES[name][0])
-        publisher = self.session.declare_publisher(f"{topic}/{name}", patient=True)
-        return lambda: publisher.put(payload, b"")
+        publisher = self.session._zenoh.declare_publisher(
+            f"{topic}/{name}", congestion_control=zenoh.CongestionControl.BLOCK, priority=zenoh.Priority.DATA_LOW
+        )
+        self.declared.append(publisher)
+        return lambda: publisher.put(payload)
 
     def subscribe(self, name: str, topic: str, received: Send) -> None:
-        self.session.declare_subscriber(f"{topic}/{name}", lambda payload, _: received())
+        def take(sample: zenoh.Sample) -> None:
+            sample.payload.to_bytes()
+            received()
+
+        callback = zenoh.handlers.Callback(take, indirect=False)
+        self.declared.append(self.session._zenoh.declare_subscriber(f"{topic}/{name}", callback))
 
 
 class Ros:

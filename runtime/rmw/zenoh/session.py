@@ -15,21 +15,20 @@ import os
 import threading
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.rmw.zenoh.apart import WAITING, take_apart
 from bot_console.runtime.rmw.zenoh.declared import Declared, Publisher, Querier, Query, Received, TokenSeen, TokenWatch
 from bot_console.runtime.rmw.zenoh.domain.sockets import Socket
 from bot_console.runtime.rmw.zenoh.keeping_publisher import KeepingPublisher
+from bot_console.runtime.rmw.zenoh.kept_threads import here, keep
+from bot_console.runtime.rmw.zenoh.settings import leaves
 
 if TYPE_CHECKING:
     import zenoh
 
 ATTENDANCE = "@bot_console/"
 """Begin of the token that each session shows; the begin of its id follows."""
-
-INSEPARABLE = ("connect/retry",)
-"""Settings that Zenoh takes only as a whole."""
 
 CLOSING = 0.4
 """How long closing is waited for, in s: it takes 2.5 s beside a frozen process to which the link is full."""
@@ -76,7 +75,7 @@ class Session:
 
         try:
             config = zenoh.Config.from_file(file) if file else zenoh.Config.from_json5(json.dumps(settings))
-            for path, value in (*(_leaves(settings) if file else ()), *last):
+            for path, value in (*(leaves(settings) if file else ()), *last):
                 config.insert_json5(path, value)
         except (zenoh.ZError, OSError) as error:
             raise SettingsError(f"Zenoh does not take these settings: {_first_line(error)}") from None
@@ -188,6 +187,8 @@ class Session:
         import zenoh
 
         def take(sample: zenoh.Sample) -> None:
+            if not here.kept:
+                keep()
             received(sample.payload.to_bytes(), _bytes(sample.attachment))
 
         ext = zenoh.ext
@@ -212,6 +213,8 @@ class Session:
         import zenoh
 
         def take(query: zenoh.Query) -> None:
+            if not here.kept:
+                keep()
             asked(Query(query, key, _bytes(query.payload) or b"", _bytes(query.attachment), zenoh.ZError))
 
         return self._declare(
@@ -231,6 +234,8 @@ class Session:
             inner: zenoh.Querier, payload: bytes, attachment: bytes, replied: Received, done: Callable[[], None]
         ) -> None:
             def take(reply: zenoh.Reply) -> None:
+                if not here.kept:
+                    keep()
                 sample = reply.ok
                 if sample is not None:
                     replied(sample.payload.to_bytes(), _bytes(sample.attachment))
@@ -265,6 +270,8 @@ class Session:
         import zenoh
 
         def take(sample: zenoh.Sample) -> None:
+            if not here.kept:
+                keep()
             watch.saw(str(sample.key_expr), sample.kind == zenoh.SampleKind.PUT)
 
         def declare(session: zenoh.Session) -> Any:
@@ -366,15 +373,6 @@ def _errors() -> type[Exception]:
 
 def _bytes(data: Any) -> bytes | None:
     return None if data is None else data.to_bytes()
-
-
-def _leaves(settings: Mapping[str, Any], above: str = "") -> Iterable[tuple[str, str]]:
-    """The single settings, as path and JSON."""
-    for name, value in settings.items():
-        if isinstance(value, Mapping) and above + name not in INSEPARABLE:
-            yield from _leaves(cast("Mapping[str, Any]", value), f"{above}{name}/")
-        else:
-            yield above + name, json.dumps(value)
 
 
 def _first_line(error: Exception) -> str:

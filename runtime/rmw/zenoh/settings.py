@@ -6,9 +6,10 @@ process holds up nobody: with the library's own values opening, closing and leav
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, cast
 
 SCHEME = "unixsock-stream/"
 
@@ -44,6 +45,9 @@ ROOM_OF_A_LINK = 16
 """How many batches (64 kB each, made when needed) wait in a link for messages of one priority: a burst to a reader that
 just has no processor is kept.
 """
+
+INSEPARABLE = ("connect/retry",)
+"""Settings that Zenoh takes only as a whole."""
 
 
 @dataclass(frozen=True)
@@ -93,3 +97,12 @@ def session_settings(zid: str, listen: str, connect: Iterable[str], serving: Ser
             },
         },
     }
+
+
+def leaves(settings: Mapping[str, Any], above: str = "") -> Iterable[tuple[str, str]]:
+    """The single settings, as path and JSON."""
+    for name, value in settings.items():
+        if isinstance(value, Mapping) and above + name not in INSEPARABLE:
+            yield from leaves(cast("Mapping[str, Any]", value), f"{above}{name}/")
+        else:
+            yield above + name, json.dumps(value)
