@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import contextlib
-import signal
 import threading
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
-from types import FrameType
 
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.live.descriptors import own_terminal
+from bot_console.tui.cli.live.ending_signals import ended_by_signals, hangup_as_signal
 from bot_console.tui.cli.live.for_panes import for_panes
-from bot_console.tui.cli.live.hangup import hangup_as_signal
 from bot_console.tui.cli.look import look_of
 from bot_console.tui.cli.system.plugins import find_plugins
 from bot_console.tui.console.connection.ros_console import RosConsole
@@ -54,11 +51,11 @@ class AttachedSession:
 
     def run(self) -> int:
         """Show the console until it is quit. A robot that it steers is left standing; all else goes on."""
-        with own_terminal(self._console.printed) as self._has_begun, self._ended_by_signals(), hangup_as_signal():
+        with own_terminal(self._console.printed) as self._has_begun, ended_by_signals(self._end), hangup_as_signal():
             try:
                 self.app.run()
             finally:
-                self.app.stage.arranging.arrangement.remember()
+                self.app.stage.arrangement.remember()
                 self._on_close()
                 self._console.close()
         return self.app.return_code or 0
@@ -74,16 +71,6 @@ class AttachedSession:
             for severity, line in self._said:
                 self._console.printed(severity, "bot-console", line)
 
-    @contextlib.contextmanager
-    def _ended_by_signals(self) -> Generator[None]:
+    def _end(self, number: int) -> None:
         """SIGINT, SIGTERM and SIGHUP end the app as `q` does."""
-
-        def end(number: int, frame: FrameType | None) -> None:
-            self.app.exit(return_code=128 + number)
-
-        before = {each: signal.signal(each, end) for each in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)}
-        try:
-            yield
-        finally:
-            for each, handler in before.items():
-                signal.signal(each, handler)
+        self.app.exit(return_code=128 + number)

@@ -9,12 +9,11 @@ import sys
 from collections.abc import Callable, Generator, Sequence
 from dataclasses import replace
 from functools import cached_property
-from types import FrameType
 from typing import TYPE_CHECKING
 
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.cli.live.descriptors import own_terminal
-from bot_console.tui.cli.live.hangup import hangup_as_signal
+from bot_console.tui.cli.live.ending_signals import ended_by_signals, hangup_as_signal
 from bot_console.tui.cli.look import look_of
 
 if TYPE_CHECKING:
@@ -27,8 +26,6 @@ if TYPE_CHECKING:
 
 SWITCH_INTERVAL = 0.0005
 """Seconds after which a busy node must let the screen's thread run; Python's 5 ms make keys feel slow."""
-ENDING = [getattr(signal, each) for each in ("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT") if hasattr(signal, each)]
-"""Signals that end the console in order."""
 
 
 class Session:
@@ -88,7 +85,7 @@ class Session:
         """Show the console until it is quit; the robot stands still when this returns, however it ended."""
         with (
             own_terminal(self._printed) as self._has_begun,
-            self._ended_by_signals(),
+            ended_by_signals(self._end),
             hangup_as_signal(),
             _eager_switching(),
         ):
@@ -99,21 +96,13 @@ class Session:
                 self.close()
         return self.app.return_code or 0
 
-    @contextlib.contextmanager
-    def _ended_by_signals(self) -> Generator[None]:
+    def _end(self, number: int) -> None:
         """Ctrl-C from elsewhere, SIGTERM and SIGHUP (a closed terminal) stop the robot first, then end the app."""
-
-        def end(number: int, frame: FrameType | None) -> None:
+        try:
             if not self._options.attach and self._is_connected():
                 self.console.all_stop(True, f"bot-console was ended by {signal.Signals(number).name}")
-            self.app.exit(return_code=128 + number)
-
-        before = {each: signal.signal(each, end) for each in ENDING}
-        try:
-            yield
         finally:
-            for each, handler in before.items():
-                signal.signal(each, handler)
+            self.app.exit(return_code=128 + number)
 
     def close(self) -> None:
         """Zero velocity, then end the launched processes, then leave the graph; a second call does nothing.

@@ -1,0 +1,47 @@
+"""Signals end a console whatever the thread that takes them holds at that moment."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+
+from bot_console.tui.cli.live.ending_signals import ended_by_signals
+
+PATIENCE = 20.0
+
+
+def test_a_signal_amid_what_ending_needs_does_not_hang_and_another_one_neither() -> None:
+    lock, ended, both = threading.Lock(), list[int](), threading.Event()
+
+    def end(number: int) -> None:
+        with lock:
+            ended.append(number)
+        if len(ended) == 2:
+            both.set()
+
+    with ended_by_signals(end):
+        with lock:
+            os.kill(os.getpid(), signal.SIGTERM)
+            os.kill(os.getpid(), signal.SIGHUP)
+            assert not ended
+        assert both.wait(PATIENCE)
+    assert ended == [signal.SIGTERM, signal.SIGHUP]
+
+
+def test_the_signals_are_given_back() -> None:
+    before = signal.getsignal(signal.SIGTERM)
+    with ended_by_signals(lambda number: None):
+        assert signal.getsignal(signal.SIGTERM) != before
+    assert signal.getsignal(signal.SIGTERM) == before
+
+
+def test_one_that_comes_after_the_app_has_ended_does_no_harm() -> None:
+    def end(number: int) -> None:
+        raise RuntimeError("Event loop is closed")
+
+    with ended_by_signals(end):
+        ending = next(each for each in threading.enumerate() if each.name == "ending")
+        os.kill(os.getpid(), signal.SIGTERM)
+        ending.join(PATIENCE)
+        assert not ending.is_alive()
