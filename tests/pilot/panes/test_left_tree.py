@@ -72,7 +72,7 @@ def test_a_preselected_node_comes_before_what_was_left() -> None:
         session.app.kept.put("parameters", {"filter": "turn", "closed": ["/simulator"]})
         pane = session.pane(ParametersPane)
         pane.on_mount()
-        pane.expect("/simulator")
+        pane.go_to("/simulator")
         await session.press("1")
         assert current(session)[0] == "/simulator" and pane.words == ""
 

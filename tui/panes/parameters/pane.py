@@ -150,7 +150,7 @@ class ParametersPane(EditPane):
         found = next((index for index, row in enumerate(shown.rows) if row.node == self._expected), None)
         self.caption(f"waits for {self._expected}" if found is None else "")
         if found is not None:
-            self._expected = ""
+            self._expected, self._chosen = "", True
             shown.cursor = found
 
     def _arrange(self) -> None:
