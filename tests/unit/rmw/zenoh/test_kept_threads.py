@@ -1,6 +1,7 @@
 """A thread of Zenoh's that calls back keeps what is local to it, which is what the interpreter makes for it."""
 
 import ctypes  # noqa: F401  -- a program that has it keeps a thread from its first callback on
+import itertools
 import sys
 import threading
 from collections import defaultdict
@@ -18,8 +19,9 @@ class Local(threading.local):
 
 
 @pytest.fixture
-def calls(socket_folder):
+def calls(socket_folder, monkeypatch):
     """The numbers of a hundred callbacks, each counted by its thread, by thread."""
+    monkeypatch.setattr(kept_threads, "_kept", itertools.count(1))  # others may have used it up
     one, two = open_session(0), open_session(0)
     local, counted, all_here = Local(), defaultdict(list), threading.Event()
 
