@@ -28,6 +28,10 @@ LEVELS = {"DEBUG": 10, "INFO": 20, "WARN": 30, "ERROR": 40, "FATAL": 50}
 COLOUR = r"(?:\x1b\[[0-9;]*m)?"
 _BEGIN = re.compile(COLOUR + BEGIN)
 _END = re.compile(f"{END}{COLOUR}\r?\n")
+LONGEST = 1 << 20
+"""Letters that wait for the end of a line or record; a program may print without ever ending one."""
+LARGEST = 2**63 - 1
+"""The latest time, in ns since the epoch, that a column of the log holds."""
 PATIENCE_S = 2.0
 """How long (s) a line waits for `/rosout` to bring the first line of its logger."""
 
@@ -128,8 +132,13 @@ class OutputReader:
         self._rest = ""
 
     def feed(self, text: str) -> None:
-        """Take the next piece of output; an unfinished line or record waits for its end."""
-        text = self._rest + text
+        """Take the next piece of output; an unfinished line or record waits for its end, but for a very long one."""
+        self._take(self._rest + text)
+        if len(self._rest) > LONGEST:
+            rest, self._rest = self._rest, ""
+            self._printed(rest)
+
+    def _take(self, text: str) -> None:
         at = 0
         while begin := _BEGIN.search(text, at):
             if begin.start() > at:
@@ -160,11 +169,16 @@ class OutputReader:
 
     def _marked(self, text: str) -> None:
         parts = text.split(PART, len(FIELDS) - 2)
-        if len(parts) != len(FIELDS) - 1 or not parts[1].isdigit():
+        if len(parts) != len(FIELDS) - 1 or not _is_number(parts[1]):
             self._printed(text)
             return
         severity, stamp, name, file, function, line, on_rosout, rest = parts
         message = rest.rpartition(PART)[0]
-        number = int(line) if line.isdigit() else 0
+        number = int(line) if _is_number(line) else 0
         record = (int(stamp), LEVELS.get(severity, 20), name, message, (file, function, number))
         self._logged(record, {"0": False, "1": True}.get(on_rosout))
+
+
+def _is_number(text: str) -> bool:
+    """Whether it is a whole number that a column of the log holds; a node may print anything as a mark."""
+    return text.isascii() and text.isdecimal() and len(text) <= len(str(LARGEST)) and int(text) <= LARGEST

@@ -43,6 +43,21 @@ def test_a_logger_line_among_prints() -> None:
     assert printed == ["hello", "no end"]
 
 
+@pytest.mark.parametrize("number", ["\u00b2", "9" * 5000, "9" * 19, "-1", "", "x"])
+def test_a_mark_that_a_node_made_up_does_no_harm(number: str) -> None:
+    line = marked("x").replace("\x1d5\x1d", f"\x1d{number}\x1d")
+    records, printed = read(line, marked("after"))
+    assert number in line and [record[3] for record in records] == ["after"] and len(printed) == 1
+    records, _ = read(marked("x").replace("\x1d7\x1d", f"\x1d{number}\x1d"))
+    assert [record[3:5] for record in records] == [("x", ("f.py", "g", 0))]
+
+
+@pytest.mark.parametrize("begin", ["", "\x1e"])
+def test_what_never_ends_is_handed_on_in_parts(begin: str) -> None:
+    _, printed = read(begin, *["x" * 65536] * 64)
+    assert len(printed) == 4 and sum(map(len, printed)) == 64 * 65536 + len(begin)
+
+
 def test_a_print_without_an_end_before_a_logger_line() -> None:
     assert read("prompt> " + marked("x"))[1] == ["prompt> "]
 
