@@ -98,16 +98,8 @@ def _wanted(given: argparse.Namespace) -> Callable[[str], bool]:
     return wanted
 
 
-def _find(name: str) -> Any:
-    from rosidl_runtime_py.utilities import get_message
-
-    try:
-        return get_message(name)
-    except TypeError:  # of a name without a package
-        raise ValueError(f"'{name}' is no type of a message") from None
-
-
 def _record(given: argparse.Namespace) -> int:
+    from bot_console.tui.console.bags.definitions import class_of
     from bot_console.tui.console.bags.recorder import PACE, Recorder, Ring
     from bot_console.tui.console.bags.writer import BagWriter
 
@@ -120,7 +112,7 @@ def _record(given: argparse.Namespace) -> int:
     node = _node(RECORDER)
     if node is None:
         return 1
-    recorder = Recorder(node, sink, wanted, _find)
+    recorder = Recorder(node, sink, wanted, class_of)
     logger = node.get_logger()
     told: set[str] = set()
 
@@ -191,6 +183,7 @@ def _snapshot(given: argparse.Namespace) -> int:
 
 def _play(given: argparse.Namespace) -> int:
     from bot_console.tui.console.bags.damage import NoBag
+    from bot_console.tui.console.bags.definitions import class_of
     from bot_console.tui.console.bags.player import Player, Playing
     from bot_console.tui.console.bags.reader import Bag
 
@@ -201,7 +194,7 @@ def _play(given: argparse.Namespace) -> int:
     if node is None:
         return 1
     how = Playing(given.rate, given.start_offset, given.loop, given.topics, remaps, given.clock)
-    player = Player(node, bag, how, _find)
+    player = Player(node, bag, how, class_of)
     for name, why in player.unknown.items():
         node.get_logger().warning(f"Topic '{name}' is not played: {why}")
     stopped = threading.Event()

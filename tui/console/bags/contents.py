@@ -9,6 +9,7 @@ from types import MappingProxyType
 from typing import Any
 
 from bot_console.tui.console.bags.damage import NoBag
+from bot_console.tui.console.bags.definitions import class_of
 from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.console.logs.store import LogStore
 from bot_console.tui.console.model import Change, ChangeSource, ParameterInfo, ParameterTree
@@ -18,7 +19,6 @@ from bot_console.tui.console.robot.world_watch import PREFERRED, TRAIL, TRAIL_ST
 from bot_console.tui.console.values import info
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.serialization import deserialize_message
-from rosidl_runtime_py.utilities import get_message
 
 MOST = 500_000_000
 """Bytes of messages that are held; of what is beyond, topics of large messages are left out first."""
@@ -73,7 +73,7 @@ class Contents:
         What is no message of the topic's type is left out. Raises `ImportError` and the like where there is no such
         type here.
         """
-        kind = _class_of(self.metadata.topics[topic].type)
+        kind = class_of(self.metadata.topics[topic].type)
         for stamp, data in self._messages[topic]:
             try:
                 message = deserialize_message(data, kind)
@@ -88,7 +88,7 @@ class Contents:
 
     def message(self, topic: str, at: int) -> Any:
         """One message of a topic; raises what `messages` does."""
-        return deserialize_message(self._messages[topic][at][1], _class_of(self.metadata.topics[topic].type))
+        return deserialize_message(self._messages[topic][at][1], class_of(self.metadata.topics[topic].type))
 
     def size(self, topic: str) -> int:
         """Bytes of the messages of a topic that are held."""
@@ -144,10 +144,3 @@ class Contents:
 
 def _stamp(held: tuple[int, bytes]) -> int:
     return held[0]
-
-
-def _class_of(type_name: str) -> Any:
-    try:
-        return get_message(type_name)
-    except TypeError:  # of a name without a package
-        raise ValueError(f"'{type_name}' is no type of a message") from None

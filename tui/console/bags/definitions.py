@@ -22,6 +22,16 @@ def definition(kind: Any) -> str:
     return "\n".join(parts)
 
 
+def class_of(type_name: str) -> Any:
+    """The class of a message's type; raises `ValueError`, `ImportError` or `AttributeError` where there is none."""
+    from rosidl_runtime_py.utilities import get_message
+
+    try:
+        return get_message(type_name)
+    except TypeError:  # of a name without a package
+        raise ValueError(f"'{type_name}' is no type of a message") from None
+
+
 def type_name(kind: Any) -> str:
     """`package/msg/Name` of a message class."""
     package, _, rest = kind.__module__.partition(".")

@@ -83,11 +83,7 @@ class TurtleWatch:
             self.fresh = True
 
     def _on_canvas(self, topic: str, message: Any) -> None:
-        if (
-            message.encoding == "rgba8"
-            and len(message.data)
-            and len(message.data) == 4 * message.width * message.height
-        ):
+        if message.encoding == "rgba8" and 0 < len(message.data) == 4 * message.width * message.height:
             self._drawings[topic] = Drawing(message.width, message.height, bytes(message.data))
             self.fresh = True
 
