@@ -16,6 +16,7 @@ import os
 import signal
 import tempfile
 import time
+import traceback
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -45,10 +46,15 @@ def together(count: int, work: Work, steps: int) -> list[Any]:
                 os.write(arrivals[1], b".")
                 os.read(next(passed)[0], 1)
 
-            for _, end in doors:
-                os.close(end)
-            os.write(reports[number][1], json.dumps(work(number, wait)).encode())
-            signal.pause()
+            try:
+                for _, end in doors:
+                    os.close(end)
+                os.write(reports[number][1], json.dumps(work(number, wait)).encode())
+                signal.pause()
+            except BaseException:
+                traceback.print_exc()
+            finally:  # whatever ends it: it would go on as its parent, and fork as many again
+                os._exit(1)
         children.append(pid)
     for _, end in doors:
         for _ in range(count):
