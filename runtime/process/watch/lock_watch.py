@@ -6,6 +6,7 @@ all threads into a file in memory. The next beat reads that; until it comes, oth
 
 from __future__ import annotations
 
+import _thread
 import faulthandler
 import os
 import threading
@@ -19,6 +20,8 @@ PERIOD_S = 0.5
 """Wall time (s) between two beats."""
 WRITTEN_S = 1.25
 """Wall time (s) after a beat at which, when no other has come, the stacks are written: the lock is held for 1 s."""
+FIRST_BEAT_S = 1.0
+"""Wall time (s) that the beginning waits for the first beat, at most: what holds the lock before it is never seen."""
 LEAST_DESCRIPTOR = 1000
 """The file's descriptor, where so many are allowed: out of the way of programs that close all they know of."""
 TEXT = (
@@ -47,7 +50,15 @@ class LockWatch:
             return
         self._made = _identity(self._file)
         faulthandler.dump_traceback_later = self._for_the_program
-        real.later(0.0, self._beat)
+        begun = _thread.allocate_lock()
+        begun.acquire()
+
+        def first() -> None:
+            self._beat()
+            begun.release()
+
+        real.later(0.0, first)
+        begun.acquire(True, FIRST_BEAT_S)
 
     def _for_the_program(self, *given: Any, **named: Any) -> None:
         """There is one such thread: who asks for it gets it."""
