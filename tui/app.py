@@ -249,7 +249,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
 
     def on_tabs_chosen(self, event: Tabs.Chosen) -> None:
         """A tab was clicked."""
-        self.stage.go(event.pane)
+        self.stage.choose(event.pane)
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
         """Letters and digits belong to a text field while one has the keyboard."""
@@ -262,7 +262,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
 
     def action_pane(self, name: str) -> None:
         """Show a pane, or the layout."""
-        self.stage.go(name)
+        self.stage.choose(name)
 
     def action_next_pane(self, step: int) -> None:
         """The next pane: of those seen together, else of all."""

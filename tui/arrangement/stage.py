@@ -127,6 +127,12 @@ class Stage:
         self._app.screen_stack[0].set_focus(None)
         self.lay_out()
 
+    def choose(self, name: str) -> None:
+        """Show what a person asks for; says so where the layout has no room."""
+        self.go(name)
+        if name == OVERVIEW and self._tree() is None:
+            self.arranging.begin()
+
     def next(self, step: int) -> None:
         """Go to the next pane: of those seen together, else of all; through a plug-in's parts on the way."""
         now = self.current()
@@ -144,7 +150,7 @@ class Stage:
     def zoom(self) -> None:
         """One pane alone, or the layout again."""
         pane = self.current()
-        self.go(OVERVIEW if self._wanted != OVERVIEW or pane is None else pane.id or OVERVIEW)
+        self.choose(OVERVIEW if self._wanted != OVERVIEW or pane is None else pane.id or OVERVIEW)
 
     def lay_out(self) -> None:
         """Show what is wanted, as far as there is room."""

@@ -7,6 +7,7 @@ from bot_console.tui.pane_table import PANES
 from piloting import Session, run
 from samples import empty, faulty, live
 from textual.scroll_view import ScrollView
+from textual.widgets._toast import Toast
 
 SIZES = [(60, 20), (80, 24), (100, 30), (120, 40), (170, 45), (200, 50), (250, 80)]
 
@@ -64,3 +65,17 @@ def test_a_resize_lays_everything_out_anew() -> None:
             check(session, size)
 
     run(live(), play)
+
+
+def test_a_layout_that_has_no_room_is_told_and_the_pane_stays() -> None:
+    async def play(session: Session) -> None:
+        words = "Layout 'overview' needs more than 80x24"
+        await session.press("2")
+        assert words not in session.text()
+        await session.press("0")
+        assert [str(each._notification.message) for each in session.app.screen.query(Toast)] == [
+            words + "; V then o opens another."
+        ]
+        assert [each.id for each in session.app.visible_panes()] == ["logs"]
+
+    run(live(), play, (80, 24))
