@@ -13,8 +13,11 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-TYPE_NAME = re.compile(r"[a-z][a-z0-9_]*/(?:msg|srv)/[A-Z][A-Za-z0-9]*")
+KINDS = ("msg", "srv", "action")
+TYPE_NAME = re.compile(rf"[a-z][a-z0-9_]*/(?:{'|'.join(KINDS)})/[A-Z][A-Za-z0-9]*")
 """What a folder and a file may be named after: the names come from another program, perhaps of another machine."""
+FALSE = "tells of it what does not have the hash"
+UNREADABLE = "describes it in a way that cannot be read"
 
 _folders: dict[str, Path] = {}
 
@@ -31,21 +34,27 @@ def learn(type_name: str, type_hash: str, told: Any) -> str:
     """
     from bot_console.runtime.rosidl.parse import DefinitionError
 
-    if told is None:
-        return "has not described it"
-    if not told.successful:
-        return f"does not describe it: {told.failure_reason}"
-    texts = {each.type_name: each.raw_file_contents for each in told.type_sources if each.encoding in ("msg", "srv")}
+    refused = refusal(told)
+    if refused:
+        return refused
+    texts = {each.type_name: each.raw_file_contents for each in told.type_sources if each.encoding in KINDS}
     try:
         if not all(map(TYPE_NAME.fullmatch, (type_name, *texts))):
             raise DefinitionError("a name that no type has")
         if not _has_hash(type_name, type_hash, texts):
-            return f"tells of it what does not have the hash {type_hash}"
+            return f"{FALSE} {type_hash}"
         _keep(texts)
         here = _hash_here(type_name)
     except (DefinitionError, ImportError, AttributeError, RecursionError) as error:
-        return f"describes it in a way that cannot be read: {error}"
+        return f"{UNREADABLE}: {error}"
     return "" if here == type_hash else "has other definitions of the types in it than there are here"
+
+
+def refusal(told: Any) -> str:
+    """Why a response of `get_type_description` tells nothing; empty for one that does."""
+    if told is None:
+        return "has not described it"
+    return "" if told.successful else f"does not describe it: {told.failure_reason}"
 
 
 def _has_hash(type_name: str, type_hash: str, texts: Mapping[str, str]) -> bool:

@@ -10,6 +10,7 @@ from typing import Any
 from bot_console.runtime.rmw.bus import Bus, Thing
 from bot_console.runtime.rmw.endpoints import ServiceEndpoint
 from rcl_interfaces.msg import ParameterDescriptor
+from rclpy.impl.entity import Entity
 from rclpy.parameter import Parameter
 
 START_TYPE_DESCRIPTION_SERVICE_PARAM = "start_type_description_service"
@@ -78,6 +79,9 @@ class TypeDescriptionService:
             yield entity.msg_type
         for entity in (*node.services, *node.clients):
             yield entity.srv_type
+        for entity in node.waitables:
+            if isinstance(entity, Entity):
+                yield from entity.interfaces()
 
 
 def _nothing() -> None:

@@ -1,12 +1,16 @@
-"""Types of topics that nobody here has: asked from the nodes that publish them, and held against their hashes."""
+"""Types that nobody here has: asked from the nodes that use them, and held against the hashes of the graph."""
 
 from __future__ import annotations
 
+import argparse
+import importlib.util
+from collections.abc import Callable
+from contextlib import nullcontext
 from typing import Any
 
-from bot_console.runtime.rmw.names import full_name
+from bot_console.runtime.learned_interfaces import TYPE_NAME, learned_folders
 from rclpy.node import Node
-from ros2cli.direct_node import spin_until
+from ros2cli.direct_node import DirectNode, spin_until
 from rosidl_runtime_py.utilities import get_message
 
 PATIENCE = 2.0
@@ -20,31 +24,80 @@ def message_class(node: Node, topic: str, type_name: str) -> Any:
         return get_message(type_name)
     except MISSING:
         pass
-    why = "no node publishes it that could be asked"
-    for endpoint in node.get_publishers_info_by_topic(topic):
-        found = _asked(node, endpoint, type_name)
-        if not isinstance(found, str):
-            return found
-        why = found
+    why = _learned(node, type_name)
+    if not why:
+        return get_message(type_name)
+    why = "no node publishes it that could be asked" if why is None else why
     return f"The type '{type_name}' of topic '{topic}' is not installed here: {why}"
 
 
-def _asked(node: Node, endpoint: Any, type_name: str) -> Any:
-    """The class that an endpoint's node describes, or why it is none."""
-    from bot_console.runtime.learned_interfaces import learn
+def typed_class(get: Callable[[str], Any], kind: str, type_name: str, invalid: str, node: Node | None = None) -> Any:
+    """The class of a type that was typed in, with `kind` (msg, srv, action) in the middle of its name or without.
+
+    `get` finds it here; else those who use it are asked by `node`, or by one for that alone. Gives a text where there
+    is none: `invalid` for one that nobody uses either, else why it cannot be had.
+    """
+    try:
+        return get(type_name)
+    except MISSING:
+        pass
+    full = full_type_name(kind, type_name)
+    why = learned(full, node) if f"/{kind}/" in full else None
+    if why is None:
+        return invalid
+    return not_installed(full, why) if why else get(full)
+
+
+def not_installed(type_name: str, why: str) -> str:
+    """What to say of a type that could not be learned."""
+    return f"The type '{type_name}' is not installed here: {why}"
+
+
+def learned(type_name: str, node: Node | None = None) -> str | None:
+    """Learn a type by its full name; why that cannot be, empty where it was, None where nobody has it to tell."""
+    package = type_name.partition("/")[0]
+    if not TYPE_NAME.fullmatch(type_name):
+        return None
+    if package not in learned_folders() and importlib.util.find_spec(package) is not None:
+        return None
+    with nullcontext(node) if node else DirectNode(argparse.Namespace(no_daemon=True)) as asking:
+        return _learned(asking, type_name)
+
+
+def full_type_name(kind: str, type_name: str) -> str:
+    """`pkg/Name` as `pkg/msg/Name`; every other name as it is."""
+    package, slash, name = type_name.partition("/")
+    return f"{package}/{kind}/{name}" if slash and "/" not in name else type_name
+
+
+def _learned(node: Node, type_name: str) -> str | None:
+    """Learn a type, of an action also by the names of its parts; why that cannot be, None where no node has it."""
+    from bot_console.runtime.type_inquiry import inquiries, whole
+
+    why = None
+    for name, inquiry in inquiries(node.context.get_domain_id(), whole(type_name)).items():
+        problem = _asked(node, name, inquiry)
+        if not problem:
+            return ""
+        why = f"{name} {problem}"
+    return why
+
+
+def _asked(node: Node, name: str, inquiry: Any) -> str:
+    """Ask a node all that is to be asked; why it is no use, else empty."""
     from type_description_interfaces.srv import GetTypeDescription
 
-    name = full_name(endpoint.node_namespace, endpoint.node_name)
-    wanted = str(endpoint.topic_type_hash)
     client = node.create_client(GetTypeDescription, f"{name}/get_type_description")
     try:
         spin_until(node, client.service_is_ready, PATIENCE)
-        request = GetTypeDescription.Request(type_name=type_name, type_hash=wanted, include_type_sources=True)
-        future = client.call_async(request)
-        if not spin_until(node, future.done, PATIENCE):
-            return f"{name} has not described it within {PATIENCE:g} s"
-        told = future.result()
+        type_name, type_hash = next(inquiry)
+        while True:
+            request = GetTypeDescription.Request(type_name=type_name, type_hash=type_hash, include_type_sources=True)
+            future = client.call_async(request)
+            if not spin_until(node, future.done, PATIENCE):
+                return f"has not described it within {PATIENCE:g} s"
+            type_name, type_hash = inquiry.send(future.result())
+    except StopIteration as over:
+        return over.value
     finally:
         node.destroy_client(client)
-    problem = learn(type_name, wanted, told)
-    return f"{name} {problem}" if problem else get_message(type_name)

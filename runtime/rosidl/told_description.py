@@ -1,14 +1,30 @@
-"""Descriptions of interfaces from the texts of their definitions alone, before any class is made of them."""
+"""Descriptions of interfaces from what others tell of them, before any class is made of them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any
 
 from bot_console.runtime.rosidl.definition import Definition, Type
 from bot_console.runtime.rosidl.parse import PARTS, DefinitionError, parse
-from bot_console.runtime.rosidl.type_description import FILLER, SERVICE_PARTS, Description, field_type
+from bot_console.runtime.rosidl.parts import companions
+from bot_console.runtime.rosidl.type_description import (
+    ACTION_PARTS,
+    FILLER,
+    SERVICE_PARTS,
+    Description,
+    field_type,
+)
 
-EVENT_INFO = "service_msgs/msg/ServiceEventInfo"
+ACTION_TYPES = (
+    ("send_goal_service", "SendGoal"),
+    ("get_result_service", "GetResult"),
+    ("feedback_message", "FeedbackMessage"),
+)
+"""What of an action nodes meet by, each with a type and a hash of its own in the graph."""
+ACTION_SERVICES = ("SendGoal", "GetResult")
+FIELD_TYPE = ("type_id", "capacity", "string_capacity", "nested_type_name")
+"""What of a field's type its hash is made of, in order; defaults and comments are not."""
 MESSAGE = Type("/")
 """What a message in a message is, whichever it is."""
 
@@ -17,7 +33,7 @@ Row = tuple[str, Type, str]
 
 
 def describe_texts(wanted: str, texts: Mapping[str, str]) -> Description:
-    """The description of the message or service `wanted`, as `describe` gives it for its class.
+    """The description of the interface `wanted`, as `describe` gives it for its class.
 
     `texts` are definitions by the full names of their types, of all that it consists of. Raises `DefinitionError` for
     one that cannot be read, or is missing.
@@ -27,6 +43,47 @@ def describe_texts(wanted: str, texts: Mapping[str, str]) -> Description:
         structures.update(_structures(name, text))
     found: dict[str, Description] = {}
     _collect(wanted, structures, found)
+    return _with_references(wanted, found)
+
+
+def plain_description(told: Any) -> Description:
+    """A `type_description_interfaces/msg/TypeDescription` as plain data."""
+    return {
+        "type_description": _plain(told.type_description),
+        "referenced_type_descriptions": [_plain(each) for each in told.referenced_type_descriptions],
+    }
+
+
+def _plain(told: Any) -> Description:
+    return {
+        "type_name": told.type_name,
+        "fields": [
+            {"name": each.name, "type": {name: getattr(each.type, name) for name in FIELD_TYPE}} for each in told.fields
+        ],
+    }
+
+
+def describe_action(wanted: str, parts: Iterable[Description]) -> Description:
+    """The description of an action from those of its `ACTION_TYPES`, of which a graph tells the hashes.
+
+    The action itself is in no graph: its hash follows from theirs. Raises `DefinitionError` where they leave out what
+    it consists of.
+    """
+    found = {each["type_name"]: each for part in parts for each in _all(part)}
+    rows = _action_rows(wanted)
+    found[wanted] = _description(wanted, rows)
+    missing = [nested for _, _, nested in rows if nested not in found]
+    if missing:
+        raise DefinitionError(f"the definition of {missing[0]} is missing")
+    return _with_references(wanted, found)
+
+
+def _all(description: Description) -> Iterator[Description]:
+    yield description["type_description"]
+    yield from description["referenced_type_descriptions"]
+
+
+def _with_references(wanted: str, found: dict[str, Description]) -> Description:
     top = found.pop(wanted)
     return {"type_description": top, "referenced_type_descriptions": [found[name] for name in sorted(found)]}
 
@@ -37,41 +94,49 @@ def _collect(name: str, structures: Mapping[str, Sequence[Row]], found: dict[str
     if name not in structures:
         raise DefinitionError(f"the definition of {name} is missing")
     rows = structures[name]
-    found[name] = {
-        "type_name": name,
-        "fields": [{"name": field, "type": field_type(kind, nested)} for field, kind, nested in rows],
-    }
+    found[name] = _description(name, rows)
     for _, _, nested in rows:
         if nested:
             _collect(nested, structures, found)
 
 
+def _description(name: str, rows: Sequence[Row]) -> Description:
+    return {
+        "type_name": name,
+        "fields": [{"name": field, "type": field_type(kind, nested)} for field, kind, nested in rows],
+    }
+
+
 def _structures(name: str, text: str) -> Iterator[tuple[str, Sequence[Row]]]:
-    """The structures of one definition: a message is one, a service has parts and what holds them."""
+    """The structures of one definition: a message is one, a service and an action have parts and what holds them."""
     package, kind, short = name.split("/")
     if kind not in PARTS:
-        raise DefinitionError(f"{name} is neither a message nor a service")
+        raise DefinitionError(f"{name} is no interface")
     interface = parse(text, package, kind, short)
-    for part in interface.parts:
-        yield f"{package}/{kind}/{part.name}", _rows(part)
+    for part in (*interface.parts, *companions(interface)):
+        yield f"{package}/{kind}/{part.name}", _rows(part, kind)
     if kind == "srv":
-        yield name, [(field, MESSAGE, f"{name}_{part}") for field, part in SERVICE_PARTS]
-        one = Type("/", sequence=True, bound=1)
-        yield (
-            f"{name}_Event",
-            [
-                ("info", MESSAGE, EVENT_INFO),
-                ("request", one, f"{name}_Request"),
-                ("response", one, f"{name}_Response"),
-            ],
-        )
+        yield name, _service_rows(name)
+    elif kind == "action":
+        yield name, _action_rows(name)
+        for service in ACTION_SERVICES:
+            yield f"{name}_{service}", _service_rows(f"{name}_{service}")
 
 
-def _rows(part: Definition) -> list[Row]:
-    rows = [(each.name, each.type, "" if each.type.primitive else _full(each.type.item)) for each in part.fields]
+def _service_rows(name: str) -> list[Row]:
+    return [(field, MESSAGE, f"{name}_{part}") for field, part in SERVICE_PARTS]
+
+
+def _action_rows(name: str) -> list[Row]:
+    return [(field, MESSAGE, f"{name}_{part}") for field, part in (*ACTION_PARTS, *ACTION_TYPES)]
+
+
+def _rows(part: Definition, kind: str) -> list[Row]:
+    rows = [(each.name, each.type, "" if each.type.primitive else _full(each.type.item, kind)) for each in part.fields]
     return rows or [(FILLER, Type("uint8"), "")]
 
 
-def _full(item: str) -> str:
+def _full(item: str, kind: str) -> str:
+    """The full name of what a field holds; only the parts of a definition of this `kind` have an underscore."""
     package, _, name = item.partition("/")
-    return f"{package}/msg/{name}"
+    return f"{package}/{kind if '_' in name else 'msg'}/{name}"

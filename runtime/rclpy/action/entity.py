@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from rclpy._rclpy_pybind11 import InvalidHandle
@@ -41,6 +41,11 @@ class ActionEntity(Entity, Waitable):
     def pending(self) -> bool:
         """Whether something has come."""
         return not self.destroyed and self._endpoints.pending()
+
+    def interfaces(self) -> Sequence[Any]:
+        """The action, and what of it has a hash of its own in the graph."""
+        impl = self._action_type.Impl
+        return (self._action_type, impl.SendGoalService, impl.GetResultService, impl.FeedbackMessage)
 
     def destroy(self) -> None:
         """Leave the graph; every use from now on raises `InvalidHandle`."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 from inspect import iscoroutinefunction
 from typing import Any
 
@@ -50,6 +51,10 @@ class Entity:
     def run(self) -> Any:
         """Take one piece of work and do it; a coroutine is driven on by the executor."""
         raise NotImplementedError
+
+    def interfaces(self) -> Sequence[Any]:
+        """The interface classes that it uses beyond its node's topics and services."""
+        return ()
 
     def attach(self, sink: Any, node_order: int) -> None:
         """Let an executor serve this from now on."""

@@ -20,6 +20,7 @@ from rclpy.signals import uninstall_signal_handlers
 from rclpy.validate_full_topic_name import validate_full_topic_name
 from ros2cli.command import Command, Result, Verb
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, node_names, spin_until
+from ros2cli.told_types import typed_class
 from ros2cli.yaml_values import read_values
 from rosidl_runtime_py import message_to_yaml, set_message_fields
 from rosidl_runtime_py.utilities import get_action
@@ -109,10 +110,9 @@ def _goal_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _send_goal(arguments: argparse.Namespace) -> Result:
-    try:
-        kind = get_action(arguments.action_type)
-    except (AttributeError, ModuleNotFoundError, ValueError):
-        return "The passed action type is invalid"
+    kind = typed_class(get_action, "action", arguments.action_type, "The passed action type is invalid")
+    if isinstance(kind, str):
+        return kind
     values = read_values(sys.stdin if arguments.stdin else arguments.goal)
     goal = kind.Goal()
     try:

@@ -13,6 +13,7 @@ from bot_console.runtime.further_interfaces import NotAdded, add, unverified_fol
 from bot_console.runtime.interface_finder import interface_folders
 from ros2cli.command import Command, Result, Verb
 from ros2cli.interface_text import show_text
+from ros2cli.told_types import learned, not_installed
 from rosidl_runtime_py import (
     get_action_interfaces,
     get_message_interfaces,
@@ -90,6 +91,9 @@ def _proto_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _proto(arguments: argparse.Namespace) -> Result:
+    why = learned(arguments.type)
+    if why:
+        return not_installed(arguments.type, why)
     try:
         kind = _prototype(arguments.type)
     except (AttributeError, ImportError, LookupError, TypeError, ValueError) as error:
@@ -131,7 +135,7 @@ def _show(arguments: argparse.Namespace) -> Result:
     if len(name.split("/")) != 3:
         return f"Invalid name '{name}'. Expected three parts separated by '/'"
     try:
-        text = show_text(name, all_comments=arguments.all_comments, no_comments=arguments.no_comments)
+        text = _text(name, arguments)
     except LookupError as error:
         return str(error.args[0])
     except OSError as error:  # as of a name that is too long for any file
@@ -141,6 +145,19 @@ def _show(arguments: argparse.Namespace) -> Result:
     if interface_folders().get(package) == unverified_folders().get(package, ""):
         print(f"[INFO] [bot-console]: {UNVERIFIED.format(package)}", file=sys.stderr)
     return None
+
+
+def _text(name: str, arguments: argparse.Namespace) -> str:
+    """The definition as it is here, else as a node tells it; raises `LookupError`."""
+    try:
+        return show_text(name, all_comments=arguments.all_comments, no_comments=arguments.no_comments)
+    except LookupError:
+        why = learned(name)
+        if why is None:
+            raise
+        if why:
+            raise LookupError(not_installed(name, why)) from None
+    return show_text(name, all_comments=arguments.all_comments, no_comments=arguments.no_comments)
 
 
 def _add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -13,6 +13,7 @@ from rclpy.node import Node
 from ros2cli.command import Command, Result, Verb
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, node_names, spin_until
 from ros2cli.endpoints import hidden
+from ros2cli.told_types import full_type_name, typed_class
 from ros2cli.verbs import service_echo
 from ros2cli.verbs.topic_pub import POSITIVE_FLOAT
 from ros2cli.yaml_values import read_values
@@ -120,19 +121,22 @@ def _call_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _call(arguments: argparse.Namespace) -> Result:
-    parts = arguments.service_type.split("/")
-    if len(parts) == 2:
-        parts = [parts[0], "srv", parts[1]]
-    try:
-        kind = getattr(importlib.import_module(".".join(parts[:-1])), parts[-1])
-    except (AttributeError, ModuleNotFoundError, ValueError):
-        return "The passed service type is invalid"
+    kind = typed_class(_interface, "srv", arguments.service_type, "The passed service type is invalid")
+    if isinstance(kind, str):
+        return kind
     if not hasattr(kind, "Request"):
         return "The passed type is not a service"
     values = read_values(sys.stdin if arguments.stdin else arguments.values)
     arguments.no_daemon = True
-    with DirectNode(arguments, name=f"_ros2cli_requester_{parts[0]}_{parts[-1]}") as node:
+    package, *_, name = arguments.service_type.split("/")
+    with DirectNode(arguments, name=f"_ros2cli_requester_{package}_{name}") as node:
         return _requests(node, kind, values, arguments)
+
+
+def _interface(type_name: str) -> Any:
+    """What stands under a type's name, service or not."""
+    *modules, name = full_type_name("srv", type_name).split("/")
+    return getattr(importlib.import_module(".".join(modules)), name)
 
 
 def _requests(node: Node, kind: Any, values: Any, arguments: argparse.Namespace) -> Result:

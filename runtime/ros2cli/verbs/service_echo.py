@@ -9,6 +9,7 @@ from rclpy.node import Node
 from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, spin_until
 from ros2cli.qos_arguments import add_qos_arguments, profile
+from ros2cli.told_types import typed_class
 from ros2cli.verbs.topic_echo import add_form_arguments
 from rosidl_runtime_py import message_to_csv, message_to_ordereddict
 from rosidl_runtime_py.convert import ordereddict_to_yaml
@@ -17,7 +18,6 @@ from rosidl_runtime_py.utilities import get_service
 EVENT_TOPIC = "/_service_event"
 EVENTS = ("REQUEST_SENT", "REQUEST_RECEIVED", "RESPONSE_SENT", "RESPONSE_RECEIVED")
 """Words for `service_msgs/msg/ServiceEventInfo.event_type`."""
-INVALID = (AttributeError, ModuleNotFoundError, ValueError)
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
@@ -52,17 +52,12 @@ def _service_class(node: Node, arguments: argparse.Namespace) -> Any:
     """The class of the service, or a text that says why there is none."""
     name = arguments.service_name
     if arguments.service_type is not None:
-        try:
-            return get_service(arguments.service_type)
-        except INVALID:
-            return f"The service type '{arguments.service_type}' is invalid"
+        invalid = f"The service type '{arguments.service_type}' is invalid"
+        return typed_class(get_service, "srv", arguments.service_type, invalid, node)
     types = dict(node.get_service_names_and_types()).get(name if name.startswith("/") else f"/{name}")
     if not types:
         return "Could not load the type for the passed service"
-    try:
-        return get_service(types[0])
-    except INVALID:
-        return f"The service name '{name}' is invalid"
+    return typed_class(get_service, "srv", types[0], f"The service name '{name}' is invalid", node)
 
 
 def _show(event: Any, chosen: argparse.Namespace) -> None:

@@ -11,7 +11,7 @@ from rclpy.node import Node
 from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, spin_until
 from ros2cli.qos_arguments import add_qos_arguments, compatible
-from ros2cli.told_types import message_class
+from ros2cli.told_types import message_class, typed_class
 from rosidl_runtime_py import message_to_csv, message_to_yaml
 from rosidl_runtime_py.utilities import get_message
 
@@ -157,10 +157,8 @@ def _filter(expression: str | None) -> Callable[[Any], bool]:
 def _message_class(node: Node, arguments: argparse.Namespace) -> Any:
     """The class to subscribe with, or a text that says why there is none."""
     if arguments.message_type:
-        try:
-            return get_message(arguments.message_type)
-        except (ValueError, AttributeError, ModuleNotFoundError):
-            return "The passed message type is invalid"
+        invalid = "The passed message type is invalid"
+        return typed_class(get_message, "msg", arguments.message_type, invalid, node)
     name = arguments.topic_name if arguments.topic_name.startswith("/") else f"/{arguments.topic_name}"
     types = dict(node.get_topic_names_and_types()).get(name)
     if not types:

@@ -14,6 +14,7 @@ from rclpy.node import Node
 from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, spin_until
 from ros2cli.qos_arguments import add_qos_arguments, profile
+from ros2cli.told_types import typed_class
 from ros2cli.yaml_values import read_values
 from rosidl_runtime_py import set_message_fields
 from rosidl_runtime_py.utilities import get_message
@@ -99,10 +100,9 @@ def publish(arguments: argparse.Namespace) -> Result:
     """`ros2 topic pub`."""
     import yaml
 
-    try:
-        kind = get_message(arguments.message_type)
-    except (AttributeError, ModuleNotFoundError, ValueError):
-        return "The passed message type is invalid"
+    kind = typed_class(get_message, "msg", arguments.message_type, "The passed message type is invalid")
+    if isinstance(kind, str):
+        return kind
     values = {} if arguments.stdin else read_values(arguments.values)
     if not isinstance(values, dict):
         return "The passed value needs to be a dictionary in YAML format"

@@ -5,14 +5,14 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import pytest
 from bot_console.tui.cli.system.domain import take_part
 from bot_console.tui.cli.system.type_source import DomainTypes
 from bot_console.tui.console.connection.ros_console import RosConsole
-from bot_console.tui.console.traffic import Payload
+from bot_console.tui.console.traffic import Payload, Slot, Traffic
 from rigs import until
 
 if os.name == "nt":
@@ -22,7 +22,10 @@ PATIENCE = 60.0
 PAINTER = """
 import rclpy
 import bot_console.runtime.rclpy.type_description_service as service
+from false_shapes.action import Draw as FalseDraw
 from false_shapes.msg import Spot as FalseSpot
+from rclpy.action import ActionServer
+from told_shapes.action import Draw
 from told_shapes.msg import Path, Spot
 from told_shapes.srv import Paint
 
@@ -38,11 +41,18 @@ def paint(request, response):
     response.painted = request.at.x + request.at.y
     return response
 
+def draw(goal):
+    goal.publish_feedback(Draw.Feedback(done=0.5))
+    goal.succeed()
+    return Draw.Result(drawn=[goal.request.to])
+
 rclpy.init()
 node = rclpy.create_node("painter")
 publisher = node.create_publisher(Path, "spots", 1)
 untrue = node.create_publisher(FalseSpot, "false_spots", 1)
 node.create_service(Paint, "paint", paint)
+drawing = ActionServer(node, Draw, "draw", draw)
+falsely = ActionServer(node, FalseDraw, "draw_falsely", draw)
 heard = node.create_publisher(Spot, "heard", 1)
 node.create_subscription(Spot, "wanted", heard.publish, 1)
 node.create_timer(0.1, lambda: (publisher.publish(Path(spots=[Spot(x=1.5)], tag="abc")), untrue.publish(FalseSpot())))
@@ -52,6 +62,8 @@ DEFINITIONS = {
     "told_shapes/msg/Spot.msg": "float64 x\nfloat64 y\n",
     "told_shapes/msg/Path.msg": "Spot[] spots\nstd_msgs/Header header\nstring<=5 tag\nint32 A=1\n",
     "told_shapes/srv/Paint.srv": "Spot at\nuint8 RED=1\nuint8 colour\n---\nfloat64 painted\n",
+    "told_shapes/action/Draw.action": "# To\nSpot to\nint8 BY=2\nint8 how 2\n---\nSpot[] drawn\n---\nfloat32 done",
+    "false_shapes/action/Draw.action": "float64 y\nfloat64 x\n---\n---\n",
     "false_shapes/msg/Spot.msg": "float64 x\nfloat64 y\n",
 }
 
@@ -80,6 +92,14 @@ def typed(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(line, cwd=folder, capture_output=True, text=True, timeout=PATIENCE, check=False)
 
 
+def form_of(traffic: Traffic, payload: Payload, type_name: str) -> Sequence[Slot]:
+    """The form of a type, empty as long as it was not told."""
+    try:
+        return traffic.slots(payload, type_name, {})
+    except ValueError:
+        return ()
+
+
 def test_a_verb_reads_messages_by_what_their_node_tells_unless_it_has_another_hash(elsewhere: Path) -> None:
     while "/spots" not in typed(elsewhere, "topic", "list").stdout:
         pass
@@ -89,6 +109,32 @@ def test_a_verb_reads_messages_by_what_their_node_tells_unless_it_has_another_ha
     untrue = typed(elsewhere, "topic", "echo", "--once", "/false_spots")
     assert untrue.returncode == 1 and untrue.stdout == ""
     assert "'false_shapes/msg/Spot' of topic '/false_spots' is not installed here" in untrue.stderr
+    assert "/painter tells of it what does not have the hash RIHS01_" in untrue.stderr
+
+
+def test_a_verb_sends_goals_and_requests_and_messages_of_types_that_are_elsewhere(elsewhere: Path) -> None:
+    while "/draw" not in typed(elsewhere, "action", "list").stdout:
+        pass
+    assert "/draw [told_shapes/action/Draw]\n" in typed(elsewhere, "action", "list", "-t").stdout
+    info = typed(elsewhere, "action", "info", "-t", "/draw")
+    assert "Action servers: 1\n    /painter [told_shapes/action/Draw]\n" in info.stdout
+    sent = typed(elsewhere, "action", "send_goal", "-f", "/draw", "told_shapes/action/Draw", "{to: {x: 1.5}}")
+    assert (sent.stderr, sent.returncode) == ("", 0)
+    assert "Sending goal:\n     to:\n  x: 1.5\n  y: 0.0\nhow: 2\n" in sent.stdout
+    assert "Feedback:\n    done: 0.5\n" in sent.stdout and "Result:\n    drawn:\n- x: 1.5\n" in sent.stdout
+    assert sent.stdout.endswith("Goal finished with status: SUCCEEDED\n")
+
+    shown = typed(elsewhere, "interface", "show", "told_shapes/action/Draw").stdout
+    assert shown.startswith("# To\nSpot to\n\tfloat64 x\n\tfloat64 y\nint8 BY=2\nint8 how 2\n---\n")
+    called = typed(elsewhere, "service", "call", "/paint", "told_shapes/srv/Paint", "{at: {x: 1.0, y: 2.0}}")
+    assert called.stdout.endswith("told_shapes.srv.Paint_Response(painted=3.0)\n\n")
+    published = typed(elsewhere, "topic", "pub", "--once", "/wanted", "told_shapes/Spot", "{x: 4.0}")
+    assert "publishing #1: told_shapes.msg.Spot(x=4.0, y=0.0)" in published.stdout
+
+    wrong = typed(elsewhere, "action", "send_goal", "/draw", "told_shapes/action/Drew")
+    assert (wrong.stdout, wrong.stderr.strip(), wrong.returncode) == ("", "The passed action type is invalid", 1)
+    untrue = typed(elsewhere, "action", "send_goal", "/draw_falsely", "false_shapes/action/Draw")
+    assert untrue.stdout == "" and untrue.returncode == 1
     assert "/painter tells of it what does not have the hash RIHS01_" in untrue.stderr
 
 
@@ -116,11 +162,18 @@ def test_panes_show_plot_fill_in_and_call_what_a_node_tells_of(
         assert traffic.publish("/wanted", "told_shapes/msg/Spot", values, 20.0).ok
         until(lambda: 2.25 in console.samples("/wanted/y", 0).values, "what was filled in")
 
-        until(lambda: "told_shapes/srv/Paint" in str(console.snapshot().graph.services), "the service")
-        form = traffic.slots(Payload.REQUEST, "told_shapes/srv/Paint", {})
+        form = until(lambda: form_of(traffic, Payload.REQUEST, "told_shapes/srv/Paint"), "the service")
         assert [each.path for each in form] == ["at", "at.x", "at.y", "colour"]
         reply = traffic.call("/paint", "told_shapes/srv/Paint", {"at.x": "1.5", "at.y": "2.5"}).result(PATIENCE)
         assert [(each.path, each.text) for each in reply.fields] == [("painted", "4")]
+
+        form = until(lambda: form_of(traffic, Payload.GOAL, "told_shapes/action/Draw"), "the action")
+        assert [each.path for each in form] == ["to", "to.x", "to.y", "how"]
+        assert traffic.send_goal("/draw", "told_shapes/action/Draw", {"to.x": "2.5"}).ok
+        until(lambda: "/draw" in traffic.goals() and not traffic.goals()["/draw"].active, "the goal's end")
+        goal = traffic.goals()["/draw"]
+        assert (goal.status, [each.text for each in goal.feedback]) == ("succeeded", ["0.5"])
+        assert "2.5" in str(goal.result)
 
         traffic.listen("/false_spots")
         hashed = "the type false_shapes/msg/Spot is not known here: /painter tells of it what does not have the hash"

@@ -8,7 +8,9 @@ from typing import Any
 import pytest
 import rclpy
 from bot_console.runtime.rosidl.type_hash import text
+from example_interfaces.action import Fibonacci
 from geometry_msgs.msg import Twist
+from rclpy.action import ActionServer
 from rclpy.executors import SingleThreadedExecutor
 from std_srvs.srv import Trigger
 from type_description_interfaces.srv import GetTypeDescription
@@ -59,6 +61,26 @@ def test_a_service_of_the_node_is_described(node: Any) -> None:
     answer = ask(node, type_hash=text(Trigger), include_type_sources=False)
     assert answer.type_description.type_description.type_name == "std_srvs/srv/Trigger"
     assert len(answer.type_sources) == 0
+
+
+def test_an_action_of_the_node_is_described_and_what_the_graph_shows_of_it(node: Any) -> None:
+    server = ActionServer(node, Fibonacci, "fib", lambda goal: Fibonacci.Result())
+    name = "example_interfaces/action/Fibonacci"
+    answer = ask(node, type_hash=text(Fibonacci), include_type_sources=True)
+    assert answer.type_description.type_description.type_name == name
+    sources = {each.type_name: (each.encoding, each.raw_file_contents) for each in answer.type_sources}
+    assert sources[name][0] == "action" and "int32 order" in sources[name][1]
+    assert sources[f"{name}_Goal"] == ("implicit", "")
+    impl = Fibonacci.Impl
+    for each, part in (
+        (impl.SendGoalService, "SendGoal"),
+        (impl.GetResultService, "GetResult"),
+        (impl.FeedbackMessage, "FeedbackMessage"),
+    ):
+        found = ask(node, type_hash=text(each), include_type_sources=False).type_description
+        assert found.type_description.type_name == f"{name}_{part}"
+    server.destroy()
+    assert not ask(node, type_hash=text(Fibonacci)).successful
 
 
 def test_what_it_does_not_know(node: Any) -> None:

@@ -11,12 +11,21 @@ from bot_console.runtime.rosidl.told_description import describe_texts
 from bot_console.runtime.rosidl.type_description import describe
 from bot_console.runtime.rosidl.type_hash import text, text_of_description
 
-PACKAGES = ("geometry_msgs", "rcl_interfaces", "std_msgs", "std_srvs", "type_description_interfaces")
+PACKAGES = (
+    "action_tutorials_interfaces",
+    "example_interfaces",
+    "geometry_msgs",
+    "nav2_msgs",
+    "rcl_interfaces",
+    "std_msgs",
+    "std_srvs",
+    "type_description_interfaces",
+)
 
 
 @pytest.mark.parametrize("package", PACKAGES)
 def test_hash_of_the_texts_is_that_of_the_class(package: str) -> None:
-    names = [name for name in interface_names(package) if not name.startswith("action/")]
+    names = interface_names(package)
     assert names
     for name in names:
         kind, short = name.split("/")

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import os
 
+from bot_console.runtime.rmw.bus import Bus
+from bot_console.runtime.rmw.local import local_bus
+from bot_console.runtime.rmw.middleware import bus_of, choose_middleware
 from bot_console.tui.cli.system.domain import CONNECT_VARIABLE, take_part
 
 
@@ -15,3 +18,14 @@ def reach_system() -> str:
     from bot_console.tui.cli.system.connecting import connect_to
 
     return connect_to(endpoints)
+
+
+def reach_when_asked() -> None:
+    """Reach it with the first context, for a verb that seldom makes one; where that cannot be, the verb is alone."""
+
+    def reach(domain: int) -> Bus:
+        if reach_system():
+            choose_middleware(local_bus)
+        return bus_of(domain)
+
+    choose_middleware(reach)

@@ -6,11 +6,11 @@ import sys
 from collections.abc import Sequence
 
 from bot_console.tui.cli.system.domain import take_part
-from bot_console.tui.cli.system.reaching import reach_system
+from bot_console.tui.cli.system.reaching import reach_system, reach_when_asked
 
 VERBS = ("action", "interface", "lifecycle", "node", "param", "pkg", "service", "topic")
 ALONE = ("interface", "pkg")
-"""These answer from files and need no running system."""
+"""These answer from files, and ask a running system only for what is in none."""
 
 
 def main(words: Sequence[str]) -> int:
@@ -32,7 +32,13 @@ def main(words: Sequence[str]) -> int:
 
 def taking_part(words: Sequence[str]) -> int:
     """Run a command line in the domain that the environment names; what answers from files needs none."""
-    problem = "" if words[0] in ALONE else take_part() if words[0] == "launch" else reach_system()
+    problem = ""
+    if words[0] == "launch":
+        problem = take_part()
+    elif words[0] in ALONE:
+        reach_when_asked()
+    else:
+        problem = reach_system()
     if problem:
         print(problem, file=sys.stderr)
         return 1

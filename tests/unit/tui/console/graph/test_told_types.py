@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Coroutine
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast
 
+import pytest
 from bot_console.tui.console.calls import NoAnswer
-from bot_console.tui.console.graph.told_types import ToldTypes
+from bot_console.tui.console.graph.told_types import Inquiry, ToldTypes
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 
 SPOT = "told_nowhere/msg/Spot"
@@ -20,33 +22,32 @@ class Graph:
     def __init__(self) -> None:
         self.context = SimpleNamespace(get_domain_id=lambda: 0)
         self.asked: list[str] = []
+        self.types: list[str] = []
         self.learned = 0
         self.told = ToldTypes(cast("Any", self), cast("Any", self), cast("Any", self), self._one_more)
 
     def _one_more(self) -> None:
         self.learned += 1
 
-    def has(self, *nodes: str) -> None:
-        """These nodes publish the type, and one has a type that is here."""
+    def has(self, *nodes: str, types: tuple[str, ...] = (SPOT,)) -> None:
+        """These nodes publish the types, and one has a type that is here."""
         self._nodes = nodes
-        topics = (Endpoint("/spots", (SPOT,)), Endpoint("/words", ("std_msgs/msg/String",)))
+        topics = (Endpoint("/spots", types), Endpoint("/words", ("std_msgs/msg/String",)))
         self.told.follow(GraphInfo(tuple(NodeInfo(each) for each in nodes), topics))
 
-    def get_publishers_info_by_topic(self, topic: str) -> list[Any]:
-        assert topic == "/spots"
-        return [
-            SimpleNamespace(node_name=each[1:], node_namespace="/", topic_type=SPOT, topic_type_hash=f"of {each}")
-            for each in self._nodes
-        ]
+    def inquiries(self, domain: int, type_name: str) -> dict[str, Inquiry]:
+        return {each: self._inquiry(type_name, f"of {each}") for each in self._nodes}
 
-    def get_subscriptions_info_by_topic(self, topic: str) -> list[Any]:
-        return []
+    def _inquiry(self, type_name: str, type_hash: str) -> Inquiry:
+        told = yield type_name, type_hash
+        return "" if told == "/knows" else "has not described it"
 
     def run(self, work: Coroutine[Any, Any, None], refused: object) -> None:
         asyncio.run(work)
 
     async def ask(self, kind: object, service: str, request: Any) -> str:
-        assert (request.type_name, request.include_type_sources) == (SPOT, True)
+        assert request.type_name.startswith("told_nowhere/") and request.include_type_sources
+        self.types.append(request.type_name)
         node = service.rpartition("/")[0]
         assert request.type_hash == f"of {node}"
         self.asked.append(node)
@@ -56,9 +57,6 @@ class Graph:
 
     def forget(self, prefix: str) -> None:
         assert prefix.endswith("/get_type_description")
-
-    def learn(self, type_name: str, type_hash: str, told: str) -> str:
-        return "" if told == "/knows" else "has not described it"
 
 
 def test_each_node_is_asked_once_until_one_knows() -> None:
@@ -81,3 +79,12 @@ def test_a_node_that_has_come_back_is_asked_again() -> None:
     graph.has("/hangs")
     assert graph.asked == ["/hangs", "/hangs"]
     assert "did not answer within 5 s" in graph.told.explain(SPOT, "")
+
+
+def test_a_package_of_which_one_type_was_learned_has_more(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    graph = Graph()
+    graph.has("/knows")
+    monkeypatch.syspath_prepend(tmp_path)
+    (tmp_path / "told_nowhere").mkdir()  # as what is learned can be imported
+    graph.has("/knows", types=(SPOT, "told_nowhere/action/Draw_FeedbackMessage", "told_nowhere/action/Draw_SendGoal"))
+    assert graph.types == [SPOT, "told_nowhere/action/Draw"] and graph.learned == 2

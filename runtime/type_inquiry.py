@@ -1,0 +1,61 @@
+"""What to ask a node for a type that nobody here has; who asks, and how long it waits, is the caller's."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Mapping, Sequence
+from typing import Any
+
+from bot_console.runtime.learned_interfaces import FALSE, UNREADABLE, learn, refusal
+from bot_console.runtime.rmw.middleware import bus_of
+from bot_console.runtime.rosidl.parse import DefinitionError
+from bot_console.runtime.rosidl.told_description import ACTION_TYPES, describe_action, plain_description
+from bot_console.runtime.rosidl.type_hash import text_of_description
+
+Question = tuple[str, str]
+"""A type and its hash, for a request to `get_type_description`."""
+
+
+def whole(type_name: str) -> str:
+    """The action that a type is a part of, as `pkg/action/Name_Feedback` is; every other type as it is."""
+    package, kind, name = type_name.split("/")
+    return f"{package}/{kind}/{name.partition('_')[0]}" if kind == "action" else type_name
+
+
+def inquiries(domain: int, type_name: str) -> Mapping[str, Generator[Question, Any, str]]:
+    """What to ask for a type, by the nodes of other processes that can be asked, sorted by name."""
+    wanted = _types_in_graph(type_name)
+    found: dict[str, dict[str, str]] = {}
+    for tables in bus_of(domain).tables():
+        for each in (*tables.publishers.all(), *tables.subscriptions.all(), *tables.servers.all()):
+            if each.type_name in wanted and each.type_hash:
+                found.setdefault(each.node.full_name, {})[each.type_name] = each.type_hash
+    return {node: inquiry(type_name, hashes) for node, hashes in sorted(found.items()) if len(hashes) == len(wanted)}
+
+
+def _types_in_graph(type_name: str) -> Sequence[str]:
+    """The types whose hashes the graph tells: of an action those of its services and its feedback, else itself."""
+    return [f"{type_name}_{part}" for _, part in ACTION_TYPES] if "/action/" in type_name else [type_name]
+
+
+def inquiry(type_name: str, hashes: Mapping[str, str]) -> Generator[Question, Any, str]:
+    """What to ask one node: yields questions and takes the responses, after which the type can be imported.
+
+    `hashes` are the graph's: of the type, or of the services and the feedback of an action, of which the action's own
+    follows. Returns why the type cannot be had, with the node as the subject that is left out; empty where all is well.
+    """
+    if "/action/" not in type_name:
+        return learn(type_name, hashes[type_name], (yield type_name, hashes[type_name]))
+    parts: list[Any] = []
+    for name in _types_in_graph(type_name):
+        told = yield name, hashes[name]
+        refused = refusal(told)
+        if refused:
+            return refused
+        parts.append(plain_description(told.type_description))
+        if text_of_description(parts[-1]) != hashes[name]:
+            return f"{FALSE} {hashes[name]}"
+    try:
+        type_hash = text_of_description(describe_action(type_name, parts))
+    except DefinitionError as error:
+        return f"{UNREADABLE}: {error}"
+    return learn(type_name, type_hash, (yield type_name, type_hash))

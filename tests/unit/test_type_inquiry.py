@@ -1,0 +1,97 @@
+"""What a node is asked for an action that nobody here has: what the graph shows of it, then the whole."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterator
+from typing import Any
+
+import pytest
+import rclpy
+from bot_console.runtime.rosidl.type_hash import text
+from bot_console.runtime.type_inquiry import inquiry, whole
+from example_interfaces.action import Fibonacci
+from rclpy.action import ActionClient
+from type_description_interfaces.srv import GetTypeDescription
+
+NAME = "example_interfaces/action/Fibonacci"
+HASHES = {
+    f"{NAME}_SendGoal": text(Fibonacci.Impl.SendGoalService),
+    f"{NAME}_GetResult": text(Fibonacci.Impl.GetResultService),
+    f"{NAME}_FeedbackMessage": text(Fibonacci.Impl.FeedbackMessage),
+}
+
+
+@pytest.fixture
+def node() -> Iterator[Any]:
+    """One that has the action."""
+    context = rclpy.Context()
+    rclpy.init(args=[], context=context)
+    made = rclpy.create_node("n", context=context)
+    client = ActionClient(made, Fibonacci, "fib")
+    yield made
+    client.destroy()
+    made.destroy_node()
+    rclpy.try_shutdown(context=context)
+
+
+def told(node: Any, type_hash: str) -> Any:
+    request = GetTypeDescription.Request(type_hash=type_hash, include_type_sources=True)
+    return node._type_description_service._answer(request, GetTypeDescription.Response())
+
+
+def outcome(asking: Generator[Any, Any, str], answer: Any) -> str:
+    """What comes of it when `answer(name, hash)` gives the responses."""
+    question = next(asking)
+    while True:
+        try:
+            question = asking.send(answer(*question))
+        except StopIteration as over:
+            return over.value
+
+
+def test_the_hash_of_an_action_follows_from_those_of_its_parts(node: Any) -> None:
+    asked: list[str] = []
+
+    def answer(name: str, type_hash: str) -> Any:
+        asked.append(name)
+        return told(node, type_hash)
+
+    assert outcome(inquiry(NAME, HASHES), answer) == ""
+    assert asked == [*HASHES, NAME]
+
+
+def test_a_part_with_another_hash_is_refused(node: Any) -> None:
+    last = list(HASHES)[-1]
+
+    def answer(name: str, type_hash: str) -> Any:
+        response = told(node, type_hash)
+        if name == last:
+            response.type_description.type_description.fields[1].name = "backfeed"
+        return response
+
+    assert outcome(inquiry(NAME, HASHES), answer) == f"tells of it what does not have the hash {HASHES[last]}"
+
+
+def test_what_is_of_no_use_is_said(node: Any) -> None:
+    assert outcome(inquiry(NAME, HASHES), lambda name, type_hash: None) == "has not described it"
+    refused = outcome(inquiry(NAME, HASHES), lambda name, type_hash: told(node, "RIHS01_" + "0" * 64))
+    assert refused == "does not describe it: Type not currently in use by this node"
+    # True to their hashes, but of another action.
+    other = {name.replace("Fibonacci", "Other"): hashed for name, hashed in HASHES.items()}
+    elsewhere = outcome(inquiry(NAME.replace("Fibonacci", "Other"), other), lambda name, each: told(node, each))
+    assert elsewhere.startswith(
+        "describes it in a way that cannot be read: the definition of example_interfaces/action"
+    )
+
+
+@pytest.mark.parametrize(
+    ("part", "type_name"),
+    [
+        ("a_b/action/Dig_FeedbackMessage", "a_b/action/Dig"),
+        ("a_b/action/Dig_SendGoal", "a_b/action/Dig"),
+        ("a_b/action/Dig", "a_b/action/Dig"),
+        ("a_b/srv/Dig_Event", "a_b/srv/Dig_Event"),
+    ],
+)
+def test_what_an_action_is_made_of_is_asked_for_as_a_whole(part: str, type_name: str) -> None:
+    assert whole(part) == type_name
