@@ -13,6 +13,7 @@ from typing import Any, cast
 
 from bot_console.tui.terminal.clipboard import osc52, within
 from bot_console.tui.terminal.closing import let_go
+from bot_console.tui.terminal.composing.compositor import PartwiseCompositor
 from bot_console.tui.terminal.difference import ShownScreen
 from bot_console.tui.terminal.gate import AnswerGate
 from bot_console.tui.terminal.gone import LastingFile
@@ -190,6 +191,10 @@ class SparingApp(App[None]):
 
 class HoldingScreen(Screen[None]):
     """A screen that composes nothing while nothing may be drawn; what is dirty stays so."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._compositor = PartwiseCompositor()
 
     def _compositor_refresh(self) -> None:
         # Textual forgets here which widgets are dirty, though those that came after its last look are not drawn.

@@ -1,0 +1,67 @@
+"""A compositor that asks widgets only for the lines that are to be drawn.
+
+Textual asks every widget within the rectangle around all changes for all of its lines: a figure in the first line and
+one in the last cost what the whole screen costs, ten times a second.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from itertools import pairwise
+
+from textual._compositor import ChopsUpdate, Compositor
+from textual.geometry import Region
+from textual.strip import Strip
+from textual.widget import Widget
+
+Pieces = dict[int, dict[int, int]]
+"""Parts of lines between the borders of widgets, by line: the columns where each begins and ends."""
+
+
+class PartwiseCompositor(Compositor):
+    """Composes the changed parts of lines, and of widgets what is seen of them there."""
+
+    def render_partial_update(self) -> ChopsUpdate | None:
+        """What has changed since the last time; None where nothing has."""
+        regions = [*self._dirty_regions]
+        self._dirty_regions.clear()
+        if not regions:
+            return None
+        spans = list(self._regions_to_spans(regions))
+        chops: list[dict[int, Strip | None]] = [{} for _ in self.cuts]
+        wanted = self._pieces(spans)
+        for y in wanted:
+            chops[y] = dict.fromkeys(self.cuts[y][:-1])
+        for widget, (region, clip) in self.visible_widgets.items():  # the foremost first
+            if not wanted:
+                break
+            shown = region.intersection(clip)
+            for y, strip in _lines(widget, region, shown, wanted):
+                line = wanted[y]
+                for x in [x for x in line if shown.x <= x < shown.right]:
+                    chops[y][x] = strip.crop(x - shown.x, line.pop(x) - shown.x)
+                if not line:
+                    del wanted[y]
+        return ChopsUpdate(chops, spans, [cuts[1:] for cuts in self.cuts])
+
+    def _pieces(self, spans: Iterable[tuple[int, int, int]]) -> Pieces:
+        pieces: Pieces = {}
+        for y, begin, end in spans:
+            line = pieces.setdefault(y, {})
+            line.update((x, until) for x, until in pairwise(self.cuts[y]) if x < end and until > begin)
+        return pieces
+
+
+def _lines(widget: Widget, region: Region, shown: Region, wanted: Pieces) -> Iterator[tuple[int, Strip]]:
+    """The lines of a widget that are wanted and that nothing in front of it has covered yet."""
+    rows = [
+        y for y, line in wanted.items()
+        if shown.y <= y < shown.bottom and any(shown.x <= x < shown.right for x in line)
+    ]  # fmt: skip
+    while rows:
+        first, count = rows[0], 1
+        while count < len(rows) and rows[count] == first + count:
+            count += 1
+        crop = Region(shown.x - region.x, first - region.y, shown.width, count)
+        yield from zip(rows[:count], widget.render_lines(crop), strict=False)
+        del rows[:count]
