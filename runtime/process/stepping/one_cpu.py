@@ -6,9 +6,11 @@ else interrupt it, find the interpreter taken, and sleep again.
 
 from __future__ import annotations
 
+import importlib
 import os
 from collections.abc import Callable
 
+BLAS_THREADS = "OPENBLAS_NUM_THREADS"
 _real: Callable[[int], set[int]] = getattr(os, "sched_getaffinity", lambda _pid: {0})
 _processors: list[set[int]] = []
 
@@ -45,6 +47,21 @@ def _let_wakers_go_on() -> Callable[[], None]:
     except OSError:  # not allowed in this container
         return lambda: None
     return lambda: os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
+
+
+def import_numpy() -> None:
+    """Import `numpy`, with its random numbers, without the threads that its linear algebra has for other processors.
+
+    Each of them turns round for 30 to 100 ms before it sleeps for the first time, beside the imports that follow: a
+    third of what the start of a run takes. A number of threads that is asked for in the environment is kept.
+    """
+    asked = os.environ.get(BLAS_THREADS)
+    os.environ.setdefault(BLAS_THREADS, "1")
+    try:
+        importlib.import_module("numpy.random")
+    finally:
+        if asked is None:  # programs that a node starts have the environment that was given
+            os.environ.pop(BLAS_THREADS, None)
 
 
 def sched_getaffinity(pid: int, /) -> set[int]:

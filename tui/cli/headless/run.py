@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import contextlib
 import gc
-import importlib
 import json
 import signal
 import sys
@@ -116,7 +115,9 @@ def _time(options: Options) -> Generator[Any]:
         yield MAIN.clock
         return
     # Before the run, which seeds what is there; and its locks are then the interpreter's, which no draw waits for.
-    importlib.import_module("numpy.random")
+    from bot_console.runtime.process.stepping.one_cpu import import_numpy
+
+    import_numpy()
     with stepped(seed=options.seed or 0, virtual_main=True) as clock:
         yield clock
 

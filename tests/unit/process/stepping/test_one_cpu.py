@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 import time
 
 import pytest
@@ -40,3 +42,13 @@ def test_a_turn_is_one_switch_of_the_system() -> None:
         clock.run_for(2.0)
         # Two turns in each ms; what else goes on on the machine interrupts some of them.
         assert switches() - before < 1.5 * 4000
+
+
+def test_numpy_starts_no_threads_for_other_processors_and_the_environment_stays() -> None:
+    code = (
+        "import os, sys; from bot_console.runtime.process.stepping.one_cpu import import_numpy; import_numpy(); "
+        "print(len(os.listdir('/proc/self/task')), 'numpy.random' in sys.modules, 'OPENBLAS_NUM_THREADS' in os.environ)"
+    )
+    environment = {name: value for name, value in os.environ.items() if not name.endswith("_NUM_THREADS")}
+    ended = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
+    assert ended.stdout.split() == ["1", "True", "False"]
