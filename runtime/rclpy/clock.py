@@ -146,7 +146,9 @@ class Clock(AnyClock):
         """The steady time (ns) at which this clock shows `when`; None where something else drives the clock."""
         if self._clock_type is ClockType.STEADY_TIME:
             return when
-        return self._source.steady_ns() + when - self._source.system_ns()
+        # In this order: a thread that is kept from the processor in between wakes late, and never before the time.
+        until = when - self._source.system_ns()
+        return self._source.steady_ns() + until
 
     def _add_timer(self, timer: Any) -> None:
         self._timers.add(timer)

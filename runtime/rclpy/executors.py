@@ -205,12 +205,14 @@ class Executor(ReadyCallbacks):
                 if item.__class__ is Task:
                     self._polled = timeout == 0
                     return item
-                if item.sink is self and item.pending():
-                    group = item.callback_group
-                    if (not group.own_rules or group.can_execute(item)) and group.beginning_execution(item):
-                        self._polled = timeout == 0
-                        return item
-                    group.block(item)
+                if item.sink is not self or not item.pending():
+                    item.arm()  # a timer whose clock was set back is due later
+                    continue
+                group = item.callback_group
+                if (not group.own_rules or group.can_execute(item)) and group.beginning_execution(item):
+                    self._polled = timeout == 0
+                    return item
+                group.block(item)
             if self._is_shutdown or context.ended or condition is not None:
                 self._look_for_end(condition)
             if not self._new_batch():

@@ -147,7 +147,7 @@ class ActionServer(ActionEntity):
             self._serve_result(*result)
         if expired:
             self._goals.expire(self._now_ns())
-            self._arm()
+            self.arm()
 
     async def _serve_goal(self, client: Any, number: int, request: Any) -> None:
         uuid = bytes(request.goal_id.uuid)
@@ -253,7 +253,7 @@ class ActionServer(ActionEntity):
     def notify_goal_done(self) -> None:
         """A goal has ended: from now on its result grows old."""
         self._goals.find_next_expiry()
-        self._arm()
+        self.arm()
 
     def _publish_status(self) -> None:
         self.use()
@@ -274,7 +274,7 @@ class ActionServer(ActionEntity):
         due = self._goals.next_expiry
         return due is not None and self._now_ns() >= due
 
-    def _arm(self) -> None:
+    def arm(self) -> None:
         """Let the executor wake when the next result expires; under simulated time the clock tells it."""
         due, sink = self._goals.next_expiry, self.sink
         if due is None or sink is None or self.destroyed:
@@ -288,11 +288,11 @@ class ActionServer(ActionEntity):
     def attach(self, sink: Any, node_order: int) -> None:
         """Let an executor serve this from now on."""
         super().attach(sink, node_order)
-        self._arm()
+        self.arm()
 
     def time_jumped(self, backward: bool) -> None:
         """The node's clock was set."""
-        self._arm()
+        self.arm()
 
     def destroy(self) -> None:
         """Destroy the server and let go of its goals."""

@@ -48,6 +48,9 @@ class Entity:
         """Whether there is something to do."""
         raise NotImplementedError
 
+    def arm(self) -> None:
+        """Tell the executor when there is something to do, where that is a matter of time."""
+
     def run(self) -> Any:
         """Take one piece of work and do it; a coroutine is driven on by the executor."""
         raise NotImplementedError

@@ -217,3 +217,21 @@ def test_a_clock_attached_later_shows_the_last_time(ros: Any) -> None:
     source.clock_callback(ClockMessage(clock=Time(seconds=7).to_msg()))
     source.attach_clock(clock)
     assert clock.now().nanoseconds == 7 * SECOND
+
+
+class Kept:
+    """Both clocks of a machine that takes the processor away after each reading."""
+
+    now = 0
+
+    def system_ns(self) -> int:
+        self.now += SECOND
+        return self.now
+
+    steady_ns = system_ns
+
+
+def test_a_deadline_is_never_before_its_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = Clock()
+    monkeypatch.setattr(clock, "_source", Kept())
+    assert clock._steady_deadline(10 * SECOND) == 11 * SECOND

@@ -276,3 +276,20 @@ def test_a_jump_to_a_multiple_of_the_period_is_one_call(ros: Any) -> None:
     clock.set_ros_time_override(Time(seconds=5, clock_type=ClockType.ROS_TIME))
     ros.settle()
     assert len(calls) == 2
+
+
+def test_a_clock_that_was_set_back_puts_a_call_off(stepped_ros: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    node = stepped_ros.node()
+    record = Recorder(node)
+    clock, asked = type(node.get_clock()), set[int]()
+    exact = clock._steady_deadline
+
+    def early_at_first(self: Any, when: int) -> int:
+        early = 0 if when in asked else 30 * MS
+        asked.add(when)
+        return exact(self, when) - early
+
+    monkeypatch.setattr(clock, "_steady_deadline", early_at_first)
+    node.create_timer(0.1, record)
+    stepped_ros.spin(lambda: len(record.times) >= 3)
+    assert record.times == [100, 200, 300]
