@@ -158,9 +158,9 @@ class LocalPublisher:
 
 
 def _serialize(message: Message) -> bytes:
-    from bot_console.runtime.rosidl.cdr import serialize_copied
+    from bot_console.runtime.rosidl.cdr import serialize
 
-    return serialize_copied(message)
+    return serialize(message)
 
 
 def _deserialize(data: bytes, message_class: Any) -> Any:

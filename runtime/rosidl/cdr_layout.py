@@ -1,10 +1,9 @@
-"""How a message lies in CDR: runs of numbers between the parts whose length is only known when they are read."""
+"""How a message lies in CDR: rows of numbers between the parts whose length is only known when they are read."""
 
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable, Iterator, Sequence
-from functools import cache
+from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 from bot_console.runtime.rosidl.definition import Type, parse_type
@@ -66,37 +65,51 @@ def nested(cls: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ..
             yield from nested(inner, (*path, name))
 
 
-def runs(cls: Any) -> Iterator[Sequence[Part]]:
-    """The parts, with neighbouring numbers in one group."""
-    group: list[Part] = []
-    for part in parts(cls):
-        if part.number:
-            group.append(part)
-            continue
-        if group:
-            yield group
-            group = []
-        yield [part]
-    if group:
-        yield group
+class Place(NamedTuple):
+    """What is known of a place in the stream before there is one: its remainder `rest` by `step`, a power of two."""
+
+    step: int
+    rest: int
+
+    def gap(self, size: int) -> int | None:
+        """The bytes to the next multiple of `size`; None where only the stream tells."""
+        return -self.rest % size if size <= self.step else None
+
+    def behind(self, length: int) -> Place:
+        """The place so many bytes on."""
+        return Place(self.step, (self.rest + length) % self.step)
+
+    def behind_many(self, size: int) -> Place:
+        """The place behind a number, not known yet, of elements of `size` bytes."""
+        step = min(self.step, size)
+        return Place(step, self.rest % step)
 
 
-@cache
-def aligned(codes: str, order: str) -> tuple[struct.Struct, ...]:
-    """Structures for numbers in a row, one for each place modulo 8 at which the first may lie."""
-    found: list[struct.Struct] = []
-    for start in range(8):
-        place, text = start, order
-        for code in codes:
-            size = struct.calcsize(order + code)
-            gap = -place % size
-            text += "x" * gap + code
-            place += gap + size
-        found.append(struct.Struct(text))
-    return tuple(found)
+START = Place(8, 4)
+"""The place of a header: what is behind its 4 bytes is aligned to 8."""
+ANYWHERE = Place(1, 0)
 
 
-def compiled(source: str, names: dict[str, Any], title: str) -> Callable[..., Any]:
-    """The function `f` of a source text that this package has written itself."""
-    exec(compile(source, f"<{title}>", "exec"), names)
-    return names["f"]
+def row(codes: Sequence[str], place: Place, order: str) -> tuple[Sequence[struct.Struct], Place]:
+    """Structures for numbers in a row that begin at a place, and the place behind them.
+
+    One structure where the place says all about the bytes between the numbers, else eight: by the place modulo 8.
+    Codes are those of `struct` with a count, if any: `0d` only aligns, `x` is a byte that holds nothing.
+    """
+    behind, known = place, True
+    for code in codes:
+        size, length = struct.calcsize(order + code[-1]), struct.calcsize(order + code)
+        gap = behind.gap(size)
+        known = known and gap is not None
+        behind = Place(size, 0).behind(length) if gap is None else behind.behind(gap + length)
+    starts = (place.rest,) if known else range(8)
+    return [struct.Struct(order + _filled(codes, start, order)) for start in starts], behind
+
+
+def _filled(codes: Sequence[str], start: int, order: str) -> str:
+    text = ""
+    for code in codes:
+        gap = -start % struct.calcsize(order + code[-1])
+        text += "x" * gap + code
+        start += gap + struct.calcsize(order + code)
+    return text

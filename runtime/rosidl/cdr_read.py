@@ -1,16 +1,36 @@
-"""Writes, for a message class, the function that reads a message from a CDR stream."""
+"""Writes, for a message class, the function that reads a message from its bytes.
+
+For `std_msgs/msg/String` it is
+
+    def f(data):
+        end = len(data)
+        m = new(C1)
+        m._check_fields = False
+        try:
+            n1, = S2.unpack_from(data, 4)
+            at = 8
+            if n1 > end - at: raise too_many(n1, end - at)
+            m._data = (data[at:at + n1 - 1] if n1 and not data[at + n1 - 1] else data[at:at + n1]).decode()
+        except UnicodeDecodeError as error:
+            raise no_text(at, error) from None
+        return m
+"""
 
 from __future__ import annotations
 
 import sys
 from array import array
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Any
 
-from bot_console.runtime.rosidl.cdr_layout import CODES, FILLER, Part, aligned, compiled, nested, runs
-from bot_console.runtime.rosidl.definition import DTYPES, TYPECODES
+from bot_console.runtime.rosidl.cdr_layout import ANYWHERE, CODES, FILLER, START, Part, Place, parts, row
+from bot_console.runtime.rosidl.cdr_source import Source
+from bot_console.runtime.rosidl.definition import TYPECODES
 from bot_console.runtime.rosidl.slot_types import nested_class
+
+HEADER_SIZE = 4
+LENGTHS = {order: row(["I"], ANYWHERE, order)[0] for order in "<>"}
 
 
 class CdrError(ValueError):
@@ -18,146 +38,222 @@ class CdrError(ValueError):
 
 
 @cache
-def reader(cls: Any, order: str = "<") -> Callable[[memoryview, int], tuple[Any, int]]:
-    """The function `(data, place)` that gives a message and the place behind it; raises `CdrError`."""
-    names: dict[str, Any] = {
-        "cls": cls,
-        "new": object.__new__,
-        "count": _counter(order),
-        "text": read_text,
-        "wide": read_wide,
-        "numbers": read_numbers,
-        "fixed": read_fixed,
-        "octets": read_octets,
-        "flags": read_flags,
-    }
-    lines = ["def f(data, at):", "    m = new(cls)", "    m._check_fields = False"]
-    for path, inner in nested(cls):
-        name = f"C{len(names)}"
-        names[name] = inner
-        target = _target(path)
-        lines += [f"    {target} = new({name})", f"    {target}._check_fields = False"]
-    for group in runs(cls):
-        lines += ["    " + line for line in _group(group, names, order)]
-    lines.append("    return m, at")
-    return compiled("\n".join(lines), names, f"CDR reader of {cls.__name__}")
+def reader(cls: Any, order: str = "<") -> Callable[[bytes], Any]:
+    """The function that gives the message of a class; raises `CdrError`, and `struct.error` where bytes are missing."""
+    reading = _Reading(cls, order, outermost=True)
+    return reading.source.compiled("data", reading.lines(), f"CDR reader of {cls.__name__}")
 
 
-def _target(path: Sequence[str]) -> str:
-    return "m" + "".join(f"._{name}" for name in path)
+@cache
+def element_reader(cls: Any, order: str) -> Callable[[bytes, memoryview, int, int], tuple[Any, int]]:
+    """The function `(data, view, at, end)` for an element of a sequence: gives it and the place behind it."""
+    reading = _Reading(cls, order, outermost=False)
+    return reading.source.compiled(
+        "data, view, at, end", reading.lines(), f"CDR reader of {cls.__name__} in a sequence"
+    )
 
 
-def _group(group: Sequence[Part], names: dict[str, Any], order: str) -> Iterator[str]:
-    first = group[0]
-    if first.number:
-        name = f"S{len(names)}"
-        names[name] = aligned("".join(CODES[each.type.item] for each in group), order)
-        targets = ", ".join("_" if each.path[-1] == FILLER else _target(each.path) for each in group)
-        yield f"s = {name}[at & 7]"
-        yield f"{targets}, = s.unpack_from(data, at)"
-        yield "at += s.size"
-    elif first.type.sequence or first.type.size:
-        yield from _many(first, names, order)
-    else:
-        yield "n, at = count(data, at)"
-        yield f"{_target(first.path)}, at = {_single(first)}(data, at, n, {order!r})"
+class _Reading:
+    """A reader as it grows; `_codes` and `_targets` are the row of numbers that comes next."""
+
+    def __init__(self, cls: Any, order: str, *, outermost: bool) -> None:
+        helpers = (fixed, flags, missing, no_text, octets, texts, too_many, wide)
+        names = {"array": array, "new": object.__new__, **{each.__name__: each for each in helpers}}
+        begin = (START.behind(HEADER_SIZE), HEADER_SIZE) if outermost else (ANYWHERE, None)
+        self.source = Source(names, order, *begin, shift=START.rest)
+        self._order = order
+        self._outermost = outermost
+        self._codes: list[str] = []
+        self._targets: list[str] = []
+        every = list(parts(cls))
+        self._has_text = any(
+            each.type.item == "string" and not (each.type.sequence or each.type.size) for each in every
+        )
+        if outermost and any(not each.number for each in every):
+            self.source.line("end = len(data)")
+        if outermost and any(each.type.sequence for each in every):
+            self.source.line("view = memoryview(data)")
+        self._messages_made(cls)
+        for part in every:
+            self._part(part)
+        self._end_row()
+
+    def _messages_made(self, cls: Any) -> None:
+        line = self.source.line
+        line(f"m = new({self.source.name('C', cls)})")
+        line("m._check_fields = False")
+        for name, expression, inner in self.source.nested(cls):
+            line(f"{expression} = {name} = new({self.source.name('C', inner)})")
+            line(f"{name}._check_fields = False")
+
+    def lines(self) -> Sequence[str]:
+        """The body of the function."""
+        self.source.line("return m" if self._outermost else f"return m, {self.source.there}")
+        lines = self.source.lines()
+        if not self._has_text:
+            return lines
+        refused = ("except UnicodeDecodeError as error:", "    raise no_text(at, error) from None")
+        return ["try:", *("    " + line for line in lines), *refused]
+
+    def _end_row(self) -> None:
+        """Read the numbers that are noted."""
+        codes, targets, self._codes, self._targets = self._codes, self._targets, [], []
+        if codes:
+            there = self.source.there
+            self.source.row(codes, lambda structure: f"{', '.join(targets)}, = {structure}.unpack_from(data, {there})")
+
+    def _part(self, part: Part) -> None:
+        kind, target = part.type, "_" if part.path[-1] == FILLER else self.source.field(part.path)
+        if part.number:
+            self._codes.append(CODES[kind.item])
+            self._targets.append(target)
+            return
+        count = str(kind.size)
+        if not kind.size:
+            count = self.source.local("n")
+            self._codes.append("I")
+            self._targets.append(count)
+        self._end_row()
+        if not kind.size:
+            self.source.reach()
+            # Each element takes a byte at least, so a larger number is no number of elements.
+            self.source.line(f"if {count} > end - at: raise too_many({count}, end - at)")
+        if not kind.sequence and not kind.size:
+            self._text(kind.item, target, count)
+        elif kind.item in TYPECODES:
+            (self._fixed if kind.size else self._numbers)(kind.item, target, count)
+        elif kind.primitive:
+            self.source.reach()
+            read = {"octet": "octets(", "boolean": "flags("}.get(
+                kind.item, f"texts({self._order!r}, {kind.item == 'wstring'}, "
+            )
+            self.source.line(f"{target}, at = {read}data, at, {count}, end)")
+            self.source.land(ANYWHERE)
+        else:
+            self._messages(part, target, count)
+
+    def _text(self, item: str, target: str, count: str) -> None:
+        if item == "wstring":
+            self.source.line(f"{target}, at = wide({self._order!r}, data, at, {count}, end)")
+            self.source.land(ANYWHERE)
+            return
+        last = f"at + {count} - 1"
+        self.source.line(
+            f"{target} = (data[at:{last}] if {count} and not data[{last}] else data[at:at + {count}]).decode()"
+        )
+        self.source.leap(count, ANYWHERE)
+
+    def _numbers(self, item: str, target: str, count: str) -> None:
+        """A sequence of numbers, aligned where there are any."""
+        source, code = self.source, TYPECODES[item]
+        size, values = array(code).itemsize, source.local("v")
+        gap = source.place.gap(size)
+        source.line(f"{target} = {values} = array({code!r})")
+        source.line(f"if {count}:")
+        if gap != 0:
+            source.line(f"    at += {f'-({source.aligned}) & {size - 1}' if gap is None else gap}")
+        source.line(f"    stop = at + {count} * {size}")
+        source.line("    if stop > end: raise missing(at, stop)")
+        source.line(f"    {values}.frombytes(view[at:stop])")
+        if (self._order == "<") != (sys.byteorder == "little"):
+            source.line(f"    {values}.byteswap()")
+        source.line("    at = stop", moves=True)
+        source.land(source.place.behind_many(size if gap == 0 else 4))
+
+    def _fixed(self, item: str, target: str, count: str) -> None:
+        """Numbers in a NumPy array."""
+        source, code = self.source, CODES[item]
+        size = row([code], ANYWHERE, "=")[0][0].size
+        gap = source.place.gap(size)
+        if gap is None:
+            source.leap(f"(-({source.aligned}) & {size - 1})", Place(size, 0))
+        else:
+            source.step(gap)
+        source.reach()
+        source.line(f"{target} = fixed(data, at, {count}, {self._order + code!r}, end)")
+        source.step(int(count) * size)
+
+    def _messages(self, part: Part, target: str, count: str) -> None:
+        self.source.reach()
+        read = self.source.name("R", element_reader(nested_class(part.owner, part.type.item), self._order))
+        values = self.source.local("v")
+        self.source.line(f"{target} = {values} = []")
+        self.source.line(f"for _ in range({count}):")
+        self.source.line(f"    each, at = {read}(data, view, at, end)")
+        self.source.line(f"    {values}.append(each)")
+        self.source.land(ANYWHERE)
 
 
-def _single(part: Part) -> str:
-    return "wide" if part.type.item == "wstring" else "text"
+def too_many(count: int, left: int) -> CdrError:
+    """The error for a length that cannot be one."""
+    return CdrError(f"{count} elements cannot be in the {left} bytes that are left")
 
 
-def _many(part: Part, names: dict[str, Any], order: str) -> Iterator[str]:
-    kind, target = part.type, _target(part.path)
-    yield "n, at = count(data, at)" if kind.sequence else f"n = {kind.size}"
-    if kind.item in TYPECODES:
-        read = f"fixed(data, at, n, {DTYPES[kind.item]!r}" if kind.size else (
-            f"numbers(data, at, n, {TYPECODES[kind.item]!r}")  # fmt: skip
-        yield f"{target}, at = {read}, {order!r})"
-    elif kind.item in ("octet", "boolean"):
-        yield f"{target}, at = {'octets' if kind.item == 'octet' else 'flags'}(data, at, n)"
-    elif kind.primitive:
-        yield f"{target} = v = []"
-        yield "for _ in range(n):"
-        yield "    k, at = count(data, at)"
-        yield f"    each, at = {_single(part)}(data, at, k, {order!r})"
-        yield "    v.append(each)"
-    else:
-        name = f"R{len(names)}"
-        names[name] = reader(nested_class(part.owner, kind.item), order)
-        yield f"{target} = v = []"
-        yield "for _ in range(n):"
-        yield f"    each, at = {name}(data, at)"
-        yield "    v.append(each)"
+def missing(at: int, stop: int) -> CdrError:
+    """The error for bytes that end within an array."""
+    return CdrError(f"{stop - at} bytes are missing at byte {at - HEADER_SIZE}: the data end there")
 
 
-def _counter(order: str) -> Callable[[memoryview, int], tuple[int, int]]:
-    structures = aligned("I", order)
+def no_text(at: int, error: UnicodeDecodeError) -> CdrError:
+    """The error for a string at a place."""
+    return CdrError(f"a string at byte {at - HEADER_SIZE} is not UTF-8: {error}")
 
-    def count(data: memoryview, at: int) -> tuple[int, int]:
-        structure = structures[at & 7]
-        (number,) = structure.unpack_from(data, at)
+
+def texts(order: str, is_wide: bool, data: bytes, at: int, length: int, end: int) -> tuple[list[str], int]:
+    """Strings."""
+    lengths, found = LENGTHS[order], list[str]()
+    for _ in range(length):
+        structure = lengths[(at + START.rest) & 7]
+        (count,) = structure.unpack_from(data, at)
         at += structure.size
-        # Each element takes a byte at least, so a larger number is no number of elements.
-        if number > len(data) - at:
-            raise CdrError(f"{number} elements cannot be in the {len(data) - at} bytes that are left")
-        return number, at
-
-    return count
-
-
-def _taken(data: memoryview, at: int, length: int) -> memoryview:
-    if at + length > len(data):
-        raise CdrError(f"{length} bytes are missing at byte {at}: the data end there")
-    return data[at : at + length]
-
-
-def read_text(data: memoryview, at: int, length: int, order: str) -> tuple[str, int]:
-    """A string of `length` bytes, its closing zero among them."""
-    raw = bytes(_taken(data, at, length))
-    try:
-        return (raw[:-1] if raw[-1:] == b"\0" else raw).decode(), at + length
-    except UnicodeDecodeError as error:
-        raise CdrError(f"a string at byte {at} is not UTF-8: {error}") from None
+        if count > end - at:
+            raise too_many(count, end - at)
+        if is_wide:
+            text, at = wide(order, data, at, count, end)
+        else:
+            raw = data[at : at + count]
+            try:
+                text = (raw[:-1] if raw[-1:] == b"\0" else raw).decode()
+            except UnicodeDecodeError as error:
+                raise no_text(at, error) from None
+            at += count
+        found.append(text)
+    return found, at
 
 
-def read_wide(data: memoryview, at: int, length: int, order: str) -> tuple[str, int]:
-    """A wide string of `length` UTF-16 units."""
-    units, at = read_numbers(data, at, length, "I", order)
-    try:
-        return array("H", units).tobytes().decode(f"utf-16-{sys.byteorder[0]}e"), at
-    except (UnicodeDecodeError, OverflowError) as error:
-        raise CdrError(f"a wide string before byte {at} is not UTF-16: {error}") from None
-
-
-def read_numbers(data: memoryview, at: int, length: int, code: str, order: str) -> tuple[array[Any], int]:
-    """Numbers as an `array.array`."""
-    values = array(code)
-    if not length:
-        return values, at
-    at += -at % values.itemsize
-    end = at + length * values.itemsize
-    values.frombytes(_taken(data, at, end - at))
+def wide(order: str, data: bytes, at: int, length: int, end: int) -> tuple[str, int]:
+    """A wide string of `length` UTF-16 units, each in four bytes."""
+    stop = at + 4 * length
+    if stop > end:
+        raise missing(at, stop)
+    units = array("I", data[at:stop])
     if (order == "<") != (sys.byteorder == "little"):
-        values.byteswap()
-    return values, end
+        units.byteswap()
+    try:
+        return array("H", units).tobytes().decode(f"utf-16-{sys.byteorder[0]}e"), stop
+    except (UnicodeDecodeError, OverflowError) as error:
+        raise CdrError(f"a wide string before byte {stop - HEADER_SIZE} is not UTF-16: {error}") from None
 
 
-def read_fixed(data: memoryview, at: int, length: int, dtype: str, order: str) -> tuple[Any, int]:
+def fixed(data: bytes, at: int, length: int, wire: str, end: int) -> Any:
     """Numbers as a NumPy array."""
     import numpy
 
-    wire = numpy.dtype(dtype).newbyteorder(order)  # type: ignore[arg-type] -- one of two letters
-    at += -at % wire.itemsize
-    end = at + length * wire.itemsize
-    return numpy.frombuffer(_taken(data, at, end - at), wire).astype(dtype), end
+    dtype = numpy.dtype(wire)
+    if at + length * dtype.itemsize > end:
+        raise missing(at, at + length * dtype.itemsize)
+    return numpy.frombuffer(data, dtype, length, at).astype(wire[1])
 
 
-def read_octets(data: memoryview, at: int, length: int) -> tuple[list[bytes], int]:
+def octets(data: bytes, at: int, length: int, end: int) -> tuple[list[bytes], int]:
     """Bytes, each on its own."""
-    return [bytes([each]) for each in _taken(data, at, length)], at + length
+    if at + length > end:
+        raise missing(at, at + length)
+    return [bytes([each]) for each in data[at : at + length]], at + length
 
 
-def read_flags(data: memoryview, at: int, length: int) -> tuple[list[bool], int]:
+def flags(data: bytes, at: int, length: int, end: int) -> tuple[list[bool], int]:
     """Booleans."""
-    return [bool(each) for each in _taken(data, at, length)], at + length
+    if at + length > end:
+        raise missing(at, at + length)
+    return [each != 0 for each in data[at : at + length]], at + length

@@ -1,105 +1,287 @@
-"""Writes, for a message class, the function that appends a message to a CDR stream."""
+"""Writes, for a message class, the function that gives the bytes of a message in one pass.
+
+Numbers in a row are one call of `struct`, together with the length of the text or sequence that follows; for
+`std_msgs/msg/String` the function is
+
+    def f(m):
+        v1 = m._data
+        if v1.__class__ is not str: raise Inexact
+        d2 = v1.encode()
+        if 0 in d2: raise Inexact
+        c3 = S1.pack(256, len(d2) + 1)
+        return join((c3, d2, b'\\0'))
+"""
 
 from __future__ import annotations
 
 import sys
 from array import array
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Any
 
-from bot_console.runtime.rosidl.cdr_layout import CODES, FILLER, Part, aligned, compiled, runs
+from bot_console.runtime.rosidl.cdr_layout import ANYWHERE, CODES, FILLER, START, Part, parts, row
+from bot_console.runtime.rosidl.cdr_source import Source
 from bot_console.runtime.rosidl.definition import DTYPES, TYPECODES
 from bot_console.runtime.rosidl.slot_types import nested_class
 
-COUNT = aligned("I", "<")
+Put = Callable[[Any], None]
+
+HEADER = "256"
+"""The header as a number: plain CDR, little endian, no options (00 01 00 00)."""
+EXACT = {"boolean": "bool", "float": "float", "double": "float"}
+"""Classes of numbers. For the others `struct` takes and refuses what a field does."""
+ZEROS = tuple(bytes(length) for length in range(8))
+LENGTHS = row(["I"], ANYWHERE, "<")[0]
+
+
+class InexactError(TypeError):
+    """A field does not hold just what a copy of the message would."""
 
 
 @cache
-def writer(cls: Any) -> Callable[[Any, bytearray], None]:
-    """The function `(message, out)`; the fields must hold what their types say, as in a copy made by `_copy_`."""
-    names: dict[str, Any] = {
-        "text": write_text,
-        "wide": write_wide,
-        "numbers": write_numbers,
-        "COUNT": COUNT,
-    }
-    lines = ["def f(m, out):", "    pass"]
-    for group in runs(cls):
-        lines += ["    " + line for line in _group(group, names)]
-    return compiled("\n".join(lines), names, f"CDR writer of {cls.__name__}")
+def writer(cls: Any) -> Callable[[Any], bytes]:
+    """The function that gives the bytes of a message, header first.
+
+    It raises any exception where a field does not hold just what a copy of the message would.
+    """
+    writing = _Writing(cls, outermost=True)
+    return writing.source.compiled("m", writing.lines(), f"CDR writer of {cls.__name__}")
 
 
-def _value(part: Part) -> str:
-    return "0" if part.path[-1] == FILLER else "m" + "".join(f"._{name}" for name in part.path)
+@cache
+def element_writer(cls: Any) -> Callable[[Any, Put, int], int]:
+    """The function `(message, put, at)` that puts the bytes of an element of a sequence; gives the place behind it."""
+    writing = _Writing(cls, outermost=False)
+    return writing.source.compiled("m, put, at", writing.lines(), f"CDR writer of {cls.__name__} in a sequence")
 
 
-def _group(group: Sequence[Part], names: dict[str, Any]) -> Iterator[str]:
-    first = group[0]
-    if first.number:
-        name = f"S{len(names)}"
-        names[name] = aligned("".join(CODES[each.type.item] for each in group), "<")
-        yield f"out += {name}[len(out) & 7].pack({', '.join(map(_value, group))})"
-    elif first.type.sequence or first.type.size:
-        yield from _many(first, names)
-    else:
-        yield f"{_single(first)}({_value(first)}, out)"
+class _Writing:
+    """A writer as it grows; `_codes` and `_values` are the row of numbers that comes next."""
+
+    def __init__(self, cls: Any, *, outermost: bool) -> None:
+        helpers = (array, is_octets, texts, wide)
+        names = {"Inexact": InexactError, "join": b"".join, "ZEROS": ZEROS, **{each.__name__: each for each in helpers}}
+        self.source = Source(names, "<", *((START, START.rest) if outermost else (ANYWHERE, None)))
+        self._outermost = outermost
+        self._listed = not outermost or any(not each.type.primitive for each in parts(cls))
+        self._chunks: list[str] = []
+        self._unchanged: list[str] = []
+        self._codes: list[str] = []
+        self._values: list[str] = []
+        self._floats: list[str] = []
+        if outermost:
+            if self._listed:
+                self.source.line("out = []")
+                self.source.line("put = out.append")
+            self._add("I", HEADER)
+        else:
+            self._want("m.__class__ is " + self.source.name("C", cls))
+        for name, expression, inner in self.source.nested(cls):
+            self.source.line(f"{name} = {expression}")
+            self._want(f"{name}.__class__ is {self.source.name('C', inner)}")
+        for part in parts(cls):
+            self._part(part)
+        self._end_row()
+
+    def lines(self) -> Sequence[str]:
+        """The body of the function."""
+        line = self.source.line
+        if not self._outermost:
+            line(f"return {self.source.there}")
+            return self.source.lines()
+        joined = "out" if self._listed else f"({', '.join(self._chunks)})"
+        line(f"data = join({joined})" if self._listed or len(self._chunks) > 1 else f"data = {self._chunks[0]}")
+        # Another thread may have changed the length of an array meanwhile.
+        for unchanged in self._unchanged:
+            self._want(unchanged)
+        line("return data")
+        return self.source.lines()
+
+    def _want(self, condition: str) -> None:
+        self.source.line(f"if not ({condition}): raise Inexact")
+
+    def _add(self, code: str, value: str = "") -> None:
+        self._codes.append(code)
+        if value:
+            self._values.append(value)
+
+    def _chunk(self, name: str) -> None:
+        if self._listed:
+            self.source.line(f"put({name})")
+        else:
+            self._chunks.append(name)
+
+    def _end_row(self) -> None:
+        """Write the numbers that are noted."""
+        if self._floats:
+            self._want(" and ".join(self._floats))
+        codes, values, self._codes, self._values, self._floats = self._codes, self._values, [], [], []
+        if codes == ["x"]:
+            self._chunk("ZEROS[1]")
+            self.source.step(1)
+        elif codes:
+            name = self.source.local("c")
+            self.source.row(codes, lambda structure: f"{name} = {structure}.pack({', '.join(values)})")
+            self._chunk(name)
+
+    def _part(self, part: Part) -> None:
+        kind = part.type
+        if part.number:
+            self._number(part)
+            return
+        value = self.source.local("v")
+        self.source.line(f"{value} = {self.source.field(part.path)}")
+        if kind.size and kind.item in DTYPES:
+            self._fixed(part, value)
+        elif kind.size or kind.sequence:
+            self._many(part, value)
+        else:
+            self._want(f"{value}.__class__ is str" + (f" and len({value}) <= {kind.limit}" if kind.limit else ""))
+            self._text(kind.item, value)
+
+    def _number(self, part: Part) -> None:
+        code, value = CODES[part.type.item], "0" if part.path[-1] == FILLER else self.source.field(part.path)
+        if part.type.item in EXACT:
+            name = self.source.local("a")
+            self.source.line(f"{name} = {value}")
+            self._floats.append(f"{name}.__class__ is {EXACT[part.type.item]}")
+            value = name
+        self._add(code, value)
+
+    def _text(self, item: str, value: str) -> None:
+        data = self.source.local("d")
+        if item == "wstring":
+            self._computed(f"wide({value}, %s)")
+            return
+        self.source.line(f"{data} = {value}.encode()")
+        self._want(f"0 not in {data}")
+        self._add("I", f"len({data}) + 1")
+        self._end_row()
+        self._chunk(data)
+        self.source.leap(f"len({data})", ANYWHERE)
+        self._add("x")  # the closing zero
+
+    def _computed(self, call: str) -> None:
+        """Bytes that depend on their place in the stream."""
+        self._end_row()
+        data = self.source.local("d")
+        self.source.line(f"{data} = {call % self.source.there}")
+        self._chunk(data)
+        self.source.leap(f"len({data})", ANYWHERE)
+
+    def _fixed(self, part: Part, value: str) -> None:
+        """Numbers in a NumPy array."""
+        import numpy
+
+        dtype, size = numpy.dtype(DTYPES[part.type.item]), part.type.size
+        array_class, wanted = self.source.name("C", numpy.ndarray), self.source.name("T", dtype)
+        self._want(f"{value}.__class__ is {array_class} and {value}.dtype == {wanted} and {value}.shape == ({size},)")
+        self._add(f"0{CODES[part.type.item]}")
+        self._end_row()
+        data = self.source.local("d")
+        self.source.line(f"{data} = {value}{'.byteswap()' if sys.byteorder == 'big' else ''}.tobytes()")
+        self._chunk(data)
+        self.source.step(size * dtype.itemsize)
+
+    def _many(self, part: Part, value: str) -> None:
+        kind = part.type
+        numbers = kind.item in TYPECODES
+        wanted = f"{value}.__class__ is {'array' if numbers else 'list'}"
+        if numbers:
+            wanted += f" and {value}.typecode == {TYPECODES[kind.item]!r}"
+        self._want(wanted)
+        if numbers:
+            self._numbers(part, value)
+            return
+        # What another thread puts into the list meanwhile is not counted.
+        self.source.line(f"{value} = [*{value}]")
+        if kind.size or kind.bound:
+            self._want(f"len({value}) {f'== {kind.size}' if kind.size else f'<= {kind.bound}'}")
+        if kind.sequence:
+            self._add("I", f"len({value})")
+        self._end_row()
+        if not kind.primitive:
+            self._messages(part, value)
+        elif kind.item in ("boolean", "octet"):
+            octets = kind.item == "octet"
+            self._want(f"is_octets({value})" if octets else f"{{*map(type, {value})}} <= {{bool}}")
+            data = self.source.local("d")
+            self.source.line(f"{data} = {'join' if octets else 'bytes'}({value})")
+            self._chunk(data)
+            self.source.leap(f"len({data})", ANYWHERE)
+        else:
+            self._computed(f"texts({value}, %s, {kind.limit}, {kind.item == 'wstring'})")
+
+    def _numbers(self, part: Part, value: str) -> None:
+        """A sequence of numbers, aligned where there are any."""
+        code = TYPECODES[part.type.item]
+        size, count = array(code).itemsize, self.source.local("n")
+        self.source.line(f"{count} = len({value})")
+        if part.type.bound:
+            self._want(f"{count} <= {part.type.bound}")
+        self._add("I", count)
+        self._end_row()
+        gap = self.source.place.gap(size)
+        # Behind an empty sequence there is nothing to align.
+        behind = self.source.place.behind_many(size if gap == 0 else 4)
+        if gap != 0:
+            filler = self.source.local("g")
+            length = f"-({self.source.aligned}) & {size - 1}" if gap is None else str(gap)
+            self.source.line(f"{filler} = ZEROS[{length} if {count} else 0]")
+            self._chunk(filler)
+            self.source.leap(f"len({filler})", behind)
+        data = value
+        if sys.byteorder == "big" and size > 1:
+            data = self.source.local("d")
+            self.source.line(f"{data} = {value}[:]; {data}.byteswap()")
+        elif self._outermost:
+            self._unchanged.append(f"len({value}) == {count}")
+        else:
+            data = self.source.local("d")
+            self.source.line(f"{data} = {value}.tobytes()")
+            self._want(f"len({data}) == {count} * {size}")
+        self._chunk(data)
+        self.source.leap(f"{count} * {size}", behind)
+
+    def _messages(self, part: Part, value: str) -> None:
+        self.source.reach()
+        write = self.source.name("W", element_writer(nested_class(part.owner, part.type.item)))
+        self.source.line(f"for each in {value}:")
+        self.source.line(f"    at = {write}(each, put, at)")
+        self.source.land(ANYWHERE)
 
 
-def _single(part: Part) -> str:
-    return "wide" if part.type.item == "wstring" else "text"
+def is_octets(values: Sequence[Any]) -> bool:
+    """Whether each is a single byte."""
+    return all(isinstance(each, bytes) and len(each) == 1 for each in values)
 
 
-def _many(part: Part, names: dict[str, Any]) -> Iterator[str]:
-    kind = part.type
-    yield f"v = {_value(part)}"
-    if kind.sequence:
-        yield "out += COUNT[len(out) & 7].pack(len(v))"
-    if kind.item in TYPECODES:
-        code = DTYPES[kind.item] if kind.size else TYPECODES[kind.item]
-        yield f"numbers(v, {code!r}, out)"
-    elif kind.item == "octet":
-        yield "out += b''.join(v)"
-    elif kind.item == "boolean":
-        yield "out += bytes(v)"
-    elif kind.primitive:
-        yield "for each in v:"
-        yield f"    {_single(part)}(each, out)"
-    else:
-        name = f"W{len(names)}"
-        names[name] = writer(nested_class(part.owner, kind.item))
-        yield "for each in v:"
-        yield f"    {name}(each, out)"
+def texts(values: Sequence[str], at: int, limit: int, is_wide: bool) -> bytes:
+    """The bytes of a sequence of strings at a place, each of at most `limit` characters (0: any length)."""
+    chunks: list[bytes] = []
+    for value in values:
+        if not isinstance(value, str) or (limit and len(value) > limit):
+            raise InexactError
+        data = wide(value, at) if is_wide else _text(value, at)
+        chunks.append(data)
+        at += len(data)
+    return b"".join(chunks)
 
 
-def write_text(value: str, out: bytearray) -> None:
-    """A string: its length in bytes with the closing zero, then these."""
-    data = value.partition("\0")[0].encode()
-    out += COUNT[len(out) & 7].pack(len(data) + 1)
-    out += data
-    out.append(0)
+def _text(value: str, at: int) -> bytes:
+    data = value.encode()
+    if 0 in data:
+        raise InexactError
+    return b"%b%b\0" % (LENGTHS[at & 7].pack(len(data) + 1), data)
 
 
-def write_wide(value: str, out: bytearray) -> None:
+def wide(value: str, at: int) -> bytes:
     """A wide string: its number of UTF-16 units, then each in four bytes, as ROS 2's middlewares agree."""
-    units = array("H", value.partition("\0")[0].encode("utf-16-le"))
+    if "\0" in value:
+        raise InexactError
+    units = array("H", value.encode(f"utf-16-{sys.byteorder[0]}e"))
+    words = array("I", units)
     if sys.byteorder == "big":
-        units.byteswap()
-    out += COUNT[len(out) & 7].pack(len(units))
-    write_numbers(array("I", units), "I", out)
-
-
-def write_numbers(values: Any, code: str, out: bytearray) -> None:
-    """The numbers of an `array.array` or a NumPy array, aligned to their size."""
-    size = values.itemsize
-    if len(values):
-        out += bytes(-len(out) % size)
-    if sys.byteorder == "big" and size > 1:
-        values = values.byteswap() if hasattr(values, "dtype") else _swapped(values)
-    out += memoryview(values)
-
-
-def _swapped(values: array[Any]) -> array[Any]:
-    copy = values[:]
-    copy.byteswap()
-    return copy
+        words.byteswap()
+    return LENGTHS[at & 7].pack(len(words)) + words.tobytes()

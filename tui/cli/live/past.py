@@ -6,7 +6,7 @@ from concurrent.futures import Future
 
 from bot_console.runtime.rmw.middleware import bus_of
 from bot_console.runtime.rosidl import type_hash
-from bot_console.runtime.rosidl.cdr import serialize_copied
+from bot_console.runtime.rosidl.cdr import serialize
 from bot_console.tui.cli.system.domain import domain
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.past import Past
@@ -17,7 +17,7 @@ from bot_console.tui.console.recording import RingSize
 
 def overhear(size: RingSize) -> Past:
     """Keep what the nodes of this process publish, and what others send to them."""
-    past = Past(size, serialize_copied, type_hash.text)
+    past = Past(size, serialize, type_hash.text)
     bus_of(domain()).overhear(past.hear)
     return past
 

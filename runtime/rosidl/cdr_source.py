@@ -1,0 +1,116 @@
+"""The text of a function that goes through a CDR stream, as it grows with each field of a message class."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+from bot_console.runtime.rosidl.cdr_layout import Place, nested, row
+
+
+class Source:
+    """Lines, what they name, and the place in the stream up to which they go.
+
+    The place is `at` and some known bytes more (`ahead`), or those alone as long as all lengths are known.
+    """
+
+    def __init__(
+        self, names: dict[str, Any], order: str, place: Place, begin: int | None = None, shift: int = 0
+    ) -> None:
+        """A function that begins at byte `begin`, or at the `at` it is given; alignment counts `shift` bytes more."""
+        self.names = names
+        self.place = place
+        self._order = order
+        self._at, self._ahead = ("at", 0) if begin is None else ("", begin)
+        self._shift = shift
+        self._lines: list[tuple[str, bool]] = []
+        self._locals = 0
+        self._holders: dict[Sequence[str], str] = {(): "m"}
+
+    def name(self, letter: str, value: Any) -> str:
+        """A name by which the function finds a value."""
+        found = f"{letter}{len(self.names)}"
+        self.names[found] = value
+        return found
+
+    def local(self, letter: str) -> str:
+        """A name for a value of the function's own."""
+        self._locals += 1
+        return f"{letter}{self._locals}"
+
+    def nested(self, cls: Any) -> Iterator[tuple[str, str, Any]]:
+        """The single nested messages, outer ones first: a local name, the expression it stands for, and the class."""
+        for path, inner in nested(cls):
+            expression = self.field(path)
+            self._holders[path] = self.local("m")
+            yield self._holders[path], expression, inner
+
+    def field(self, path: Sequence[str]) -> str:
+        """The expression of a field by its path; the message that has it has its local name."""
+        return f"{self._holders[path[:-1]]}._{path[-1]}"
+
+    def line(self, text: str, *, moves: bool = False) -> None:
+        """Add a line; one that only moves `at` is left out where no later one asks for that."""
+        self._lines.append((text, moves))
+
+    @property
+    def there(self) -> str:
+        """The place as an expression."""
+        return self._expression(self._ahead)
+
+    @property
+    def aligned(self) -> str:
+        """The same for the place by which numbers are aligned."""
+        return self._expression(self._ahead + self._shift)
+
+    def _expression(self, ahead: int) -> str:
+        if not self._at:
+            return str(ahead)
+        return f"at + {ahead}" if ahead else "at"
+
+    def step(self, length: int) -> None:
+        """Go on by a known number of bytes."""
+        self._ahead += length
+        self.place = self.place.behind(length)
+
+    def leap(self, length: str, place: Place) -> None:
+        """Go on by an expression; what is known of the place behind it is given."""
+        self.line(f"at = {self.there} + {length}", moves=True)
+        self.land(place)
+
+    def land(self, place: Place) -> None:
+        """Go on to where a line has set `at`."""
+        self._at, self._ahead, self.place = "at", 0, place
+
+    def reach(self) -> None:
+        """Let `at` be the place, for lines that ask for it."""
+        if self.there != "at":
+            self.line(f"at = {self.there}", moves=True)
+            self.land(self.place)
+
+    def row(self, codes: Sequence[str], use: Callable[[str], str]) -> None:
+        """Add a line that uses the structure of some numbers, and go behind them."""
+        structures, behind = row(codes, self.place, self._order)
+        if len(structures) == 1:
+            self.line(use(self.name("S", structures[0])))
+            self._ahead += structures[0].size
+            self.place = behind
+        else:
+            self.line(f"s = {self.name('S', structures)}[{self.aligned} & 7]")
+            self.line(use("s"))
+            self.leap("s.size", behind)
+
+    def lines(self) -> Sequence[str]:
+        """The body of the function."""
+        asked = max(
+            (number for number, (text, moves) in enumerate(self._lines) if not moves and re.search(r"\bat\b", text)),
+            default=-1,
+        )
+        return [text for number, (text, moves) in enumerate(self._lines) if not moves or number < asked]
+
+    def compiled(self, arguments: str, lines: Sequence[str], title: str) -> Callable[..., Any]:
+        """The function `f` with a body."""
+        text = "\n".join([f"def f({arguments}):", *("    " + line for line in lines)])
+        exec(compile(text, f"<{title}>", "exec"), self.names)
+        return self.names["f"]
