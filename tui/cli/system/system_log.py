@@ -5,9 +5,9 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Iterator
-from logging.handlers import RotatingFileHandler
 from pathlib import Path
 
+from bot_console.tui.cli.system.turning_file import STANDARD_STREAMS, TurningFile
 from bot_console.tui.files.folders import state_folder
 
 MOST_BYTES = 5_000_000
@@ -23,9 +23,7 @@ class SystemLog:
     """Writes lines as `[INFO] [1700000000.123456] [talker]: text`; may be called from any thread."""
 
     def __init__(self, path: Path, most_bytes: int = MOST_BYTES) -> None:
-        self._handler = RotatingFileHandler(
-            path, maxBytes=most_bytes, backupCount=KEPT_PARTS, encoding="utf-8", errors="backslashreplace"
-        )
+        self._handler = TurningFile(path, most_bytes, KEPT_PARTS, STANDARD_STREAMS)
 
     def logged(self, stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:
         """A line of a logger; `stamp` in ns since the epoch."""

@@ -1,0 +1,58 @@
+"""Log files that take turns, so that a node that floods its output fills no disk."""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import os
+from logging.handlers import RotatingFileHandler
+from pathlib import Path
+
+STANDARD_STREAMS = (1, 2)
+LAUNCH_BYTES = 2_000_000
+"""The size of a file of launch after which the next one begins."""
+LAUNCH_PARTS = 1
+"""Older parts of it that are kept."""
+
+
+class TurningFile(RotatingFileHandler):
+    """Writes to a file until it has `most_bytes`; the older ones are named `.1` (the newest) and up.
+
+    The descriptors of `followed` that lead to the file lead to the new one afterwards: what this program writes to
+    its standard output past the log would end in a file that soon is gone.
+    """
+
+    def __init__(self, path: str | Path, most_bytes: int, parts: int, followed: tuple[int, ...] = ()) -> None:
+        super().__init__(
+            path, maxBytes=most_bytes, backupCount=parts, encoding="utf-8", delay=True, errors="backslashreplace"
+        )
+        self._followed = followed
+
+    def shouldRollover(self, record: logging.LogRecord) -> bool:
+        """Whether the record has no place any more; the base class asks the file system for each of them."""
+        if self.stream is None:
+            self.stream = self._open()
+        return self.stream.tell() + len(self.format(record)) + 1 > self.maxBytes and self.stream.tell() > 0
+
+    def doRollover(self) -> None:
+        """Begin the next file."""
+        leading = [each for each in self._followed if self._is_here(each)]
+        super().doRollover()
+        self.stream = self.stream or self._open()
+        for each in leading:
+            os.dup2(self.stream.fileno(), each)
+
+    def _is_here(self, descriptor: int) -> bool:
+        with contextlib.suppress(OSError):
+            return self.stream is not None and os.path.samestat(os.fstat(descriptor), os.fstat(self.stream.fileno()))
+        return False
+
+
+def bound_launch_files() -> None:
+    """Let the files that launch keeps of each process of this run take turns, too: upstream's grow for ever."""
+    from launch.logging import launch_config
+
+    def make(path: str, encoding: str | None = None) -> logging.Handler:
+        return TurningFile(path, LAUNCH_BYTES, LAUNCH_PARTS)
+
+    launch_config.log_handler_factory = make
