@@ -1,14 +1,12 @@
-"""The bus within one process: a publish copies the message once and puts it into each subscription's queue."""
+"""The bus within one process: endpoints are matched, and messages go from object to object."""
 
 from __future__ import annotations
 
 import itertools
 import threading
-from collections import deque
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, TypeVar
+from typing import TypeVar
 
-from bot_console.runtime.process import current
 from bot_console.runtime.rmw.bus import Thing
 from bot_console.runtime.rmw.endpoints import (
     ClientEndpoint,
@@ -17,156 +15,17 @@ from bot_console.runtime.rmw.endpoints import (
     Hear,
     Message,
     NodeId,
-    Notify,
     OnEvent,
     Owner,
     ServiceEndpoint,
-    Shared,
     SubscriptionEndpoint,
     Tap,
-    depth,
 )
 from bot_console.runtime.rmw.graph_tables import GraphTables
-from bot_console.runtime.rmw.qos_matching import INFINITE, LATCHING, incompatible_policy, wants_history
+from bot_console.runtime.rmw.local_publisher import LocalPublisher
+from bot_console.runtime.rmw.qos_matching import incompatible_policy, wants_history
 
 _T = TypeVar("_T")
-
-
-class LocalPublisher:
-    """A publisher; `targets` are the subscriptions that receive, renewed when the graph changes."""
-
-    __slots__ = (
-        *("_lifespan", "_lock", "_now", "_number", "_outlet", "_tap", "elsewhere", "endpoint", "history", "lease"),
-        *("on_event", "on_publish", "open", "targets"),
-    )
-
-    def __init__(self, endpoint: Endpoint, on_event: OnEvent, lock: threading.RLock, tap: Tap) -> None:
-        self.endpoint = endpoint
-        self._tap = tap
-        self._lock = lock
-        self.on_event = on_event
-        self.on_publish: Notify | None = None
-        """Called with each message, where somebody watches that."""
-        manual = endpoint.qos.liveliness.name == "MANUAL_BY_TOPIC"
-        lease = endpoint.qos.liveliness_lease_duration.nanoseconds
-        self.lease: int | None = lease if manual and lease not in INFINITE else None
-        """How long (ns) it counts as alive without a sign of life; None for as long as it is there."""
-        self.targets: tuple[SubscriptionEndpoint, ...] = ()
-        self._outlet: SubscriptionEndpoint | None = None
-        self.elsewhere = 0
-        """How many subscriptions of other processes receive."""
-        self.open = True
-        self._number = 0
-        # Looked up once: a publisher stays in the process, and so in the time, in which it was made.
-        self._now = current().clock.system_ns
-        self._lifespan = endpoint.qos.lifespan.nanoseconds
-        keeps = endpoint.qos.durability.name in LATCHING
-        self.history: deque[Any] | None = deque(maxlen=depth(endpoint.qos)) if keeps else None
-
-    def publish(self, message: Message) -> None:
-        """Copy the message, which refuses what cannot be sent although nobody listens, and give it to all."""
-        if self.open:
-            self._give(message._copy_())
-
-    def publish_own(self, message: Message) -> bool:
-        """Publish a message that is well formed and that nobody else holds: it is not copied where that is needless.
-
-        False when the publisher is closed.
-        """
-        if self.open:
-            self._give(message)
-        return self.open
-
-    def skip(self) -> None:
-        """Count a message that was not made, since it is not wanted; it is a sign of life all the same."""
-        if self.open:
-            if self.lease is not None or self.on_publish is not None:
-                self.assert_liveliness()
-            self._number += 1
-
-    def _give(self, message: Message) -> None:
-        """Put a message of the middleware's own into the queue of each matched subscription."""
-        if self.lease is not None or self.on_publish is not None:
-            self.assert_liveliness()
-        targets, history, hear = self.targets, self.history, self._tap.hear
-        self._number = number = self._number + 1
-        if not targets and history is None and hear is None:
-            return
-        stamp = self._now()
-        takers = len(targets)
-        if history is not None:
-            history.append((message, stamp, number))
-            takers += 1  # what is kept is never taken
-        if hear is not None:
-            takers += 1
-        expires = stamp + self._lifespan if self._lifespan else None
-        # The last who takes it gets the message itself, the others a copy when they take it, if they ever do.
-        given = Shared(message, takers) if takers > 1 else message
-        data: bytes | None = None
-        for target in targets:
-            if target.raw and data is None:
-                data = _serialize(message)
-            target.queue.append((data if target.raw else given, stamp, number, expires))
-            target.notify()
-        if hear is not None:
-            hear(self.endpoint, self.endpoint.gid, number, stamp, message if data is None else data)
-
-    def publish_raw(self, data: bytes) -> None:
-        """Give serialized data as it is, or as a message to subscriptions that want one."""
-        self.publish(_deserialize(data, self.endpoint.message_class))
-
-    def assert_liveliness(self) -> None:
-        """Give a sign of life."""
-        if self.on_publish is not None:
-            self.on_publish()
-        if self.lease is not None:
-            for target in self.targets:
-                target.on_event("asserted", self)
-
-    def matched_count(self) -> int:
-        """How many subscriptions receive."""
-        return len(self.targets) - (self._outlet is not None) + self.elsewhere
-
-    def is_heard(self) -> bool:
-        """Whether anybody gets what is published: a subscription, here or elsewhere, or who overhears all."""
-        return bool(self.targets) or self._tap.hear is not None
-
-    def send_elsewhere(self, outlet: SubscriptionEndpoint | None) -> None:
-        """Let a target take each message, serialized, for other processes; None where nobody wants it there."""
-        with self._lock:
-            if outlet is self._outlet or not self.open:
-                return
-            targets = tuple(each for each in self.targets if each is not self._outlet)
-            self._outlet = outlet
-            self.targets = targets if outlet is None else (*targets, outlet)
-
-    @property
-    def published(self) -> int:
-        """How many messages were published."""
-        return self._number
-
-    def late(self, target: SubscriptionEndpoint) -> None:
-        """Give a subscription that has come late what was kept for it."""
-        now = self._now()
-        for message, stamp, number in tuple(self.history or ()):  # another thread may publish meanwhile
-            expires = stamp + self._lifespan if self._lifespan else None
-            if expires is None or now <= expires:
-                given = _serialize(message) if target.raw else message._copy_()
-                target.queue.append((given, stamp, number, expires))
-        if target.queue:
-            target.notify()
-
-
-def _serialize(message: Message) -> bytes:
-    from bot_console.runtime.rosidl.cdr import serialize
-
-    return serialize(message)
-
-
-def _deserialize(data: bytes, message_class: Any) -> Any:
-    from bot_console.runtime.rosidl.cdr import deserialize
-
-    return deserialize(data, message_class)
 
 
 class LocalBus:

@@ -7,7 +7,7 @@ from typing import Any
 
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.endpoints import SubscriptionEndpoint, depth
-from bot_console.runtime.rmw.local import LocalPublisher
+from bot_console.runtime.rmw.local_publisher import LocalPublisher
 from bot_console.runtime.rmw.qos_matching import incompatible_policy
 from bot_console.runtime.rmw.zenoh.declared import Publisher
 from bot_console.runtime.rmw.zenoh.same_type import has_same_type
