@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -46,15 +45,21 @@ class BrailleCanvas:
 
     def codes(self) -> npt.NDArray[np.uint8]:
         """The dots of each cell as bits, by row and column of cells."""
-        dots: Any = self._dots
-        cells: Any = dots.reshape(self.height, 4, self.width, 2)
-        return (cells * BITS[None, :, None, :]).sum(axis=(1, 3)).astype(np.uint8)
+        codes = np.zeros((self.height, self.width), np.uint8)
+        for row in range(4):
+            for column in range(2):
+                codes |= self._dots[row::4, column::2] * BITS[row, column]
+        return codes
 
     def rows(self) -> list[str]:
         """The picture as lines of text; empty cells are blanks, which cost one byte and not three."""
-        codes = self.codes().astype(np.uint32)
-        letters = np.where(codes == 0, 0x20, 0x2800 + codes)
-        return ["".join(map(chr, row)) for row in letters.tolist()]
+        return letters(self.codes())
+
+
+def letters(codes: npt.NDArray[np.uint8]) -> list[str]:
+    """Codes of cells as lines of text, see `BrailleCanvas.rows`."""
+    points = np.where(codes == 0, 0x20, 0x2800 + codes.astype(np.uint32)).astype("<u4")
+    return [row.tobytes().decode("utf-32-le") for row in points]
 
 
 def layered(
@@ -71,10 +76,15 @@ def layered(
     for at in range(len(layers) - 1, -1, -1):
         owner[layers[at] > 0] = at
         codes |= layers[at]
+    alone = owner.max(axis=1)
+    mixed = ((owner >= 0) & (owner != alone[:, None])).any(axis=1)
     rows: list[list[Piece]] = []
-    for row in range(down):
-        text = "".join(" " if code == 0 else chr(0x2800 + code) for code in codes[row].tolist())
-        rows.append(_pieces(text, owner[row].tolist(), styles))
+    for row, text in enumerate(letters(codes)):
+        if mixed[row]:
+            rows.append(_pieces(text, owner[row].tolist(), styles))
+        else:
+            one = int(alone[row])
+            rows.append([(text, styles[one] if one >= 0 else "")])
     return rows
 
 

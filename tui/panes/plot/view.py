@@ -73,9 +73,10 @@ def framed(curves: Sequence[Curve], marks: Sequence[Mark], axes: Axes, width: in
     right_limits = limits([each for each, other in zip(reaches, right, strict=True) if other]) if both else left_limits
     spans = [right_limits if other else left_limits for other in right]
     layers = [canvas(each, *span, across, down) for each, span in zip(reaches, spans, strict=True)]
-    dotted = [_dotted(curve, *span, across, down) for curve, span in zip(curves, spans, strict=True)]
-    styles = [style_of(curve) for curve in curves]
-    rows = layered([*layers, *dotted], [*styles, *styles], across, down)
+    watched = [(curve, span) for curve, span in zip(curves, spans, strict=True) if curve.thresholds]
+    layers += [_dotted(curve, *span, across, down) for curve, span in watched]
+    styles = [style_of(curve) for curve in (*curves, *(each for each, _ in watched))]
+    rows = layered(layers, styles, across, down)
     labels, others = labels_of(*left_limits, down), labels_of(*right_limits, down) if both else {}
     lines: list[Line] = []
     for row, pieces in enumerate(rows):
