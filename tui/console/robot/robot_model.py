@@ -5,6 +5,7 @@ Standard library only. Distances are m, angles rad, speeds m/s and rad/s.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 
@@ -71,7 +72,7 @@ class WorldInfo:
     pose: Pose | None = None
     pose_source: str = ""
     trail: tuple[tuple[float, float], ...] = ()
-    hits: tuple[tuple[float, float], ...] = ()
+    hits: Sequence[tuple[float, float]] = ()
     goal: tuple[float, float] | None = None
     speed: float = 0.0
     turn: float = 0.0

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.offered import OfferedSubscription
+from bot_console.tui.console.robot.beam_ends import FARTHEST, BeamEnds
 from bot_console.tui.console.robot.past_poses import PastPoses, heading
 from bot_console.tui.console.robot.robot_model import GridMap, Pose, WorldInfo
 from bot_console.tui.console.robot.turtle_watch import TurtleWatch
@@ -26,8 +27,8 @@ from sensor_msgs.msg import LaserScan
 TRAIL = 400
 TRAIL_STEP = 0.1
 """Metres between two points of the trail."""
-FARTHEST, FINEST = 1e7, 1e-6
-"""The greatest place and the smallest cell, in m, that are taken for real."""
+FINEST = 1e-6
+"""The smallest cell, in m, that is taken for real; the greatest place is that of a beam's end."""
 SILENT_S = 1.0
 """Without a pose for so long the robot is silent: slower robots tell theirs more often than once a second."""
 
@@ -122,18 +123,18 @@ class WorldWatch:
         if odometry:
             pose = pose_of(odometry.pose.pose)
             speed, turn = odometry.twist.twist.linear.x, odometry.twist.twist.angular.z
-        hits, nearest = _hits(scan, pose) if scan else ((), None)
+        ends = BeamEnds(scan, pose) if scan else None
         source = self._subscriptions.get("nav_msgs/msg/Odometry")
         return WorldInfo(
             self._map,
             pose,
             source.topic_name if source and pose else "",
             tuple(self._trail),
-            hits,
+            ends or (),
             None,
             speed,
             turn,
-            nearest,
+            ends.nearest if ends is not None else None,
             self._turtles.fields(),
         )
 
@@ -166,19 +167,3 @@ def best(offered: set[str], wanted: tuple[str, ...]) -> str:
 
 def _rank(token: str, wanted: tuple[str, ...]) -> int:
     return wanted.index(token) if token in wanted else len(wanted)
-
-
-def _hits(scan: LaserScan, pose: Pose | None) -> tuple[tuple[tuple[float, float], ...], float | None]:
-    """Where beams end, in the pose's frame (m), and the nearest return (m); no return is infinite (REP 117)."""
-    ranges = np.asarray(scan.ranges, float)
-    valid = np.isfinite(ranges) & (ranges >= scan.range_min) & (ranges <= scan.range_max)
-    if not valid.any():
-        return (), None
-    nearest = float(ranges[valid].min())
-    bearings = (scan.angle_min, scan.angle_increment * len(ranges))
-    if pose is None or not all(map(math.isfinite, (pose.heading, *bearings))) or ranges[valid].max() > FARTHEST:
-        return (), nearest
-    angles = pose.heading + scan.angle_min + scan.angle_increment * np.flatnonzero(valid)
-    x = pose.x + ranges[valid] * np.cos(angles)
-    y = pose.y + ranges[valid] * np.sin(angles)
-    return tuple(zip(x.tolist(), y.tolist(), strict=True)), nearest
