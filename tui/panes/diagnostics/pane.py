@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable
 from typing import Any
@@ -53,6 +54,8 @@ class DiagnosticsPane(ListPane):
         self._bad_only = False
         self._folded: frozenset[str] = frozenset()
         self._looked = 0.0
+        self._due = 0.0
+        """When something here is a second older, and perhaps stale, with nothing new having come."""
 
     def compose(self) -> ComposeResult:
         """The tree, what is at the cursor, a prompt."""
@@ -67,7 +70,9 @@ class DiagnosticsPane(ListPane):
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Take in why nothing may come."""
-        self._problem = snapshot.problem
+        if snapshot.problem != self._problem:
+            self._problem = snapshot.problem
+            self._due = 0.0
         self._look()
 
     def tick(self) -> None:
@@ -76,15 +81,18 @@ class DiagnosticsPane(ListPane):
             self._look()
 
     def _look(self) -> None:
-        self._looked = self.clock()
-        self._info = self.console.sights.diagnostics()
-        self._arrange()
+        now = self._looked = self.clock()
+        info = self.console.sights.diagnostics()
+        if info is not self._info or now >= self._due:
+            self._info = info
+            self._arrange()
 
     def _arrange(self) -> None:
         """Show what passes the filter."""
         every = self._info.statuses
         passing = [each for each in every if not self._query.terms or matches(each, self._query)]
         now = self.clock()
+        self._due = min((each.heard + int(now - each.heard) + 1 for each in every), default=math.inf)
         self._list.exchange(rows(passing, now, self._folded, bad_only=self._bad_only))
         shown = sum(not self._bad_only or each.now(now) is not Level.OK for each in passing)
         more = f"{self._info.dropped} more names than are kept" if self._info.dropped else ""

@@ -67,8 +67,8 @@ class HistoryPane(ListPane):
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Take in what is new in the journal."""
-        self._problem = snapshot.problem
-        if snapshot.journal is not self._journal or not self._every:
+        problem, self._problem = self._problem, snapshot.problem
+        if snapshot.journal is not self._journal or snapshot.problem != problem:
             new = snapshot.journal
             if not self._every or new.end != self._journal.end or new.first != self._journal.first:
                 self._every = [*self.console.changes(ALL)]

@@ -82,18 +82,20 @@ class ChangeRows(ItemList[Change]):
 
     def exchange(self, rows: Sequence[Change], *, stay: bool = True) -> None:
         """Show other changes; the cursor stays on its own, or on the newest where it was there."""
+        before = self._node, self._name, self._values
         self._node = min(NODE, max((len(each.node) for each in rows), default=0))
         self._name = min(NAME, max((len(each.name) for each in rows), default=0))
         self._values = min(VALUES, max((len(changed_text(each)) for each in rows[:200]), default=0))
         super().exchange(rows, stay=stay and self.cursor > 0)
-        self.refresh()
+        if (self._node, self._name, self._values) != before:
+            self.refresh()
 
     def matches(self, index: int, query: Query) -> bool:
         """Whether a change matches a filter."""
         return query.matches(words(self.rows[index]), self.rows[index].node)
 
     def _style(self, name: str) -> Style:
-        return self.get_component_rich_style(f"row-list--{name}", partial=True)
+        return self.part_style(f"row-list--{name}")
 
     def row(self, index: int, width: int) -> list[Segment]:
         """One change."""

@@ -1,0 +1,51 @@
+"""While the robot moves, a list that shows nothing of it is not drawn anew."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from unittest.mock import patch
+
+import pytest
+from bot_console.tui.console.robot.robot_model import Pose
+from bot_console.tui.widgets.row_list import RowList
+from piloting import Session, run
+from samples import empty, live
+
+LISTS = {
+    "1": "parameters",
+    "2": "logs",
+    "7": "profiles",
+    "8": "launch",
+    "9": "topics",
+    "H": "history",
+    "M": "diagnostics",
+    "B": "alarms",
+}
+
+
+@pytest.mark.parametrize("system", [live, empty], ids=["live", "empty"])
+@pytest.mark.parametrize("key", LISTS, ids=LISTS.values())
+def test_no_line_is_drawn_while_only_the_robot_moves(key, system) -> None:
+    async def play(session: Session) -> None:
+        await session.press(key)
+        with patch.object(RowList, "render_line", autospec=True, side_effect=RowList.render_line) as drawn:
+            for x in range(5):
+                world = session.console.current.world
+                session.console.change(world=replace(world, pose=Pose(float(x), 3.0, 0.0)))
+                await session.settle()
+        assert drawn.call_count == 0
+
+    run(system(), play, (120, 30))
+
+
+def test_a_change_that_needs_no_wider_column_is_drawn_alone() -> None:
+    async def play(session: Session) -> None:
+        await session.press("H")
+        changes = session.console.journal
+        with patch.object(RowList, "render_line", autospec=True, side_effect=RowList.render_line) as drawn:
+            session.console.journal[:] = [replace(changes[0], reason="another"), *changes[1:]]
+            session.console.change(journal=replace(session.console.current.journal, first=-len(changes)))
+            await session.settle()
+        assert drawn.call_count == 1
+
+    run(live(), play, (120, 30))
