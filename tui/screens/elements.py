@@ -44,7 +44,7 @@ class ElementRows(RowList):
     def row(self, index: int, width: int) -> list[Segment]:
         """Index and value."""
         digits = len(str(max(0, len(self.elements) - 1)))
-        dim = self.get_component_rich_style("row-list--dim", partial=True)
+        dim = self.part_style("row-list--dim")
         return [Segment(f" {index:>{digits}}  ", dim), Segment(harmless(element_text(self.elements[index])))]
 
 

@@ -53,8 +53,8 @@ class SlotRows(RowList):
         slot = self.slots[index]
         longest = max(2 * each.depth + cell_len(each.name) for each in self.slots) + 4
         names = min(longest, max(8, width // 2))
-        dim = self.get_component_rich_style("row-list--dim", partial=True)
-        strong = self.get_component_rich_style("row-list--strong", partial=True)
+        dim = self.part_style("row-list--dim")
+        strong = self.part_style("row-list--strong")
         typed = slot.path in self.typed
         name = cut(f"{'● ' if typed else '  '}{'  ' * slot.depth}{harmless(slot.name)}", names, pad=True)
         value = cut(f"{harmless(slot.text)}{' ' + slot.unit if slot.unit and slot.text else ''}", max(0, width - names))
@@ -83,7 +83,7 @@ class ReplyRows(RowList):
     def row(self, index: int, width: int) -> list[Segment]:
         """Name and value."""
         field = self.fields[index]
-        dim = self.get_component_rich_style("row-list--dim", partial=True)
+        dim = self.part_style("row-list--dim")
         name = f" {'  ' * field.depth}{harmless(field.name)}: "
         return [Segment(name, dim), Segment(harmless(f"{field.text} {field.unit if field.text else ''}"))]
 

@@ -27,8 +27,8 @@ class OptionRows(ItemList[Option]):
         """One option."""
         option = self.rows[index]
         chosen = index == self.cursor
-        style = self.get_component_rich_style("row-list--strong" if chosen else "row-list--plain", partial=True)
-        dim = self.get_component_rich_style("row-list--dim", partial=True)
+        style = self.part_style("row-list--strong" if chosen else "row-list--plain")
+        dim = self.part_style("row-list--dim")
         return [
             Segment(f"{'▸' if chosen else ' '} {harmless(option.title)}  ", style),
             Segment(harmless(option.about), dim),

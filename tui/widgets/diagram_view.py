@@ -182,7 +182,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         """One line of the picture."""
         row = y + self.scroll_offset.y
         width = self.size.width
-        base = self.rich_style
+        base = self.own_style
         runs = self.drawing.rows[row] if row < len(self.drawing.rows) else ()
         segments: list[Segment] = []
         at = 0
@@ -228,7 +228,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         return max(0, (self.size.width - self.drawing.width) // 2)
 
     def _style(self, run: Run) -> Style:
-        return self.get_component_rich_style(f"diagram--{self._class(run)}", partial=True)
+        return self.part_style(f"diagram--{self._class(run)}")
 
     def _class(self, run: Run) -> str:
         selected = self.selected

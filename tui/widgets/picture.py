@@ -75,13 +75,13 @@ class Picture(StyledByPart):
 
     def render_line(self, y: int) -> Strip:
         """One line."""
-        base = self.rich_style
+        base = self.own_style
         pieces = self.lines[y] if y < len(self.lines) else ()
         segments = [Segment(text, base + self._style(name) if name else base) for text, name in pieces]
         return Strip(segments).adjust_cell_length(self.size.width, base)
 
     def _style(self, name: str) -> Style:
-        return _colors(name) if "#" in name else self.get_component_rich_style(f"picture--{name}", partial=True)
+        return _colors(name) if "#" in name else self.part_style(f"picture--{name}")
 
     def on_resize(self) -> None:
         """Tell, so that lines for this size are made."""

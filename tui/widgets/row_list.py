@@ -97,7 +97,7 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
         """One line of what is seen."""
         index = y + self.scroll_offset.y
         width = self.across
-        base = self.rich_style
+        base = self.own_style
         if index >= self.row_count():
             return Strip.blank(width, base)
         if index == self.cursor and self.has_focus:
@@ -108,7 +108,7 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
 
     def _chosen(self, style: Style | None, cursor: Style) -> Style:
         """The cursor's style; what warns keeps its colour under it."""
-        loud = (self.get_component_rich_style(f"row-list--{each}", partial=True).color for each in LOUD)
+        loud = (self.part_style(f"row-list--{each}").color for each in LOUD)
         return cursor + Style(color=style.color) if style and style.color and style.color in loud else cursor
 
     def watch_cursor(self, before: int, after: int) -> None:

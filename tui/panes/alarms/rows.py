@@ -78,7 +78,7 @@ class AlarmRows(ItemList[Row]):
         return segments
 
     def _style(self, name: str) -> Style:
-        return self.get_component_rich_style(f"row-list--{name}", partial=True)
+        return self.part_style(f"row-list--{name}")
 
     def on_click(self, event: Click) -> None:
         """A click chooses the row; a click on the chosen one edits it."""

@@ -88,4 +88,4 @@ class StatusRows(ItemList[Row]):
         return "  ".join(each for each in (row.said, below) if each)
 
     def _style(self, name: str) -> Style:
-        return self.get_component_rich_style(f"row-list--{name}", partial=True)
+        return self.part_style(f"row-list--{name}")

@@ -37,7 +37,7 @@ class FrameRows(ItemList[FrameRow]):
         ]
 
     def _style(self, name: str) -> Style:
-        return self.get_component_rich_style(f"row-list--{name}", partial=True)
+        return self.part_style(f"row-list--{name}")
 
 
 def _rate(row: FrameRow) -> str:

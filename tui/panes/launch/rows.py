@@ -97,7 +97,7 @@ class ProcessRows(ItemList[Row]):
         return process is not None and matches(process, query)
 
     def _style(self, name: str) -> Style:
-        return self.get_component_rich_style(f"row-list--{name}", partial=True)
+        return self.part_style(f"row-list--{name}")
 
     def row(self, index: int, width: int) -> list[Segment]:
         """A group, or state, name, pid, restarts and last exit of a process."""

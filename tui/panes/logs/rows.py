@@ -110,7 +110,7 @@ class LogRows(RowList):
             return [Segment("")]
         colour = self.rules.colour_of(record)
         name = f"log-rows--{colour}" if colour else f"row-list--{STYLES.get(record.severity, '')}"
-        style = self.get_component_rich_style(name, partial=True) if colour or record.severity in STYLES else None
+        style = self.part_style(name) if colour or record.severity in STYLES else None
         text = line_text(record, self.names.of(record.node), width, self.numbers.count(index), marked=bool(colour))
         return [Segment(text, style)]
 

@@ -33,7 +33,7 @@ class RuleRows(ItemList[Rule]):
         """Whether it is on, what it does, its words."""
         rule = self.rows[index]
         name = f"log-rows--{rule.colour}" if rule.colour and rule.on else "row-list--dim"
-        style = self.get_component_rich_style(name, partial=True) if not rule.on or rule.colour else None
+        style = self.part_style(name) if not rule.on or rule.colour else None
         return [Segment(f" {'●' if rule.on else '○'} {rule.colour or HIDE:<7} {harmless(rule.words)}", style)]
 
 

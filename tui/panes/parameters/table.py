@@ -81,7 +81,7 @@ class ParameterRows(ItemList[Row]):
         return self._parameter(row, row.parameter, width)
 
     def _style(self, name: str) -> Style:
-        return self.get_component_rich_style(f"row-list--{name}", partial=True)
+        return self.part_style(f"row-list--{name}")
 
     def _head(self, row: Row) -> list[Segment]:
         arrow, indent = "▸" if row.folded else "▾", "  " * row.depth

@@ -60,11 +60,11 @@ class ProfileRows(ItemList[Profile]):
         longest = max(cell_len(harmless(each.name)) for each in self.rows) + 4
         room = min(max(longest, NAME), max(NAME, width // 2))
         name = cut(f"{mark} {harmless(profile.name)}", room - 2)
-        style = self.get_component_rich_style("row-list--warn" if profile.problem else "row-list--dim", partial=True)
+        style = self.part_style("row-list--warn" if profile.problem else "row-list--dim")
         changed = f"{self.changes} changed  " if self.changes and profile.name == self.active else ""
         return [
             Segment(name + " " * (room - cell_len(name))),
-            Segment(changed, self.get_component_rich_style("row-list--strong", partial=True)),
+            Segment(changed, self.part_style("row-list--strong")),
             Segment(harmless(profile.problem or profile.title), style),
         ]
 
@@ -89,7 +89,7 @@ class DifferenceRows(ItemList[Entry]):
     can_focus = False
 
     def _style(self, name: str) -> Style:
-        return self.get_component_rich_style(f"row-list--{name}", partial=True)
+        return self.part_style(f"row-list--{name}")
 
     def row(self, index: int, width: int) -> list[Segment]:
         """A node, or `name  now → then` with what is to be said about it."""

@@ -101,4 +101,4 @@ class MessageRows(RowList):
         return segments
 
     def _style(self, name: str) -> Style:
-        return self.get_component_rich_style(f"row-list--{name}", partial=True)
+        return self.part_style(f"row-list--{name}")

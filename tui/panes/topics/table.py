@@ -141,7 +141,7 @@ class TopicRows(ItemList[Row]):
         return segments
 
     def _style(self, name: str) -> Style:
-        return self.get_component_rich_style(f"row-list--{name}", partial=True)
+        return self.part_style(f"row-list--{name}")
 
 
 def _steady(before: Measure | None, now: Measure) -> Measure:

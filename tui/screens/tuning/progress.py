@@ -51,9 +51,9 @@ class SettingRows(RowList):
     def row(self, index: int, width: int) -> list[Segment]:
         """Rank, score, values, and what happened."""
         each = self.rows[index]
-        dim = self.get_component_rich_style("row-list--dim", partial=True)
-        warn = self.get_component_rich_style("row-list--warn", partial=True)
-        strong = self.get_component_rich_style("row-list--strong", partial=True)
+        dim = self.part_style("row-list--dim")
+        warn = self.part_style("row-list--warn")
+        strong = self.part_style("row-list--strong")
         score = f"{each.score:9.3f}" if math.isfinite(each.score) else "   failed"
         segments = [Segment(f"{score}  ", strong if index == 0 else None)]
         values = (value_text(value) for value in each.setting)

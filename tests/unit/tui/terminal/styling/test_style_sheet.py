@@ -9,8 +9,11 @@ from unittest.mock import patch
 import pytest
 from bot_console.tui.terminal.styling.style_sheet import StyledByPart
 from bot_console.tui.terminal.styling.styled_once import StyledOnceApp
+from rich.segment import Segment
 from textual.app import ComposeResult
 from textual.color import Color
+from textual.geometry import Region
+from textual.strip import Strip
 from textual.widget import Widget
 
 
@@ -46,5 +49,36 @@ def test_a_part_is_styled_when_it_is_asked_for_and_follows_the_rules_from_then_o
             assert parts.get_component_styles("parts--first").color == Color.parse("blue")
             with pytest.raises(KeyError):
                 parts.get_component_styles("parts--third")
+
+    asyncio.run(main())
+
+
+def test_what_is_kept_of_a_part_follows_the_rules_and_its_own_style_is_asked_for_once_for_all_lines() -> None:
+    async def main() -> None:
+        app = Plain()
+        async with app.run_test() as pilot:
+            parts = app.query_one(Parts)
+            red = parts.part_style("parts--first")
+            assert red.color is not None and red == parts.get_component_rich_style("parts--first", partial=True)
+            parts.refresh()
+            assert parts.part_style("parts--first") is red
+            parts.add_class("changed")
+            await pilot.pause()
+            assert parts.part_style("parts--first") == parts.get_component_rich_style("parts--first", partial=True)
+            assert parts.part_style("parts--first").color != red.color
+            with pytest.raises(KeyError):
+                parts.part_style("parts--third")
+
+            asked: list[object] = []
+            found = type(parts).rich_style.fget
+            line = Strip([Segment("x")])
+            with (
+                patch.object(Parts, "rich_style", property(lambda self: asked.append(self) or found(self))),
+                patch.object(Parts, "render_line", lambda self, y: [line, self.own_style][0]),
+            ):
+                parts.refresh()
+                parts.render_lines(Region(0, 0, 10, 5))
+                assert asked == [parts]
+                assert parts.own_style == parts.rich_style
 
     asyncio.run(main())
