@@ -142,6 +142,10 @@ class Clock(AnyClock):
     def _now_ns(self) -> int:
         return self._read()
 
+    def _reader(self) -> Callable[[], int]:
+        """What `_now_ns` calls, for who asks often."""
+        return self._read
+
     def _steady_deadline(self, when: int) -> int | None:
         """The steady time (ns) at which this clock shows `when`; None where something else drives the clock."""
         if self._clock_type is ClockType.STEADY_TIME:
@@ -217,6 +221,9 @@ class ROSClock(Clock):
 
     def _now_ns(self) -> int:
         return self._ros_time if self._active else self._read()
+
+    def _reader(self) -> Callable[[], int]:
+        return self._now_ns
 
     def _steady_deadline(self, when: int) -> int | None:
         return None if self._active else super()._steady_deadline(when)

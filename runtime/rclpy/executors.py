@@ -266,7 +266,12 @@ class Executor(ReadyCallbacks):
         self._wakeup.clear()
         self._waiting += 1
         try:
-            if self._ready or self._ready_tasks or self._is_shutdown or not self._context.ok():
+            if (
+                self._ready
+                or self._ready_tasks
+                or self._is_shutdown
+                or (self._context.ended and not self._context.ok())
+            ):
                 return
             woken = self._wakeup.wait(until)
         finally:
@@ -311,7 +316,7 @@ class Executor(ReadyCallbacks):
     def _ended(self, entity: Any) -> None:
         group = entity.callback_group
         group.ending_execution(entity)
-        if entity.pending():
+        if not entity.arms_itself and entity.pending():
             entity.notify()
         if group.blocked:
             group.unblock()

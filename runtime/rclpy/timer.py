@@ -8,6 +8,7 @@ from typing import Any
 
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.callback_groups import CallbackGroup
+from rclpy.clock_type import ClockType
 from rclpy.exceptions import ROSInterruptException
 from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.entity import DESTROYED, TIMER, Entity
@@ -20,6 +21,7 @@ class Timer(Entity):
     """Calls back every period of its clock (ns); missed periods are skipped and the phase is kept."""
 
     KIND = TIMER
+    arms_itself = True
 
     def __init__(
         self,
@@ -38,7 +40,9 @@ class Timer(Entity):
         self.clock_of_timer = clock
         self._context = context
         self._period = timer_period_ns
-        self._last = clock._now_ns()
+        self._now = clock._reader()
+        self._is_steady = clock.clock_type is ClockType.STEADY_TIME
+        self._last = self._now()
         self._next = self._last + timer_period_ns
         self._canceled = not autostart
         clock._add_timer(self)
@@ -66,7 +70,7 @@ class Timer(Entity):
 
     def pending(self) -> bool:
         """Whether the timer is due."""
-        return not self._canceled and not self.destroyed and self.clock_of_timer._now_ns() >= self._next
+        return not self._canceled and not self.destroyed and self._now() >= self._next
 
     def is_ready(self) -> bool:
         """Whether the timer is due."""
@@ -126,14 +130,16 @@ class Timer(Entity):
 
     def run(self) -> Any:
         """Call back, and set the next time."""
-        now = self.clock_of_timer._now_ns()
-        self._last = now
+        self._last = now = self._now()
         period = self._period
         due = self._next + period
         if due <= now:
             due = now if period == 0 else due + ((now - due) // period + 1) * period
         self._next = due
-        self.arm()
+        if self._is_steady and self.sink is not None and not self._canceled:
+            self.sink.arm(self, due)  # as `arm` does
+        else:
+            self.arm()
         result = self._callback() if self._callback is not None else None
         return result if self._is_async else None
 

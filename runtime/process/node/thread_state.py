@@ -37,6 +37,7 @@ class ThreadState:
         "_pending",
         "_thrown",
         "_waker",
+        "called",
         "clock",
         "daemon",
         "ending",
@@ -59,6 +60,8 @@ class ThreadState:
         self.ident = 0
         self.waits = 0
         self.killed = False
+        self.called = False
+        """Whether something waits to be raised or run in this thread."""
         self.ending = False
         """Whether its program is over: what remains is the runtime's own work, and nothing is thrown into that."""
         self._guard = allocate_lock()
@@ -75,11 +78,6 @@ class ThreadState:
     def takes_turns(self) -> bool:
         """Whether it is in step with a run: then its time comes by its turn, however long that takes."""
         return self.seat is not None and not self.seat.detached
-
-    @property
-    def called(self) -> bool:
-        """Whether something waits to be raised or run in this thread."""
-        return self.killed or bool(self._pending)
 
     def enter(self) -> None:
         """Make the calling thread this one; in a stepped run that waits for its turn."""
@@ -101,12 +99,13 @@ class ThreadState:
         """Have the thread call `action` in its present or its next wait; what that raises comes out of the wait."""
         with self._guard:
             self._pending.append(action)
+            self.called = True
             self._wake()
 
     def kill(self) -> None:
         """Let this wait and every later one of the thread raise `ProcessKilled`."""
         with self._guard:
-            self.killed = True
+            self.killed = self.called = True
             self._wake()
 
     def _wake(self) -> None:
@@ -119,6 +118,7 @@ class ThreadState:
             if self.waiting or action not in self._pending:
                 return False
             self._pending.remove(action)
+            self.called = self.killed or bool(self._pending)
             return True
 
     def throw(self, exception: type[BaseException]) -> None:
@@ -131,6 +131,7 @@ class ThreadState:
             if self.waiting:
                 # It will raise by itself when it is woken: thrown, the exception would come after the wait, anywhere.
                 self._pending.append(partial(_raise, exception))
+                self.called = True
                 self._wake()
             elif self.ending:
                 return
@@ -151,7 +152,7 @@ class ThreadState:
             self._thrown = False
             # What was thrown while it was busy is raised here, not later in the middle of the wait.
             _checkpoint()
-        if self.killed or self._pending:
+        if self.called:
             self.deliver()
 
     def end_wait(self) -> None:
@@ -165,6 +166,7 @@ class ThreadState:
                 raise ProcessKilled
             with self._guard:
                 action = self._pending.popleft() if self._pending else None
+                self.called = self.killed or bool(self._pending)
             if action is not None:
                 action()
 

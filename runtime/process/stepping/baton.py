@@ -93,18 +93,18 @@ class Seat:
 
     def wait(self, wakeup: Awaited | None, deadline: int | None) -> bool:
         """Hand the baton on until woken or due (ns); whether woken. Raises what is to be raised in this thread."""
-        state = self.state
+        state, baton = self.state, self.baton
         if state is None:
-            return self.baton.wait(self, wakeup, deadline)
+            return baton.wait(self, wakeup, deadline)
         while True:
             try:
                 state.begin_wait(self.rouse)
-                woken = self.baton.wait(self, wakeup, deadline)
+                woken = baton.wait(self, wakeup, deadline)
             finally:
                 state.end_wait()
             if state.called:
                 state.deliver()
-            if woken or (deadline is not None and self.baton.now >= deadline):
+            if woken or (deadline is not None and baton.now >= deadline):
                 return woken
 
 
@@ -173,7 +173,16 @@ class Baton:
                 self._enlist(seat, wakeup, deadline)
             waits = self._hand_on(seat)
         if waits:
-            self._await_turn(seat)
+            try:
+                if seat.rank != LAST:
+                    seat.lock.acquire()
+                else:
+                    # A signal that another thread received ends no acquire here, though its handler runs in this one.
+                    while not seat.lock.acquire(True, SIGNAL_CHECK_S):
+                        pass
+            except BaseException:  # a handler of a real signal raised in the real main thread
+                self._reclaim(seat)
+                raise
         if seat.waiting:
             self._withdraw(seat, wakeup)
         return seat.woken or (wakeup is not None and wakeup.flag)
@@ -332,18 +341,6 @@ class Baton:
         for deadline, _rank, seat in self._deadlines:
             seat.in_heap = deadline
         heapify(self._deadlines)
-
-    def _await_turn(self, seat: Seat) -> None:
-        try:
-            if seat.rank != LAST:
-                seat.lock.acquire()
-            else:
-                # A signal that another thread received ends no acquire here, though its handler runs in this one.
-                while not seat.lock.acquire(True, SIGNAL_CHECK_S):
-                    pass
-        except BaseException:  # a handler of a real signal raised in the real main thread
-            self._reclaim(seat)
-            raise
 
     def _reclaim(self, seat: Seat) -> None:
         """Get the baton back before anything else runs, for a thread that no longer waits."""

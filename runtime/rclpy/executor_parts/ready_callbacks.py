@@ -80,6 +80,8 @@ class ReadyCallbacks:
             self._resume(task)
         else:
             self._ended(item)
+            if item.pending():  # a timer is asked here alone: it has not run, which would have armed it
+                item.notify()
 
     def _collect_tasks(self) -> list[Task[Any]]:
         """Tasks that can go on, the newest first."""

@@ -28,6 +28,8 @@ class Entity:
     heap: Any = None
     heap_deadline = 0
     due_at = 0
+    arms_itself = False
+    """Whether it has told the executor when it is next due before its callback begins, and need not be asked after."""
 
     def __init__(self, callback_group: Any) -> None:
         self.callback_group = callback_group
