@@ -69,11 +69,12 @@ class Avoidance:
         if len(intensities) == len(ranges):
             seen &= intensities >= rules.detection_threshold
         cos, sin = self._beams(len(ranges), first, increment)
-        depth = ranges[seen]
-        nearest = float(depth.min()) if len(depth) else math.inf
-        near = seen & (ranges < HORIZON + rules.safety_distance)  # what is beyond takes no room from any lane
-        depth = ranges[near]
-        room = self._room(depth * cos[near], depth * sin[near], rules.safety_distance)
+        # What is beyond takes no room from any lane.
+        near = (seen & (ranges < HORIZON + rules.safety_distance)).nonzero()[0]
+        depth = ranges.take(near)
+        within = depth if len(near) else ranges[seen]
+        nearest = float(within.min()) if len(within) else math.inf
+        room = self._room(depth * cos.take(near), depth * sin.take(near), rules.safety_distance)
         if rules.enable_safety and float(room[AHEAD]) <= rules.safety_distance:
             side = self._keep_side(np.where(seen, ranges, np.float32(HORIZON)))
             return Decision(0.0, side * rules.turn_rate, True, nearest)
@@ -91,9 +92,11 @@ class Avoidance:
         """How far a lane of twice `half_width` is free in each direction, in m."""
         if not len(x):
             return np.full(len(DIRECTIONS), HORIZON, np.float32)
-        along = self._cos * x + self._sin * y
-        across = self._cos * y - self._sin * x
-        in_lane = (along > 0.0) & (np.abs(across) < half_width)
+        along, across = self._cos * x, self._cos * y
+        along += self._sin * y
+        across -= self._sin * x
+        in_lane = np.abs(across, across) < half_width
+        in_lane &= along > 0.0
         return np.minimum(np.where(in_lane, along, HORIZON).min(axis=1), HORIZON)
 
     def _steer(self, room: Floats, rules: Rules) -> tuple[float, float]:

@@ -81,17 +81,20 @@ def nearest_ahead(ranges: npt.NDArray[np.float32], first: float, increment: floa
     ):
         return None
     front = ranges[_beams_ahead(len(ranges), first, increment)]
-    front = front[~np.isnan(front)]
     if len(front) < WITNESSES:
         return None
-    return max(0.0, float(np.partition(front, WITNESSES - 1)[WITNESSES - 1]))
+    seen = float(np.partition(front, WITNESSES - 1)[WITNESSES - 1])  # what is not a number comes last
+    return None if math.isnan(seen) else max(0.0, seen)
 
 
 @lru_cache(maxsize=4)
-def _beams_ahead(count: int, first: float, increment: float) -> npt.NDArray[np.int64]:
-    """The numbers of the beams ahead; a sensor's geometry hardly ever changes."""
+def _beams_ahead(count: int, first: float, increment: float) -> npt.NDArray[np.int64] | slice:
+    """The numbers of the beams ahead, as a slice where they follow one another; a sensor's geometry hardly changes."""
     angles = first + increment * np.arange(count)
-    return np.flatnonzero(np.abs(np.remainder(angles + math.pi, 2 * math.pi) - math.pi) <= FRONT + EDGE)
+    ahead = np.flatnonzero(np.abs(np.remainder(angles + math.pi, 2 * math.pi) - math.pi) <= FRONT + EDGE)
+    if len(ahead) and ahead[-1] - ahead[0] == len(ahead) - 1:
+        return slice(int(ahead[0]), int(ahead[-1]) + 1)
+    return ahead
 
 
 def limit(command: Command, nearest: float, emergency: float, warning: float) -> Verdict:

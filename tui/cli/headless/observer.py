@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import rclpy
+from bot_console.runtime.process import current
 from rclpy.clock import Clock, ClockType
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
@@ -21,6 +22,8 @@ PATIENCE = 5.0
 """Seconds for which an answer is waited for where the run ends before its time."""
 PROBE_PERIOD = 0.1
 """Seconds between two looks at how late a timer is called."""
+STEPPED_PERIOD = 1.0
+"""The same in a long stepped run, where no load makes a timer late and each look is a turn."""
 
 
 class Observer:
@@ -31,6 +34,7 @@ class Observer:
 
     def __init__(self, duration: float, paths: Sequence[str] = ()) -> None:
         self._duration = duration
+        self._period = PROBE_PERIOD
         self._paths = paths
         self._waited_for = list(paths)
         self._topics: PlotWatch | None = None
@@ -53,7 +57,9 @@ class Observer:
         self._client = node.create_client(Trigger, "/report")
         self._end = node.create_timer(self._duration, self._ask, clock=self._steady)
         self._due = self._steady.now().nanoseconds
-        node.create_timer(PROBE_PERIOD, self._probe, clock=self._steady)
+        if current().clock.stepped and not self._paths:
+            self._period = min(STEPPED_PERIOD, max(PROBE_PERIOD, 0.1 * self._duration))
+        node.create_timer(self._period, self._probe, clock=self._steady)
         self._now = node.create_guard_condition(self._ask)
         if self._paths:
             from bot_console.tui.console.plot.watch import PlotWatch
@@ -75,7 +81,7 @@ class Observer:
             self.done.wait(PATIENCE)
 
     def _probe(self) -> None:
-        period = round(PROBE_PERIOD * 1e9)
+        period = round(self._period * 1e9)
         now = self._steady.now().nanoseconds
         self._due += period
         late = now - self._due
