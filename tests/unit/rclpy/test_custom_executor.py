@@ -95,6 +95,16 @@ def test_only_the_nodes_that_are_asked_for(ros: Any, executor: OneAtATime) -> No
     assert executor.wait_for_ready_callbacks(timeout_sec=5)[2] is other
 
 
+def test_a_timer_that_is_not_asked_for_is_due_all_the_same(ros: Any, executor: OneAtATime) -> None:
+    wanted, other = ros.node("wanted"), ros.node("other")
+    for node in (other, wanted):
+        executor.add_node(node)
+    timer = other.create_timer(0.001, lambda: None)
+    wanted.create_timer(0.01, lambda: None)
+    assert executor.wait_for_ready_callbacks(timeout_sec=5, nodes=[wanted])[2] is wanted
+    assert executor.wait_for_ready_callbacks(timeout_sec=5)[1] is timer
+
+
 def test_what_ends_the_wait(executor: OneAtATime) -> None:
     with pytest.raises(TimeoutException):
         executor.wait_for_ready_callbacks(timeout_sec=TimeoutObject(0))

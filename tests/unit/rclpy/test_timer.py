@@ -39,6 +39,22 @@ def test_fires_first_after_one_period(stepped_ros: Any) -> None:
     assert record.times == [100, 200, 300, 400]
 
 
+def test_fires_by_steady_time_until_it_is_cancelled(stepped_ros: Any) -> None:
+    node = stepped_ros.node()
+    record = Recorder(node)
+
+    def call() -> None:
+        record()
+        if len(record.times) == 3:
+            timer.cancel()
+
+    timer = node.create_timer(0.1, call, clock=Clock(clock_type=ClockType.STEADY_TIME))
+    other = Recorder(node)
+    node.create_timer(0.25, other)
+    stepped_ros.spin(lambda: len(other.times) >= 2)
+    assert record.times == [100, 200, 300]
+
+
 def test_missed_periods_are_skipped_and_the_phase_kept(stepped_ros: Any) -> None:
     node = stepped_ros.node()
     record = Recorder(node)

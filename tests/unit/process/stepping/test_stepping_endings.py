@@ -7,6 +7,7 @@ import time
 from contextlib import suppress
 
 from bot_console.runtime.process import NodeProcess, current, on_notice, stepped
+from bot_console.runtime.process.node.thread_state import local
 from ticking import ticker
 
 SECOND = 10**9
@@ -30,6 +31,21 @@ def test_signals_in_virtual_time(clock):
     assert process.wait(1.0) == -2
     assert order[0] == 2.0
     assert order[-1] == "KeyboardInterrupt\n"
+
+
+def test_what_is_thrown_at_a_thread_that_waits_ends_its_wait(clock):
+    states = []
+
+    def target():
+        states.append(local.state)
+        time.sleep(1000)
+
+    process = NodeProcess("n", clock)
+    process.start(target, stderr=len)
+    clock.run_for(2.0)
+    states[0].throw(KeyboardInterrupt)
+    assert process.wait(1.0) == -2
+    assert time.monotonic() == 2.0
 
 
 def test_stop_escalates_in_virtual_time(clock):
