@@ -266,12 +266,7 @@ class Executor(ReadyCallbacks):
         self._wakeup.clear()
         self._waiting += 1
         try:
-            if (
-                self._ready
-                or self._ready_tasks
-                or self._is_shutdown
-                or (self._context.ended and not self._context.ok())
-            ):
+            if self._ready or self._ready_tasks or self._is_shutdown or not self._context.ok():
                 return
             woken = self._wakeup.wait(until)
         finally:
