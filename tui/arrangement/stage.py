@@ -180,12 +180,11 @@ class Stage:
         return isinstance(self._app.focused, Input)
 
     def show_keys(self) -> None:
-        """Show the keys of the pane that has the keyboard."""
-        if len(self._app.screen_stack) == 1:
-            pane = self.current()
-            self._app.query_one(KeyBar).show(
-                pane.scopes if pane else (self._focused,), self.typing(), self._primary(), self._extent.width
-            )
+        """Show the keys of the pane that has the keyboard, or has it again when what lies over the panes is closed."""
+        if self._app.screen_stack:
+            screen, pane = self._app.screen_stack[0], self.current()
+            scopes, typing = pane.scopes if pane else (self._focused,), isinstance(screen.focused, Input)
+            screen.query_one(KeyBar).show(scopes, typing, self._primary(), self._extent.width)
 
     def _shown(self) -> Tree:
         tree = self._tree() if self._wanted == OVERVIEW else None

@@ -73,6 +73,7 @@ def test_stop_release_layout_plot_help_and_lines_of_ros2() -> None:
         assert session.pane(PlotPane).display and session.pane(PlotPane).paths == [SPEED]
         await line(session, "node list")
         assert session.console.asked[-1] == ("run", "node list") and isinstance(session.app.screen, OutputScreen)
+        assert "give up" not in session.lines()[-1]
         await session.press("escape")
         await line(session, "help")
         assert "set NODE PARAMETER VALUE" in session.text() and "rqt_plot" in session.text()
