@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from rclpy.clock import Clock
+from rclpy.event_handler import QoSSubscriptionMatchedInfo, SubscriptionEventCallbacks
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock as ClockMessage
@@ -40,10 +41,16 @@ class RobotTime:
         `stamp` (ns) is that of the newest scan: a clock far from it, as of a bag that is played, is not the robot's.
         """
         self._stamp = stamp
-        if self._node.count_publishers(TOPIC) == 0:
+        if self._subscription is None:
+            events = SubscriptionEventCallbacks(matched=self._on_matched)
+            self._subscription = self._node.create_subscription(
+                ClockMessage, TOPIC, self._on_clock, NEWEST, event_callbacks=events
+            )
+
+    def _on_matched(self, matched: QoSSubscriptionMatchedInfo) -> None:
+        # To ask the graph for clocks would make this process follow all of it, when the machine is too busy already.
+        if matched.current_count == 0:
             self._leave()
-        elif self._subscription is None:
-            self._subscription = self._node.create_subscription(ClockMessage, TOPIC, self._on_clock, NEWEST)
 
     def heard(self, stamp: int) -> None:
         """Take note of the stamp (ns) of a scan, with which a clock is compared."""
