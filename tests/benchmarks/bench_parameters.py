@@ -85,16 +85,43 @@ def local_set(watched: bool) -> float:
     return cost
 
 
-def together(count: int) -> float:
-    """`set_parameters_atomically` of so many, for each of them; nobody hears the event, as of most nodes."""
+def together(count: int, heard: bool = False) -> float:
+    """`set_parameters_atomically` of so many, for each of them; if `heard`, another node takes each event, too."""
     node = rclpy.create_node("together")
     for number in range(count):
         node.declare_parameter(f"p{number}", 0.0)
+    if heard:
+        return heard_together(node, count)
     rounds = [
         [Parameter(f"p{number}", value=float(turn)) for number in range(count)] for turn in range(TOGETHER // count)
     ]
     cost = per_call(lambda number: node.set_parameters_atomically(rounds[number]), len(rounds)) / count
     node.destroy_node()
+    return cost
+
+
+def heard_together(node: Any, count: int) -> float:
+    """As `together`, with a subscription of another node to `/parameter_events`, served after each change."""
+    got: list[int] = []
+    hearer, executor = rclpy.create_node("hearer"), SingleThreadedExecutor()
+    executor.add_node(hearer)
+    hearer.create_subscription(
+        ParameterEvent, "/parameter_events", lambda event: got.append(len(event.changed_parameters)), 10
+    )
+    rounds = [
+        [Parameter(f"p{number}", value=float(turn)) for number in range(count)] for turn in range(TOGETHER // count)
+    ]
+
+    def change(number: int) -> None:
+        node.set_parameters_atomically(rounds[number])
+        while len(got) <= number:
+            executor.spin_once()
+
+    cost = per_call(change, len(rounds)) / count
+    assert got == [count] * len(rounds)
+    executor.shutdown()
+    for each in (node, hearer):
+        each.destroy_node()
     return cost
 
 
@@ -147,6 +174,8 @@ MEASURES: dict[str, Callable[[], float]] = {
     "local_set_watched_us": lambda: local_set(True),
     "together_10_us_each": lambda: together(10),
     f"together_{MANY}_us_each": lambda: together(MANY),
+    "together_10_heard_us_each": lambda: together(10, heard=True),
+    f"together_{MANY}_heard_us_each": lambda: together(MANY, heard=True),
     "service_call_us": service_call,
     "get_parameter_us": read,
     "file_and_declare_us_each": parameter_file,
@@ -165,8 +194,9 @@ def main(runs: int) -> None:
     }
     ratios = [set_ / floor for set_, floor in zip(rows["local_set_us"], rows["floor_us"], strict=True)]
     found["local_set_over_floor"] = round(statistics.median(ratios), 2)
-    pairs = zip(rows[f"together_{MANY}_us_each"], rows["together_10_us_each"], strict=True)
-    found["together_many_over_ten"] = round(statistics.median(many / ten for many, ten in pairs), 2)
+    for heard in ("", "_heard"):
+        pairs = zip(rows[f"together_{MANY}{heard}_us_each"], rows[f"together_10{heard}_us_each"], strict=True)
+        found[f"together{heard}_many_over_ten"] = round(statistics.median(many / ten for many, ten in pairs), 2)
     print(json.dumps(found, indent=2))
     rclpy.shutdown()
 

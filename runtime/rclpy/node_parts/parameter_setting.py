@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -19,6 +20,8 @@ EMPTIED = (
     "modifying the original parameters list."
 )
 NOT_SET = Parameter.Type.NOT_SET
+FEW = 100
+"""Of more the collector would look through a growing event again and again, all of which is needed."""
 
 Setter = Callable[[Any], Any]
 """A callback; it gets the list of parameters, or whatever sequence the caller has given."""
@@ -95,7 +98,7 @@ class ParameterSetting:
         self._ros_use()  # the event names the node, and a destroyed one refuses that before anything is stored
         publisher = self._parameter_event_publisher
         if publisher._is_wanted():
-            publisher._publish_own(self._ros_store(parameters, descriptors, keep_not_set, event_parameter))
+            publisher._publish_own(self._ros_store_and_tell(parameters, descriptors, keep_not_set))
         else:
             self._ros_store(parameters, descriptors, keep_not_set, check_carried)
             publisher._skip()
@@ -120,6 +123,19 @@ class ParameterSetting:
                 if reason is not None:
                     return reason
         return None
+
+    def _ros_store_and_tell(
+        self, parameters: Sequence[Parameter], descriptors: dict[str, ParameterDescriptor] | None, keep_not_set: bool
+    ) -> ParameterEvent:
+        """Take the values over; returns the event with all of them."""
+        pause = len(parameters) > FEW and gc.isenabled()
+        if pause:
+            gc.disable()
+        try:
+            return self._ros_store(parameters, descriptors, keep_not_set, event_parameter)
+        finally:
+            if pause:
+                gc.enable()
 
     def _ros_store(
         self,

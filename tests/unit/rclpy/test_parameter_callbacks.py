@@ -1,6 +1,7 @@
 """Setting parameters: the order of callbacks, refusals, exceptions, nesting, events."""
 
-from collections.abc import Callable
+import gc
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
@@ -328,6 +329,51 @@ def test_an_event_holds_values_of_its_own(ros: Any) -> None:
     (event,) = listener.events
     assert event.changed_parameters[0].value.string_array_value == ["a", "b"]
     assert type(event.changed_parameters[1].value.integer_value) is int
+
+
+@pytest.fixture
+def collections() -> Iterator[list[str]]:
+    """The phases of the garbage collector's runs, which are on."""
+    phases: list[str] = []
+
+    def note(phase: str, info: dict[str, int]) -> None:
+        phases.append(phase)
+
+    before, threshold = gc.isenabled(), gc.get_threshold()
+    gc.enable()
+    gc.set_threshold(700)
+    gc.callbacks.append(note)
+    yield phases
+    gc.callbacks.remove(note)
+    gc.set_threshold(*threshold)
+    if not before:
+        gc.disable()
+
+
+def test_the_event_of_many_parameters_is_made_without_collecting_garbage(ros: Any, collections: list[str]) -> None:
+    node, got = ros.node(), []
+    many = [f"p{number}" for number in range(2_000)]
+    node.declare_parameters("", [(name, 0) for name in many])
+    ros.settle()
+    node.create_subscription(ParameterEvent, "/parameter_events", got.append, 10)
+    changes = [given(name, 1) for name in many]
+    gc.collect()
+    collections.clear()
+    node.set_parameters_atomically(changes)
+    assert collections.count("start") <= 1  # one that was due when they were made
+    assert gc.isenabled()
+    ros.spin(lambda: bool(got))
+    assert len(got[0].changed_parameters) == len(many)
+
+
+def test_what_an_event_of_many_cannot_carry_leaves_the_collector_on(ros: Any, collections: list[str]) -> None:
+    node = ros.node()
+    many = [f"p{number}" for number in range(500)]
+    node.declare_parameters("", [(name, 0) for name in many])
+    node.create_subscription(ParameterEvent, "/parameter_events", lambda event: None, 10)
+    with pytest.raises(TypeError):
+        node.set_parameters_atomically([given(name, 1 << 70) for name in many])
+    assert gc.isenabled()
 
 
 def test_events_are_counted_although_nobody_hears_them(ros: Any) -> None:
