@@ -14,11 +14,17 @@ PATIENCE = 0.2
 """How long one try for the lock lasts, in s; then it is looked at who holds it."""
 
 LONGEST_HOLD = 2.0
-"""After this time, in s, one that holds the lock is taken to hang in it: to join takes 10 ms, and some times that on a
-busy machine."""
+"""After this time, in s, one that holds the lock and has had no processor time is taken to hang in it."""
 
 LONGEST_WAIT = 10.0
-"""After this time, in s, a process goes on without the lock where the system does not tell who holds it."""
+"""After this time, in s, behind the same process, or while no process is seen to hold the lock, one goes on without it:
+to join takes 10 ms, and some times that on a busy machine.
+"""
+
+POLL, LONGEST_POLL = 0.003, 0.02
+"""How soon the lock is tried again, in s, at first and in the end: fifty that wait would else keep one who has it from
+the processor.
+"""
 
 
 @contextlib.contextmanager
@@ -31,17 +37,33 @@ def folder_lock(folder: str) -> Generator[None]:
     # The folder itself is locked: a lock file could be removed while somebody holds it.
     handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
     try:
-        deadline = time.monotonic() + LONGEST_WAIT
-        held_by, since = None, time.monotonic()
-        while not _taken(handle, PATIENCE):
-            holder, now = _holder(handle), time.monotonic()
-            if holder != held_by:
-                held_by, since = holder, now
-            if (is_stopped(holder) or now - since >= LONGEST_HOLD) if holder else now > deadline:
-                break
+        behind = _Behind()
+        while not _taken(handle, PATIENCE) and not behind.hangs(_holder(handle)):
+            pass
         yield
     finally:
         os.close(handle)
+
+
+class _Behind:
+    """Who holds the lock, and since when it has been the same one."""
+
+    def __init__(self) -> None:
+        self._holder: int | None = None
+        self._used = 0
+        self._since = self._idle_since = time.monotonic()
+
+    def hangs(self, holder: int | None) -> bool:
+        """Whether the one that holds the lock now does not give it back; None where that is nobody, or not told."""
+        now, used = time.monotonic(), _time_used(holder)
+        if holder != self._holder:
+            self._since = now
+        if (holder, used) != (self._holder, self._used):
+            self._idle_since = now
+        self._holder, self._used = holder, used
+        if holder is not None and (is_stopped(holder) or now - self._idle_since >= LONGEST_HOLD):
+            return True
+        return now - self._since >= LONGEST_WAIT
 
 
 def remove_dead(folder: str) -> None:
@@ -57,7 +79,7 @@ def remove_dead(folder: str) -> None:
 
 def _taken(handle: int, patience: float) -> bool:
     """Whether the lock was got in this time (s)."""
-    deadline = time.monotonic() + patience
+    deadline, pause = time.monotonic() + patience, POLL
     while True:
         try:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -65,11 +87,22 @@ def _taken(handle: int, patience: float) -> bool:
         except BlockingIOError:
             if time.monotonic() >= deadline:
                 return False
-        time.sleep(0.003)
+        time.sleep(pause)
+        pause = min(pause * 1.3, LONGEST_POLL)
+
+
+def _time_used(pid: int | None) -> int:
+    """The processor time that a process has had, in ticks of the system; 0 where that is not told."""
+    try:
+        with open(f"/proc/{pid}/stat", "rb") as file:
+            fields = file.read().rpartition(b")")[2].split()
+        return int(fields[11]) + int(fields[12])
+    except (OSError, IndexError, ValueError):
+        return 0
 
 
 def _holder(handle: int) -> int | None:
-    """The process that holds the lock; None where the system does not tell."""
+    """The process that holds the lock; None where nobody does any more, or the system does not tell."""
     inode = f":{os.fstat(handle).st_ino}"
     try:
         with open("/proc/locks") as file:

@@ -31,21 +31,65 @@ def test_one_that_hangs_with_the_lock_stops_nobody_from_joining(tmp_path, monkey
     os.close(handle)
 
 
+class Queue:
+    """A lock that is got at a given try; `holders` are who has it at each look, and `used` the time they have had."""
+
+    def __init__(self, monkeypatch, holders, seconds, got=50):
+        self.tries, self.now, self.used = 0, 0.0, itertools.repeat(0)
+
+        def taken(handle, patience):
+            self.now += seconds
+            self.tries += 1
+            return self.tries == got
+
+        monkeypatch.setattr(joining, "_taken", taken)
+        monkeypatch.setattr(joining, "_holder", lambda handle: next(holders))
+        monkeypatch.setattr(joining, "_time_used", lambda pid: next(self.used))
+        monkeypatch.setattr(joining, "is_stopped", lambda pid: pid == STOPPED)
+        monkeypatch.setattr(joining.time, "monotonic", lambda: self.now)
+
+    def waited_for(self, folder):
+        """The tries until one goes on."""
+        with folder_lock(str(folder)):
+            return self.tries
+
+
+STOPPED = 99
+
+
 def test_a_long_queue_is_waited_for_while_each_holds_it_only_shortly(tmp_path, monkeypatch):
-    now, tries, holders = [0.0], [], itertools.count(1)
+    queue = Queue(monkeypatch, itertools.count(1), 0.9 * joining.LONGEST_HOLD)
+    assert queue.waited_for(tmp_path) == 50
 
-    def taken(handle, patience):
-        now[0] += 0.9 * joining.LONGEST_HOLD
-        tries.append(patience)
-        return len(tries) == 50
 
-    monkeypatch.setattr(joining, "_taken", taken)
-    monkeypatch.setattr(joining, "_holder", lambda handle: next(holders))
-    monkeypatch.setattr(joining, "is_stopped", lambda pid: False)
-    monkeypatch.setattr(joining.time, "monotonic", lambda: now[0])
-    with folder_lock(str(tmp_path)):
-        assert len(tries) == 50
-    monkeypatch.setattr(joining, "_holder", lambda handle: 7)
-    del tries[:]
-    with folder_lock(str(tmp_path)):
-        assert len(tries) <= 3
+def test_a_lock_that_is_free_at_a_look_was_passed_on(tmp_path, monkeypatch):
+    holders = itertools.chain.from_iterable((each, None) for each in range(1, 1000))
+    assert Queue(monkeypatch, holders, 0.9 * joining.LONGEST_HOLD).waited_for(tmp_path) == 50
+
+
+def test_one_that_gets_no_processor_time_hangs(tmp_path, monkeypatch):
+    queue = Queue(monkeypatch, itertools.repeat(7), 0.5)
+    assert queue.waited_for(tmp_path) == 1 + joining.LONGEST_HOLD / 0.5
+
+
+def test_one_that_works_slowly_is_waited_for_longer(tmp_path, monkeypatch):
+    queue = Queue(monkeypatch, itertools.repeat(7), 0.5)
+    queue.used = itertools.count()
+    assert queue.waited_for(tmp_path) == 1 + joining.LONGEST_WAIT / 0.5
+
+
+def test_where_nobody_is_seen_with_the_lock_there_is_an_end(tmp_path, monkeypatch):
+    queue = Queue(monkeypatch, itertools.repeat(None), 0.5)
+    assert queue.waited_for(tmp_path) == joining.LONGEST_WAIT / 0.5
+
+
+def test_a_frozen_one_is_not_waited_for(tmp_path, monkeypatch):
+    assert Queue(monkeypatch, itertools.repeat(STOPPED), 0.1).waited_for(tmp_path) == 1
+
+
+def test_the_time_that_a_process_has_had_is_read():
+    own = os.getpid()
+    before = joining._time_used(own)
+    while joining._time_used(own) == before:
+        pass
+    assert joining._time_used(None) == joining._time_used(-1) == 0
