@@ -13,12 +13,12 @@ from typing import Any, cast
 
 SCHEME = "unixsock-stream/"
 
-OPEN_TIMEOUT = 10_000
+OPEN_TIMEOUT = 600_000
 """How long one attempt to reach another process may take, in ms; nothing waits for it.
 
 Zenoh drops an attempt that takes longer in the middle, and then one side counts a link that carries nothing, until the
 watch of the domain finds it: with 0.5 s that were some of twenty processes that started at one moment on a machine with
-30 others running.
+30 others running. That the other process has ended is seen without a limit: its socket closes.
 """
 
 LEASE = 60_000

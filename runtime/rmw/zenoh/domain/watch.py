@@ -25,17 +25,26 @@ GRACE = 15.0
 """How long another process may have no link, or one over which no answer has come, before that counts as a fault, in s:
 links are made in the background.
 
-Longer than an attempt may take (`OPEN_TIMEOUT`): a session that is opened anew is cut from all others meanwhile.
+Of two processes the one with the higher id waits twice as long, so that one of them opens its session anew; and each
+waits twice as long after each time that it did, up to `LONGEST_GRACE`.
+"""
+
+LONGEST_GRACE = 8.0
+"""So many times the grace a process waits at most, on a machine that is not busy."""
+
+BUSY = 4.0
+"""Threads that want one processor, from which on a machine counts as busy: the grace is longer as there are more of
+them, since links are made as much slower. A session that is opened anew in vain makes all others busy, too.
 """
 
 MOST_TRIES = 3
-"""So many times a session is opened anew for the sake of one other, each time after four times the grace: one that
-never answers, whatever the reason, is left alone then."""
+"""So many times a session is opened anew for the sake of one other: one that never answers, whatever the reason, is
+left alone then."""
 
 PATIENCE = 1.0
 """How long an answer is waited for, in s; a running process takes 5 ms."""
 
-PATIENCE_AT_LAST = 5.0
+PATIENCE_AT_LAST = 10.0
 """How long before the session is opened anew because of one that does not answer, in s."""
 
 
@@ -76,7 +85,8 @@ class Watch:
         self._since: dict[Identity, float] = {}
         self._next_question, self._pause = 0.0, PERIOD
         self._lost: set[Identity] = set()
-        self._tries: dict[Identity, int] = {}
+        self._tries: dict[str, int] = {}
+        self._opened_anew = 0
         session.watch_links(self._link_changed)
 
     def begin(self) -> None:
@@ -113,7 +123,8 @@ class Watch:
         without = self._without_link(found)
         now = self._clock()
         self._since = {each: self._since.get(each, now) for each in self._running(without)}
-        due = {each for each, since in self._since.items() if now - since >= self._grace(each)}
+        busy = slowness()
+        due = {each for each, since in self._since.items() if now - since >= self._grace(each) * busy}
         if due or self._is_to_ask(now):
             self._ask(due)
             without = self._without_link(found)
@@ -123,7 +134,8 @@ class Watch:
         return bool(self._lost)
 
     def _grace(self, other: Identity) -> float:
-        return GRACE * 4 ** self._tries.get(other, 0)
+        times = min(2.0**self._opened_anew, LONGEST_GRACE)
+        return GRACE * times * (2.0 if other[0] < self._session.zid[:8] else 1.0)
 
     def _is_to_ask(self, now: float) -> bool:
         """Whether it is time to ask those that were not here long enough to be lost: in ever longer intervals."""
@@ -145,8 +157,9 @@ class Watch:
         """The same with the folder's lock held and the dead removed: another may have mended it meanwhile."""
         live = live_sockets(folder)
         lost = self._running(self._without_link(live)) & self._lost
-        for each in lost:
-            self._tries[each] = self._tries.get(each, 0) + 1
+        for zid, _ in lost:
+            self._tries[zid] = self._tries.get(zid, 0) + 1
+        self._opened_anew += bool(lost)
         self._answered.clear()
         self._since.clear()
         self._is_calm = False
@@ -163,7 +176,7 @@ class Watch:
     def _running(self, found: list[Socket]) -> set[Identity]:
         """Those that are not frozen, and that it was not tried too often to get a link to."""
         running = {identity(each) for each in found if not is_stopped(each.pid)}
-        return {each for each in running if self._tries.get(each, 0) < MOST_TRIES}
+        return {each for each in running if self._tries.get(each[0], 0) < MOST_TRIES}
 
 
 Identity = tuple[str, int]
@@ -176,3 +189,12 @@ def identity(socket: Socket) -> Identity:
         return socket.zid, os.lstat(socket.path).st_ino
     except OSError:
         return socket.zid, 0
+
+
+def slowness() -> float:
+    """How many times longer things take because the machine is busy; 1 where it is not, or does not tell."""
+    try:
+        load, *_ = os.getloadavg()
+    except (OSError, AttributeError):
+        return 1.0
+    return max(1.0, load / (os.cpu_count() or 1) / BUSY)

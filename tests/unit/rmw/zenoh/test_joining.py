@@ -6,6 +6,7 @@ import fcntl
 import itertools
 import os
 import threading
+from collections.abc import Iterator
 
 from bot_console.runtime.rmw.zenoh.domain import joining
 from bot_console.runtime.rmw.zenoh.domain.joining import folder_lock
@@ -35,7 +36,8 @@ class Queue:
     """A lock that is got at a given try; `holders` are who has it at each look, and `used` the time they have had."""
 
     def __init__(self, monkeypatch, holders, seconds, got=50):
-        self.tries, self.now, self.used = 0, 0.0, itertools.repeat(0)
+        self.tries, self.now = 0, 0.0
+        self.used: Iterator[int] = itertools.repeat(0)
 
         def taken(handle, patience):
             self.now += seconds

@@ -12,6 +12,7 @@ from bot_console.runtime.rmw.zenoh.domain.sockets import Socket
 from bot_console.runtime.rmw.zenoh.domain.watch import GRACE, MOST_TRIES, Watch
 
 OWN, OTHER, THIRD = "aaaaaaaa", "bbbbbbbb", "cccccccc"
+LOWER = "99999999"
 
 
 class FakeSession:
@@ -46,6 +47,8 @@ class Bench:
     def __init__(self, folder: str, monkeypatch: pytest.MonkeyPatch) -> None:
         self.folder, self.now, self.stopped, self._locks = folder, 0.0, set[int](), dict[str, int]()
         monkeypatch.setattr(watching, "is_stopped", lambda pid: pid in self.stopped)
+        monkeypatch.setattr(watching, "slowness", lambda: self.slowness)
+        self.slowness = 1.0
         self.session = FakeSession(folder)
         self.appear(1, OWN)
         self.watch = Watch(self.session, lambda: self.now)
@@ -116,6 +119,46 @@ def test_a_link_that_carries_nothing_is_mended_after_the_grace(bench: Bench) -> 
 def test_one_without_a_link_is_mended_too(bench: Bench) -> None:
     bench.appear(2, OTHER)
     assert (bench.opened_anew(GRACE), bench.opened_anew(1)) == (0, 1)
+
+
+def test_of_a_pair_one_is_opened_anew_before_the_other(bench: Bench) -> None:
+    bench.appear(2, LOWER)
+    bench.links(LOWER, answers=False)
+    assert (bench.opened_anew(2 * GRACE), bench.opened_anew(1)) == (0, 1)
+
+
+def test_on_a_busy_machine_the_grace_is_longer(bench: Bench) -> None:
+    bench.appear(2, OTHER)
+    bench.links(OTHER, answers=False)
+    bench.slowness = 10.0
+    assert (bench.opened_anew(10 * GRACE), bench.opened_anew(1)) == (0, 1)
+
+
+def test_each_time_that_it_was_opened_anew_the_grace_is_longer(bench: Bench) -> None:
+    bench.appear(2, OTHER)
+    bench.links(OTHER, answers=False)
+    assert bench.opened_anew(GRACE + 1) == 1
+    bench.links(OTHER, answers=True)
+    bench.appear(3, THIRD)
+    bench.links(THIRD, answers=False)
+    assert (bench.opened_anew(2 * GRACE), bench.opened_anew(1)) == (0, 1)
+
+
+def test_the_machine_says_how_busy_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(os, "cpu_count", lambda: 2)
+    for load, expected in ((0.1, 1.0), (7.0, 1.0), (80.0, 10.0)):
+        monkeypatch.setattr(os, "getloadavg", lambda load=load: (load, 0.0, 0.0))
+        assert watching.slowness() == expected
+
+
+def test_one_that_never_answers_counts_as_the_same_when_it_opens_its_session_anew(bench: Bench) -> None:
+    bench.appear(2, OTHER)
+    bench.links(OTHER, answers=False)
+    times = 0
+    for _ in range(10):
+        times += bench.opened_anew(20 * GRACE)
+        bench.replace(2, OTHER)
+    assert times == MOST_TRIES
 
 
 def test_one_that_answers_late_is_left_alone(bench: Bench) -> None:
