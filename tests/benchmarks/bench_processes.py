@@ -1,10 +1,12 @@
 """What messages cost between two processes: `python tests/benchmarks/bench_processes.py [COUNT]`, JSON out.
 
-Each kind of message goes as bytes through a bare Zenoh session, which calls back from its own threads as it does in
-rclpy, and then through rclpy, in the same run and with nothing dropped: messages/s until the last one is there,
-processor time of both processes for one (us), and the round trip (us, median). `share` is rclpy's throughput as a part
-of the bare one's, `longer` its round trip in those of the bare one.
-A service call costs the processor time of both sides (us).
+Each kind of message goes as bytes through a bare Zenoh session and through rclpy, CDR on both ends, in the same run
+and with nothing dropped (KEEP_ALL): messages/s until the last one is there, processor time of both processes for one
+(us), and the round trip (us); medians of alternating rounds. Bare Zenoh calls back in two ways: `bare` is its default
+for a plain function, which a thread of Python's calls for all that has come meanwhile, and `direct` is at once from
+Zenoh's own threads, as rclpy's subscriptions are told. `share` is rclpy's throughput as a part of theirs, `longer` its
+round trip in theirs; `ros_10` is rclpy with a depth of 10, as nodes use it, where nothing waits to be sent.
+A service call costs the processor time of both sides (us, the median of ten times fifty).
 """
 
 from __future__ import annotations
@@ -17,7 +19,7 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from bot_console.runtime.importer import install
@@ -45,9 +47,13 @@ SAMPLES = {
 """Messages, and by how much their number is divided."""
 
 ALL = QoSProfile(history=HistoryPolicy.KEEP_ALL, depth=0)
+BARE = ("bare", "direct")
+PROFILES = {"ros": ALL, "ros_10": QoSProfile(depth=10)}
+"""Bare Zenoh's ways, and the profiles of rclpy's."""
 BARE_DOMAIN, ROS_DOMAIN = 1, 0
-ROUND_TRIPS = 300
-CALLS = 500
+ROUNDS = 3
+ROUND_TRIPS = 100
+CALLS = 50
 PATIENCE = 60.0
 Send = Callable[[], Any]
 
@@ -59,21 +65,21 @@ class Bare:
         self.session = open_session(BARE_DOMAIN)
         self.declared: list[Any] = []
 
-    def publisher(self, name: str, topic: str) -> Send:
+    def publisher(self, kind: str, name: str, topic: str) -> Send:
         payload = serialize_message(SAMPLES[name][0])
         publisher = self.session._zenoh.declare_publisher(
-            f"{topic}/{name}", congestion_control=zenoh.CongestionControl.BLOCK, priority=zenoh.Priority.DATA_LOW
+            f"{kind}/{topic}/{name}", congestion_control=zenoh.CongestionControl.BLOCK, priority=zenoh.Priority.DATA_LOW
         )
         self.declared.append(publisher)
         return lambda: publisher.put(payload)
 
-    def subscribe(self, name: str, topic: str, received: Send) -> None:
+    def subscribe(self, kind: str, name: str, topic: str, received: Send) -> None:
         def take(sample: zenoh.Sample) -> None:
             sample.payload.to_bytes()
             received()
 
-        callback = zenoh.handlers.Callback(take, indirect=False)
-        self.declared.append(self.session._zenoh.declare_subscriber(f"{topic}/{name}", callback))
+        callback = take if kind == "bare" else zenoh.handlers.Callback(take, indirect=False)
+        self.declared.append(self.session._zenoh.declare_subscriber(f"{kind}/{topic}/{name}", callback))
 
 
 class Ros:
@@ -87,25 +93,29 @@ class Ros:
     def serve(self) -> None:
         threading.Thread(target=rclpy.spin, args=(self.node,), daemon=True).start()
 
-    def publisher(self, name: str, topic: str) -> Send:
+    def publisher(self, kind: str, name: str, topic: str) -> Send:
         message = SAMPLES[name][0]
-        publisher = self.node.create_publisher(type(message), f"/{topic}/{name}", ALL)
+        publisher = self.node.create_publisher(type(message), f"/{kind}/{topic}/{name}", PROFILES[kind])
         return lambda: publisher.publish(message)
 
-    def subscribe(self, name: str, topic: str, received: Send) -> None:
-        self.node.create_subscription(type(SAMPLES[name][0]), f"/{topic}/{name}", lambda message: received(), ALL)
+    def subscribe(self, kind: str, name: str, topic: str, received: Send) -> None:
+        def take(message: Any) -> None:
+            received()
+
+        self.node.create_subscription(type(SAMPLES[name][0]), f"/{kind}/{topic}/{name}", take, PROFILES[kind])
 
 
-def other(way: Bare | Ros) -> None:
+def other(way: Bare | Ros, kinds: Sequence[str]) -> None:
     """The other process: counts, sends back, adds, and says for each line how many came and its processor time (s)."""
     counts = [0]
 
     def count() -> None:
         counts[0] += 1
 
-    for name in SAMPLES:
-        way.subscribe(name, "there", count)
-        way.subscribe(name, "ping", way.publisher(name, "pong"))
+    for kind in kinds:
+        for name in SAMPLES:
+            way.subscribe(kind, name, "there", count)
+            way.subscribe(kind, name, "ping", way.publisher(kind, name, "pong"))
     if isinstance(way, Ros):
         way.node.create_service(AddTwoInts, "/add", lambda request, response: response)
         way.serve()
@@ -142,60 +152,86 @@ def until(true: Callable[[], bool]) -> None:
         time.sleep(0.002)
 
 
-def throughput(send: Send, there: Other, count: int) -> dict[str, float]:
-    until(lambda: bool(send()) or there.state()[0] > 0)  # until the two are linked
-    time.sleep(0.5)
-    before, spent = there.state()
-    own, began = time.process_time(), time.perf_counter()
-    for _ in range(count):
-        send()
-    until(lambda: there.state()[0] >= before + count)
-    took = time.perf_counter() - began
-    cost = time.process_time() - own + there.state()[1] - spent
-    return {"per_s": round(count / took), "cpu_us": round(cost / count * 1e6, 1)}
+class Pair:
+    """One kind of message on one way between the two processes."""
 
+    def __init__(self, way: Bare | Ros, kind: str, name: str, there: Other) -> None:
+        self._there = there
+        self._send = way.publisher(kind, name, "there")
+        self._ping = way.publisher(kind, name, "ping")
+        self._back = threading.Event()
+        way.subscribe(kind, name, "pong", self._back.set)
+        before = there.state()[0]
+        until(lambda: bool(self._send()) or there.state()[0] > before)  # until the two are linked
+        until(lambda: (self._ping(), self._back.wait(0.05))[1])
+        time.sleep(0.3)
+        self._times: list[float] = []
+        self._rates: list[float] = []
+        self._costs: list[float] = []
 
-def round_trip(way: Bare | Ros, name: str) -> float:
-    back = threading.Event()
-    way.subscribe(name, "pong", back.set)
-    send = way.publisher(name, "ping")
-    until(lambda: (send(), back.wait(0.05))[1])
-    time.sleep(0.2)
-    times: list[float] = []
-    for _ in range(ROUND_TRIPS):
-        back.clear()
-        began = time.perf_counter()
-        send()
-        back.wait(PATIENCE)
-        times.append(time.perf_counter() - began)
-    return round(statistics.median(times) * 1e6)
+    def throughput(self, count: int) -> None:
+        before, spent = self._there.state()
+        own, began = time.process_time(), time.perf_counter()
+        for _ in range(count):
+            self._send()
+        until(lambda: self._there.state()[0] >= before + count)
+        self._rates.append(count / (time.perf_counter() - began))
+        self._costs.append((time.process_time() - own + self._there.state()[1] - spent) / count)
+
+    def round_trips(self) -> None:
+        for _ in range(ROUND_TRIPS):
+            self._back.clear()
+            began = time.perf_counter()
+            self._ping()
+            self._back.wait(PATIENCE)
+            self._times.append(time.perf_counter() - began)
+
+    def figures(self) -> dict[str, float]:
+        found: dict[str, float] = {"round_trip_us": round(statistics.median(self._times) * 1e6)}
+        if self._rates:
+            found["per_s"] = round(statistics.median(self._rates))
+            found["cpu_us"] = round(statistics.median(self._costs) * 1e6, 1)
+        return found
 
 
 def service(way: Ros, there: Other) -> float:
     client = way.node.create_client(AddTwoInts, "/add")
     until(client.service_is_ready)
     client.call(AddTwoInts.Request())
-    spent, own = there.state()[1], time.process_time()
-    for _ in range(CALLS):
-        client.call(AddTwoInts.Request())
-    return round((time.process_time() - own + there.state()[1] - spent) / CALLS * 1e6)
+    costs: list[float] = []
+    for _ in range(10):
+        spent, own = there.state()[1], time.process_time()
+        for _ in range(CALLS):
+            client.call(AddTwoInts.Request())
+        costs.append((time.process_time() - own + there.state()[1] - spent) / CALLS)
+    return round(statistics.median(costs) * 1e6)
+
+
+def compared(pairs: Mapping[str, Pair]) -> dict[str, Any]:
+    row: dict[str, Any] = {kind: pair.figures() for kind, pair in pairs.items()}
+    for kind in ("bare", "direct"):
+        row[f"share of {kind}"] = round(row["ros"]["per_s"] / row[kind]["per_s"], 2)
+        for ros in PROFILES:
+            longer = row[ros]["round_trip_us"] / row[kind]["round_trip_us"]
+            row[f"{ros} longer than {kind}"] = round(longer, 2)
+    return row
 
 
 def main(count: int) -> None:
     os.environ["BOT_CONSOLE_SOCKET_DIR"] = os.path.join(tempfile.mkdtemp(prefix="bc-", dir="/tmp"), "s")
-    others = {"bare": Other("bare"), "ros": Other("ros")}
-    ros = Ros()
+    others = {way: Other(way) for way in ("bare", "ros")}
+    ros, bare = Ros(), Bare()
     ros.serve()
-    ways: dict[str, Bare | Ros] = {"bare": Bare(), "ros": ros}
     figures: dict[str, Any] = {}
     for name, (_, divided) in SAMPLES.items():
-        row: dict[str, Any] = {}
-        for way, each in ways.items():
-            row[way] = throughput(each.publisher(name, "there"), others[way], max(50, count // divided))
-            row[way]["round_trip_us"] = round_trip(each, name)
-        row["share"] = round(row["ros"]["per_s"] / row["bare"]["per_s"], 2)
-        row["longer"] = round(row["ros"]["round_trip_us"] / row["bare"]["round_trip_us"], 2)
-        figures[name] = row
+        pairs = {kind: Pair(bare, kind, name, others["bare"]) for kind in BARE}
+        pairs |= {kind: Pair(ros, kind, name, others["ros"]) for kind in PROFILES}
+        for _ in range(ROUNDS):
+            for kind, pair in pairs.items():
+                if kind != "ros_10":  # it would drop
+                    pair.throughput(max(50, count // divided))
+                pair.round_trips()
+        figures[name] = compared(pairs)
     figures["service_call_cpu_us"] = service(ros, others["ros"])
     print(json.dumps(figures, indent=2), flush=True)
     for each in others.values():
@@ -205,6 +241,6 @@ def main(count: int) -> None:
 
 if __name__ == "__main__":
     if sys.argv[1:2] == ["--other"]:
-        other(Bare() if sys.argv[2] == "bare" else Ros())
+        other(*((Bare(), BARE) if sys.argv[2] == "bare" else (Ros(), tuple(PROFILES))))
     else:
-        main(int(sys.argv[1]) if sys.argv[1:] else 10_000)
+        main(int(sys.argv[1]) if sys.argv[1:] else 5_000)
