@@ -76,11 +76,13 @@ class Publisher(Declared):
 
     def put_surely(self, payload: bytes, attachment: bytes) -> bool:
         """Send one sample once the session has its links, if it is just opened anew: for a thread of its own."""
+        settled = self._session.settled
         while True:
-            self._session.settled.wait()
+            if not settled.is_set():
+                settled.wait()
             if self.put(payload, attachment):
                 return True
-            if self._session.settled.is_set():
+            if settled.is_set():
                 return False
 
 

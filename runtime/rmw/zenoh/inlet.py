@@ -63,6 +63,8 @@ class Inlet:
     ) -> None:
         """`own` has the ids of this process's publishers, whose messages come from object to object."""
         self._subscription = subscription
+        self._raw = subscription.raw
+        self._counted = subscription.endpoint.topic in PATIENT_TOPICS
         self._tap = tap
         self._own = own
         self.message_class = subscription.endpoint.message_class
@@ -102,11 +104,12 @@ class Inlet:
         except FormatError as error:
             self.dropped(error)
             return
-        message = payload if subscription.raw else Arrived(self, payload)
+        message = payload if self._raw else Arrived(self, payload)
         expires = None if publisher.lifespan is None else stamp + publisher.lifespan
-        if len(subscription.queue) == subscription.queue.maxlen and subscription.endpoint.topic in PATIENT_TOPICS:
+        queue = subscription.queue
+        if self._counted and len(queue) == queue.maxlen:
             self._overrun()
-        subscription.queue.append((message, stamp, number, expires))
+        queue.append((message, stamp, number, expires))
         subscription.notify()
         hear = self._tap.hear
         if hear is not None:

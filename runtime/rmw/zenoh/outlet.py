@@ -37,6 +37,7 @@ class Outlet(deque[Any]):
         self._session = session
         self._publisher = publisher
         self._key = key
+        self._topic = publisher.endpoint.topic
         self.gid = publisher.endpoint.gid
         self._out: Publisher | None = None
         self._process = current()
@@ -56,7 +57,7 @@ class Outlet(deque[Any]):
         out = self._out or self._open()
         attachment = pack(number, stamp, self.gid)
         if self._patient:
-            self._sender.send(out, self._publisher.endpoint.topic, data, attachment)
+            self._sender.send(out, self._topic, data, attachment)
         else:
             out.put(data, attachment)
 

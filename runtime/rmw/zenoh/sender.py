@@ -14,13 +14,19 @@ ROOM = 64_000_000
 
 
 class Sender:
-    """The queue before the keep-all publishers of a session, and the thread that empties it, made at first use."""
+    """The queue before the keep-all publishers of a session, and the thread that empties it, made at first use.
+
+    What is just being sent stays in the queue until it is. That thread alone takes from it, and the lock is taken by
+    those who put into it, and by the thread where nothing is left: both meet there, and not at each message.
+    """
 
     def __init__(self) -> None:
         self._changed = threading.Condition()
-        self._queue: deque[tuple[Publisher, str, bytes, bytes]] = deque()
-        self._bytes = 0
-        self._busy = False
+        self._queue: deque[tuple[Publisher, bytes, bytes]] = deque()
+        self._taken = 0
+        self._begun = 0
+        """Bytes that were taken, and those of them that do not wait any more: each is counted by one side alone."""
+        self._waits = False
         self._ended = False
         self._thread: threading.Thread | None = None
         self._process = current()
@@ -28,9 +34,10 @@ class Sender:
     def send(self, publisher: Publisher, topic: str, payload: bytes, attachment: bytes) -> bool:
         """Have a message sent after all that came before; False where there is no room, which is told once a topic."""
         with self._changed:
-            fits = self._bytes + len(payload) <= ROOM or not self._queue
+            waiting = self._taken - self._begun
+            fits = not waiting or waiting + len(payload) <= ROOM
             if fits:
-                self._append(publisher, topic, payload, attachment)
+                self._append(publisher, payload, attachment)
         if not fits:
             notify(
                 self._process,
@@ -39,43 +46,50 @@ class Sender:
             )
         return fits
 
-    def _append(self, publisher: Publisher, topic: str, payload: bytes, attachment: bytes) -> None:
-        self._queue.append((publisher, topic, payload, attachment))
-        self._bytes += len(payload)
-        if self._thread is None and not self._ended:
+    def _append(self, publisher: Publisher, payload: bytes, attachment: bytes) -> None:
+        self._queue.append((publisher, payload, attachment))
+        self._taken += len(payload)
+        if self._waits:
+            self._waits = False
+            self._changed.notify_all()
+        elif self._thread is None and not self._ended:
             self._thread = threading.Thread(target=self._run, name="zenoh-sender", daemon=True)
             self._thread.start()
-        self._changed.notify_all()
 
     def undeclare(self, publisher: Publisher) -> None:
         """Take a publisher back once all that it has published was sent."""
         with self._changed:
-            waits = any(each[0] is publisher for each in self._queue) or self._busy
-            if waits and not self._ended:
-                self._append(publisher, "", b"", b"")
+            # Copied at once: the thread takes from it meanwhile.
+            if any(each[0] is publisher for each in tuple(self._queue)) and not self._ended:
+                self._append(publisher, b"", b"")
                 return
         publisher.undeclare()
 
     def _run(self) -> None:
-        while True:
-            with self._changed:
-                self._busy = False
-                self._changed.notify_all()
-                while not self._queue:
-                    if self._ended:
-                        return
-                    self._changed.wait()
-                publisher, _, payload, attachment = self._queue.popleft()
-                self._bytes -= len(payload)
-                self._busy = True
+        queue = self._queue
+        while queue or self._has_more():
+            publisher, payload, attachment = queue[0]
+            self._begun += len(payload)
             if attachment:
                 publisher.put_surely(payload, attachment)
             else:
                 publisher.undeclare()
+            queue.popleft()
+
+    def _has_more(self) -> bool:
+        """Whether something more was put into the empty queue, which is waited for; False at the end."""
+        with self._changed:
+            while not self._queue and not self._ended:
+                self._waits = True
+                self._changed.notify_all()
+                self._changed.wait()
+            if not self._queue:
+                self._changed.notify_all()
+            return bool(self._queue)
 
     def end(self, patience: float) -> bool:
         """Take nothing more, and wait at most `patience` (s) until all is sent; whether it was."""
         with self._changed:
             self._ended = True
             self._changed.notify_all()
-            return self._changed.wait_for(lambda: not self._queue and not self._busy, patience)
+            return self._changed.wait_for(lambda: not self._queue, patience)

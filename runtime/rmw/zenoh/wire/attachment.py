@@ -9,6 +9,9 @@ from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
 
 GID_SIZE = 16
 _LAYOUT = struct.Struct("<qqB16s")
+_FIELDS = struct.Struct("<qqx16s")
+"""The same without the length of the id."""
+_new = tuple.__new__  # what the class does for each message, without its arguments' names
 _OLD = b"\x0fsequence_number"
 
 
@@ -40,5 +43,4 @@ def unpack(data: bytes | None) -> Attachment:
         if data.startswith(_OLD):
             raise FormatError("the sender's rmw_zenoh is too old (before Jazzy 0.2.4, Humble 0.1.2): update it")
         raise FormatError(f"no attachment of 33 bytes: {data[:40].hex(' ')}")
-    number, time_ns, _, gid = _LAYOUT.unpack(data)
-    return Attachment(number, time_ns, gid)
+    return _new(Attachment, _FIELDS.unpack(data))

@@ -69,3 +69,25 @@ def test_a_publisher_with_nothing_to_send_is_taken_back_at_once(sender):
     publisher = Slow()
     sender.undeclare(publisher)
     assert publisher.sent == ["undeclared"]
+
+
+def test_the_thread_that_had_nothing_left_is_woken(sender):
+    publisher = Slow()
+    publisher.free.set()
+    for number in range(200):
+        publisher.reached.clear()
+        sender.send(publisher, "/t", b"%d" % number, b"a")
+        assert publisher.reached.wait(PATIENCE)
+    assert sender.end(PATIENCE)
+    assert publisher.sent == [b"%d" % number for number in range(200)]
+
+
+def test_a_publisher_whose_last_message_is_being_sent_is_taken_back_after_it(sender):
+    publisher = Slow()
+    sender.send(publisher, "/t", b"1", b"a")
+    assert publisher.reached.wait(PATIENCE)
+    sender.undeclare(publisher)
+    assert publisher.sent == []
+    publisher.free.set()
+    assert sender.end(PATIENCE)
+    assert publisher.sent == [b"1", "undeclared"]
