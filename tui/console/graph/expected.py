@@ -13,6 +13,7 @@ from typing import Any, cast
 
 import yaml
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.text.yaml_faults import UNREADABLE, fault_of
 
 TOLERANCE = 0.2
 """Share of an expected rate by which a measured one may differ, where the file names none."""
@@ -52,8 +53,8 @@ def read(text: str) -> Expected:
     """What a file says; raises `ValueError` with what is wrong with it."""
     try:
         whole: Any = yaml.safe_load(text)
-    except yaml.YAMLError as error:
-        raise ValueError(f"this is no YAML: {error}") from None
+    except UNREADABLE as error:
+        raise ValueError(f"this is no YAML: {fault_of(error)}") from None
     found = _mapping(whole, "the file", PARTS)
     return Expected(
         _names(found.get("nodes"), "nodes"),

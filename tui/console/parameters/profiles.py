@@ -14,6 +14,7 @@ from bot_console.tui.console.parameters.file.patch import same
 from bot_console.tui.console.parameters.file.text import KEYWORD, NOTHING, sections, value_at
 from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.console.values import refusal
+from bot_console.tui.text.yaml_faults import UNREADABLE, fault_of
 
 AT_RESET = "at reset"
 """A parameter whose description says so needs a reset of the world to take effect."""
@@ -81,11 +82,12 @@ def _launch_profile(path: Path, title: str, text: str) -> Profile | None:
     if not any(line.startswith("launch:") for line in text.splitlines()):
         return None
     try:
-        data = cast("dict[Any, Any]", yaml.safe_load(text))
-    except yaml.YAMLError as error:
-        raise ValueError(f"not YAML: {getattr(error, 'problem', None) or error}") from None
-    launch: Any = data.get("launch")
-    arguments: Any = data.get("arguments") or {}
+        data: Any = yaml.safe_load(text)
+    except UNREADABLE as error:
+        raise ValueError(f"not YAML: {fault_of(error)}") from None
+    found = cast("dict[Any, Any]", data) if isinstance(data, dict) else {}
+    launch: Any = found.get("launch")
+    arguments: Any = found.get("arguments") or {}
     if not isinstance(launch, str) or not isinstance(arguments, dict):
         raise ValueError("a launch profile has the lines 'launch: FILE' and 'arguments:' with 'name: value' below it")
     file = path.parent / Path(launch).expanduser()
@@ -95,7 +97,10 @@ def _launch_profile(path: Path, title: str, text: str) -> Profile | None:
 
 
 def _argument(value: Any) -> str:
-    return str(value).lower() if isinstance(value, bool) else str(value)
+    try:
+        return str(value).lower() if isinstance(value, bool) else str(value)
+    except ValueError:  # Python writes no whole number of more than 4,300 digits
+        raise ValueError("an argument is a whole number of thousands of digits") from None
 
 
 def differences(profile: Profile, trees: Mapping[str, ParameterTree]) -> Sequence[ProfileDifference]:

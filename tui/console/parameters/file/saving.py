@@ -95,4 +95,7 @@ def _decoded(content: bytes) -> tuple[bytes, str, str]:
 def _free_name(path: Path) -> str:
     """A name beside the file that nobody has."""
     names = (path.with_name(f"{path.stem}-parameters{number}.yaml") for number in ("", *map(str, range(2, 1000))))
-    return next((str(each) for each in names if not each.exists()), "another folder")
+    try:
+        return next((str(each) for each in names if not each.exists()), "another folder")
+    except OSError:  # the name is as long as a name may be
+        return "a shorter one"

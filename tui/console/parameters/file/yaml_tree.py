@@ -71,7 +71,8 @@ def read_tree(text: str) -> YamlTree | None:
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         where = f"line {mark.line + 1}: " if mark else ""
-        raise ValueError(f"{where}not YAML: {getattr(error, 'problem', None) or error}") from None
+        problem = getattr(error, "problem", None) or getattr(error, "reason", None) or error
+        raise ValueError(f"{where}not YAML: {problem}") from None
     except RecursionError:
         raise ValueError("its levels are too many") from None
 

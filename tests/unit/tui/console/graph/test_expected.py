@@ -79,8 +79,12 @@ def test_what_is_written_is_as_expected_when_it_is_read() -> None:
         ("topics: {/odom: {rte: 5}}", "'rte' in /odom is not known"),
         ("topics: {/odom: {rate: fast}}", "'fast' at /odom should be a number"),
         ("nodes: [", "this is no YAML"),
+        ("nodes: !!timestamp x", "this is no YAML: has a value that its tag does not allow"),
+        ("[" * 5000, "this is no YAML: nested too deeply"),
+        ("nodes: [a\0]", "this is no YAML: "),
     ],
 )
 def test_a_file_that_cannot_be_used_is_explained(text: str, said: str) -> None:
-    with pytest.raises(ValueError, match=said.replace("[", r"\[").replace("(", r"\(")):
+    with pytest.raises(ValueError, match=said.replace("[", r"\[").replace("(", r"\(")) as caught:
         read(text)
+    assert len(str(caught.value).splitlines()) == 1

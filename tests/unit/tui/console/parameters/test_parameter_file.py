@@ -173,6 +173,7 @@ REFUSED: dict[str, tuple[str | bytes, str]] = {
     "two documents": (f"{NODE}a: 1\n---\n{NODE}a: 2\n", "line 4: a second document"),
     "broken": ("a: [", "not YAML"),
     "a tab": ("a:\n\tros__parameters:\n", "line 2: not YAML"),
+    "a NUL": ("a: 1\0\n", "not YAML: .*characters are not allowed"),
     "bytes": (b"\x89PNG\r\n\x1a\n\0\0", "it is no text"),
     "Latin-1": ("# für\n".encode("latin-1"), "it is no text"),
     "deep": ("[" * 5000, "not YAML|too many"),
@@ -207,6 +208,14 @@ def test_a_kind_of_file_that_is_refused_and_stays_as_it_is(kind: str, tmp_path: 
     assert str(caught.value).endswith(f"give another name, such as {tmp_path / 'file-parameters2.yaml'}")
     assert len(str(caught.value).splitlines()) == 1
     assert len(list(tmp_path.iterdir())) == 2
+
+
+def test_a_refused_file_whose_name_cannot_be_longer(tmp_path: Path) -> None:
+    path = tmp_path / f"{'n' * 250}.yaml"
+    path.write_text("- 1\n")
+    with pytest.raises(NotSaved, match=r"it holds a list; .* give another name, such as a shorter one$"):
+        save(path, {ROBOT: tree(ROBOT, max_speed=2.5)})
+    assert path.read_text() == "- 1\n"
 
 
 @pytest.mark.skipif(os.name != "posix", reason="modes and links of POSIX")

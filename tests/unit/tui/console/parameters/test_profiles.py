@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -147,6 +148,25 @@ def test_keys_that_mean_no_node_and_parameters_that_no_node_has_are_told(tmp_pat
     assert "out of range" in found["/n", "speed"].refusal, "the later key counts"
     assert found["/n", "gone"].unknown and found["/m", "speed"].then == 2.0
     assert unmatched(profile, trees) == ("/x/*",)
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("launch: !!timestamp x\n", "not YAML: has a value that its tag does not allow"),
+        ("launch: !!timestamp 2020-13-45\n", "not YAML: has a value that its tag does not allow"),
+        (f"launch: {'[' * 5000}\n", "not YAML: nested too deeply"),
+        ("launch: a\0\n", "not YAML: .*characters are not allowed"),
+        ('"a\nlaunch: b"\n', "a launch profile has the lines"),
+        (f"launch: a\narguments: {{n: 0x{'f' * 5000}}}\n", "a whole number of thousands of digits"),
+    ],
+)
+def test_a_launch_profile_that_cannot_be_read_says_why_on_one_line(tmp_path: Path, text: str, problem: str) -> None:
+    path = tmp_path / "bad.yaml"
+    path.write_text(text)
+    told = load(path).problem
+    assert re.search(problem, told)
+    assert len(told.splitlines()) == 1
 
 
 def test_a_launch_profile_names_a_launch_file_with_its_arguments(tmp_path: Path) -> None:
