@@ -71,7 +71,7 @@ class _Reading:
         )
         if outermost and any(not each.number for each in every):
             self.source.line("end = len(data)")
-        if outermost and any(each.type.sequence for each in every):
+        if outermost and any(each.type.sequence or not each.type.primitive for each in every):
             self.source.line("view = memoryview(data)")
         self._messages_made(cls)
         for part in every:

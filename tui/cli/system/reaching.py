@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import os
+from typing import TYPE_CHECKING
 
-from bot_console.runtime.rmw.bus import Bus
-from bot_console.runtime.rmw.local import local_bus
-from bot_console.runtime.rmw.middleware import bus_of, choose_middleware
 from bot_console.tui.cli.system.domain import CONNECT_VARIABLE, take_part
+
+if TYPE_CHECKING:
+    from bot_console.runtime.rmw.bus import Bus
 
 
 def reach_system() -> str:
@@ -22,6 +23,8 @@ def reach_system() -> str:
 
 def reach_when_asked() -> None:
     """Reach it with the first context, for a verb that seldom makes one; where that cannot be, the verb is alone."""
+    from bot_console.runtime.rmw.local import local_bus
+    from bot_console.runtime.rmw.middleware import bus_of, choose_middleware
 
     def reach(domain: int) -> Bus:
         if reach_system():

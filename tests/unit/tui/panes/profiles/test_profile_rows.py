@@ -6,17 +6,17 @@ import pytest
 from bot_console.tui.console.model import Profile, ProfileDifference, SetOutcome
 from bot_console.tui.panes.profiles.asking import Asking
 from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, entries, outcome_text
+from bot_console.tui.terminal.styling.style_sheet import StyledByPart
 from fakes.console import FakeConsole
 from rich.cells import cell_len
 from rich.style import Style
-from textual.widget import Widget
 
 LONG = "a_warehouse_with_a_very_long_name_indeed"
 
 
 @pytest.fixture(autouse=True)
 def _no_styles(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(Widget, "get_component_rich_style", lambda *names, partial=False: Style())
+    monkeypatch.setattr(StyledByPart, "part_style", lambda rows, name: Style())
 
 
 def text(rows: ProfileRows | DifferenceRows, index: int, width: int) -> str:
