@@ -195,8 +195,10 @@ def _launch_test(words: Words) -> int:
 
 
 def _colcon(words: Words) -> int:
+    from bot_console.runtime.importer import install
     from bot_console.tui.cli.verbs.colcon import run
 
+    install()
     return run(words)
 
 

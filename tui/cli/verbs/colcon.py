@@ -22,7 +22,7 @@ def run(words: Sequence[str]) -> int:
 def answers(words: Sequence[str]) -> list[str]:
     """The lines of the answer, a warning for each package that is not there first."""
     warnings = [f"ignoring unknown package '{name}' in {option}" for option, name in _unknown(words)]
-    return [*warnings, "Nothing has to be built: packages of the workspace are read from their sources."]
+    return [*warnings, "Nothing has to be built or sourced: packages of the workspace are read from their sources."]
 
 
 def _unknown(words: Sequence[str]) -> Iterator[tuple[str, str]]:
