@@ -11,6 +11,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+import rclpy
+from bot_console.tui.cli.verbs import bag
 from bot_console.tui.cli.verbs.bag import run
 
 pytest.importorskip("mcap")
@@ -72,6 +74,21 @@ def test_a_killed_recorder_leaves_a_bag(robot: Path) -> None:
     told = typed(robot, "info", "killed")
     assert told.returncode == 0 and "was given one" in told.stderr and "/scan" in told.stdout
     assert "was given one" not in typed(robot, "info", "killed").stderr
+
+
+@pytest.mark.parametrize("begun", [False, True], ids=["before its node", "before it spins"])
+def test_a_recorder_that_is_interrupted_as_it_starts_leaves_a_whole_bag_or_none(
+    begun: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*given: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(bag, "take_part", lambda: "")
+    monkeypatch.setattr(bag, "_spin" if begun else "_node", interrupted)
+    run(["record", "--all", "-o", str(tmp_path / "bag")])
+    rclpy.try_shutdown()
+    files = list((tmp_path / "bag").glob("*.mcap"))
+    assert [each.read_bytes().endswith(b"\x89MCAP0\r\n") for each in files] == [True] * begun
 
 
 def test_a_snapshot_needs_a_recorder_in_that_mode(robot: Path) -> None:

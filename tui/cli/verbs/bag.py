@@ -108,10 +108,10 @@ def _record(given: argparse.Namespace) -> int:
         return 2
     wanted = _wanted(given)
     folder = given.output or _new_folder()
-    sink = Ring(given.snapshot_duration, LARGEST_RING) if given.snapshot_mode else BagWriter(folder)
     node = _node(RECORDER)
     if node is None:
         return 1
+    sink = Ring(given.snapshot_duration, LARGEST_RING) if given.snapshot_mode else BagWriter(folder)
     recorder = Recorder(node, sink, wanted, class_of)
     logger = node.get_logger()
     told: set[str] = set()
@@ -125,18 +125,21 @@ def _record(given: argparse.Namespace) -> int:
 
     import rclpy
 
-    control = rclpy.create_node(f"_{RECORDER}_control", start_parameter_services=False)
-    control.create_timer(PACE, recorder.turn)
-    control.create_timer(0.5, tell)
-    if isinstance(sink, Ring):
-        _offer_snapshots(control, sink, given.output)
-        logger.info(f"Keeping the last {given.snapshot_duration:g} s; `bot-console bag snapshot` writes them")
-    else:
-        logger.info(f"Recording to {folder}")
-    _spin(control, given.duration)
-    recorder.close()
+    try:
+        control = rclpy.create_node(f"_{RECORDER}_control", start_parameter_services=False)
+        control.create_timer(PACE, recorder.turn)
+        control.create_timer(0.5, tell)
+        if isinstance(sink, Ring):
+            _offer_snapshots(control, sink, given.output)
+            logger.info(f"Keeping the last {given.snapshot_duration:g} s; `bot-console bag snapshot` writes them")
+        else:
+            logger.info(f"Recording to {folder}")
+        _spin(control, given.duration)
+    finally:  # also where a Ctrl-C came before there was anything to spin
+        recorder.close()
+        if isinstance(sink, BagWriter):
+            sink.close()
     if isinstance(sink, BagWriter):
-        sink.close()
         print(f"{sink.metadata.count} messages of {len(sink.metadata.topics)} topics in {folder}", file=sys.stderr)
     return 0
 
