@@ -8,7 +8,8 @@ import sys
 from pathlib import Path
 
 BIN = Path(__file__).resolve().parent / "bin"
-"""`ros2/ros2`, `colcon` beside it, and the programs of rqt in `rqt/`: scripts, `timeout` and `watch` find these, and no shell functions."""
+"""`ros2` and `colcon` in `ros2/`, and the programs of rqt in `rqt/`: scripts, `timeout` and `watch` find these, and no
+shell functions."""
 
 COMMAND_VARIABLE = "BOT_CONSOLE_COMMAND"
 """Tells them which `bot-console` they are, whatever environment is active where they are called."""
