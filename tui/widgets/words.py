@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import zip_longest
+from typing import TypeVar
+
 from bot_console.tui.text.shown import harmless
 from rich.text import Text
+from textual.geometry import Region
 from textual.widgets import Static
+
+W = TypeVar("W", bound="Words")
 
 
 class Words(Static):
@@ -18,10 +25,36 @@ class Words(Static):
     def __init__(self, *, id: str | None = None) -> None:
         super().__init__("", id=id, markup=False)
         self._said: str | Text = ""
+        self._lines: Sequence[Text] = ()
+        self._other: Sequence[Region] = ()
+        """What alone is drawn next."""
 
     def say(self, what: str | Text) -> None:
-        """Show a text: nothing is laid out anew, and nothing is drawn for the same text."""
+        """Show a text: nothing is laid out anew, and of one with more lines only those are drawn that are others."""
         said = harmless(what) if isinstance(what, str) else what
         if said != self._said or (isinstance(said, Text) and said.spans != getattr(self._said, "spans", None)):
             self._said = said
-            self.update(said, layout=False)
+            self._other = self._differing(said)
+            try:
+                self.update(said, layout=False)
+            finally:
+                self._other = ()
+
+    def _differing(self, said: str | Text) -> Sequence[Region]:
+        """The lines that are not those of the last time; none where that is not known."""
+        width, height = self.size
+        before, self._lines = self._lines, ()
+        if isinstance(said, Text) and height > 1 and self.styles.text_wrap == "nowrap":
+            self._lines = [*said.split("\n", allow_blank=True)][:height]
+        if not before or not self._lines:
+            return ()
+        both = enumerate(zip_longest(before, self._lines))
+        return [Region(0, y, width, 1) for y, (old, new) in both if old is None or new is None or not _same(old, new)]
+
+    def refresh(self: W, *regions: Region, repaint: bool = True, layout: bool = False, recompose: bool = False) -> W:
+        """As of Textual, which draws all of a text that has changed."""
+        return super().refresh(*(regions or self._other), repaint=repaint, layout=layout, recompose=recompose)
+
+
+def _same(old: Text, new: Text) -> bool:
+    return old.plain == new.plain and old.spans == new.spans and old.style == new.style
