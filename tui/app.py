@@ -205,6 +205,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
             return
         self._snapshot = snapshot
         with self.batch_update():
+            self.stage.heed(snapshot)
             for pane in self.visible_panes():
                 pane.show(snapshot)
             if self.crew.status.is_attached:  # not while the screen is made or taken away

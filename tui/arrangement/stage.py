@@ -67,6 +67,12 @@ class Stage:
         seen = (each for each in self.panes() if each.id in order and each.display)
         return sorted(seen, key=lambda each: order.index(each.id or ""))
 
+    def heed(self, snapshot: ConsoleSnapshot) -> None:
+        """Let all panes learn what none may miss."""
+        for pane in self.panes():
+            if pane.children:  # none at the end, when the screen is taken apart
+                pane.heed(snapshot)
+
     def current(self) -> Pane | None:
         """The pane that has the keyboard, else the one chosen last."""
         focused, known = self._app.screen_stack[0].focused, self.panes()

@@ -146,6 +146,9 @@ class Pane(Container):
         """Draw what is new in the snapshot; compare parts by identity and do nothing where they are the same."""
         raise NotImplementedError
 
+    def heed(self, snapshot: ConsoleSnapshot) -> None:
+        """Learn from a new snapshot what must not be missed, also while hidden; called before `show`."""
+
     def tick(self) -> None:
         """Ten times a second, also while hidden: what does not come with a snapshot, such as samples and time-outs."""
 

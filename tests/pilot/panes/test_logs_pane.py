@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from bot_console.tui.console.model import Endpoint, Severity
+from bot_console.tui.console.model import Endpoint, NodeInfo, Severity
 from bot_console.tui.panes.history.pane import HistoryPane
 from bot_console.tui.panes.logs.pane import LogsPane
 from bot_console.tui.panes.logs.rows import LogRows
@@ -234,3 +234,18 @@ def test_levels_of_loggers_are_set_where_a_node_offers_it() -> None:
         assert session.console.levels == {"robot_navigator": Severity.UNSET}
 
     run(live(), play)
+
+
+def test_a_node_that_left_before_its_lines_were_looked_at_is_spelled_as_it_was() -> None:
+    async def play(session: Session) -> None:
+        await session.press("1")
+        graph = session.console.current.graph
+        session.console.change(graph=replace(graph, nodes=(*graph.nodes, NodeInfo("/arm/left/zoo"))))
+        await session.settle()
+        session.console.change(graph=graph)
+        await session.settle()
+        session.console.say(Severity.INFO, "arm.left.zoo", "gone")
+        await session.press("2")
+        assert any("/arm/left/zoo" in each and "gone" in each for each in session.lines())
+
+    run(live(), play, (120, 30))

@@ -49,3 +49,13 @@ def test_a_change_that_needs_no_wider_column_is_drawn_alone() -> None:
         assert drawn.call_count == 1
 
     run(live(), play, (120, 30))
+
+
+def test_the_console_is_asked_once_a_beat() -> None:
+    async def play(session: Session) -> None:
+        await session.press("0")
+        with patch.object(session.console, "snapshot", side_effect=session.console.snapshot) as asked:
+            session.app._beat()
+        assert asked.call_count == 1
+
+    run(live(), play, (120, 40))

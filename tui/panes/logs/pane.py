@@ -8,7 +8,7 @@ from typing import Any
 
 from bot_console.tui import keymap
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.model import ConsoleSnapshot, LogFilter, LogState, Severity
+from bot_console.tui.console.model import ConsoleSnapshot, GraphInfo, LogFilter, LogState, Severity
 from bot_console.tui.console.protocol import LogFindings, LogSource, LogView
 from bot_console.tui.files.save_file import save_file
 from bot_console.tui.format import LETTERS, harmless
@@ -44,6 +44,7 @@ class LogsPane(LinePane):
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
         self._source: LogSource = LiveLog(self.console)
+        self._graph: GraphInfo | None = None
         self._state = LogState()
         self._filtering = Filtering(RuleBook())
         self._view: LogView | None = None
@@ -82,10 +83,16 @@ class LogsPane(LinePane):
         """The lines take the keys."""
         self._list.focus()
 
+    def heed(self, snapshot: ConsoleSnapshot) -> None:
+        """Learn the names of nodes: one may leave before it is shown."""
+        if snapshot.graph is not self._graph:
+            self._graph = snapshot.graph
+            self._list.learn(snapshot.graph)
+
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Take in what is new in the log."""
-        self._list.learn(snapshot.graph)
-        state = self._source.state
+        self.heed(snapshot)
+        state = self._source.state if self._source.name else snapshot.logs
         if state is self._state:
             return
         self._state = state
@@ -94,11 +101,12 @@ class LogsPane(LinePane):
 
     def tick(self) -> None:
         """Take in what the search has found meanwhile, and what a file has more."""
-        self._list.learn(self.console.snapshot().graph)  # also hidden: a node may leave before it is shown
         if not (self.display and self.is_mounted):
             return
-        state = self._source.state
-        changed, self._state = state is not self._state and bool(self._source.name), state
+        changed = False
+        if self._source.name:  # the log of the system comes with the snapshot
+            state = self._source.state
+            changed, self._state = state is not self._state, state
         if self._take_in() or self._go_on() or changed:
             self._tell()
 

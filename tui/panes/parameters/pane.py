@@ -55,6 +55,7 @@ class ParametersPane(EditPane):
         super().__init__(*args, **kwargs)  # type: ignore[arg-type] -- handed on as they are
         self._snapshot = ConsoleSnapshot()
         self._view = View()
+        self._table = ParameterRows()
         self._tree = TreeRows()
         self._starts: dict[Key, Value] = {}
         """What values had before their first change in this run."""
@@ -85,7 +86,7 @@ class ParametersPane(EditPane):
 
     def compose(self) -> ComposeResult:
         """The tree, what is known of the parameter at the cursor, and a prompt."""
-        yield ParameterRows()
+        yield self._table
         yield Words(id="parameter-detail")
         yield Prompt(id="parameter-prompt")
 
@@ -121,8 +122,8 @@ class ParametersPane(EditPane):
 
     def tick(self) -> None:
         """Let values that have changed stop flashing."""
-        shown = next(iter(self.query(ParameterRows)), None)
-        if shown is None:  # at the end, when the screen is taken apart
+        shown = self._table
+        if not shown.flashing or not shown.is_attached:  # the latter at the end, when the screen is taken apart
             return
         over = {key for key, until in shown.flashing.items() if self.clock() >= until}
         for key in over:

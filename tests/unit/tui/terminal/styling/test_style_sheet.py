@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from typing import ClassVar
+from typing import Any, ClassVar
 from unittest.mock import patch
 
 import pytest
@@ -70,10 +70,10 @@ def test_what_is_kept_of_a_part_follows_the_rules_and_its_own_style_is_asked_for
                 parts.part_style("parts--third")
 
             asked: list[object] = []
-            found = type(parts).rich_style.fget
+            found: Any = Parts.rich_style
             line = Strip([Segment("x")])
             with (
-                patch.object(Parts, "rich_style", property(lambda self: asked.append(self) or found(self))),
+                patch.object(Parts, "rich_style", property(lambda self: asked.append(self) or found.fget(self))),
                 patch.object(Parts, "render_line", lambda self, y: [line, self.own_style][0]),
             ):
                 parts.refresh()
