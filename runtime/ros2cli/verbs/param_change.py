@@ -9,6 +9,7 @@ from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import get_parameter_value, parameter_dict_from_yaml_file
 from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, absolute, call
+from ros2cli.parameter_file_faults import fault_of
 from ros2cli.verbs.param_show import NOT_FOUND, found, warn
 from ros2cli.yaml_values import told_faults
 
@@ -58,12 +59,8 @@ def load(arguments: argparse.Namespace) -> Result:
             return NOT_FOUND
         try:
             values = parameter_dict_from_yaml_file(arguments.parameter_file, not arguments.no_use_wildcard)
-        except (ValueError, LookupError, OverflowError, RecursionError):
-            return f"{arguments.parameter_file}: a value is not what its tag says, an endless number, or holds itself"
-        except RuntimeError as error:
-            return str(error)
-        except OSError as error:  # of which upstream shows the traceback
-            return f"{arguments.parameter_file}: {error.strerror or error}"
+        except Exception as error:  # whatever a file may hold
+            return fault_of(arguments.parameter_file, error)
         parameters = list(values.values())
         request = SetParameters.Request(parameters=parameters)
         try:

@@ -223,3 +223,34 @@ def test_a_file_that_no_parameter_takes_is_refused_on_one_line(ros, tmp_path, va
     assert given.exit == 1
     assert "a.yaml: " in given.stderr
     assert given.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"", "no parameter file"),
+        (b"42\n", "no parameter file"),
+        (b"- a\n- b\n", "no parameter file"),
+        (b"Dear diary\n", "no parameter file"),
+        (b"/tuned:\n  ros__parameters:\n", "no parameter file"),
+        (b"/tuned:\n  ros__parameters:\n    1: 2\n", "no parameter file"),
+        (b"/tuned:\n\tros__parameters:\n", "not YAML: line 2: found character"),
+        (b"a: 1\n---\na: 2\n", "not YAML: line 2: but found another document"),
+        (b"? [a]\n: 1\n", "not YAML: line 1: found unhashable key"),
+        (b"/tuned:\n  ros__parameters:\n    name: !!python/name:os.system\n", "not YAML: line 3: could not determine"),
+        (b"a: \0\n", "not YAML: special characters are not allowed"),
+        (b"/tuned: M\xfcller\n", "no text in UTF-8"),
+        (b"[" * 5000, "nested too deeply"),
+        (b"/tuned:\n  ros__parameters: &a\n    name: *a\n", "holds itself"),
+        (b"/tuned:\n  ros__parameters:\n    name: 'a: b: c'\n", "a text in it, which ROS reads as YAML once more"),
+    ],
+    ids=lambda value: value[:30] if isinstance(value, str) else "",
+)
+def test_a_file_that_holds_no_parameters_is_refused_on_one_line(ros, tmp_path, content, words) -> None:
+    ros.node(NODE)
+    (tmp_path / "a.yaml").write_bytes(content)
+    given = ros.ask("param", "load", "/tuned", str(tmp_path / "a.yaml"))
+    assert given.exit == 1
+    assert given.stderr.startswith(f"{tmp_path}/a.yaml: ")
+    assert words in given.stderr
+    assert given.stderr.count("\n") == 1

@@ -1,0 +1,34 @@
+"""Why a file cannot be loaded as parameters, in words; upstream shows the traceback of most of it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+
+def fault_of(path: str, error: Exception) -> str:
+    """What is wrong with a file, on one line, by what `rclpy.parameter.parameter_dict_from_yaml_file` raised for it."""
+    import yaml
+
+    if isinstance(error, OSError):
+        return f"{path}: {error.strerror or error}"
+    if isinstance(error, RuntimeError) and not isinstance(error, RecursionError):
+        return str(error)
+    if isinstance(error, yaml.YAMLError):
+        return f"{path}: {_not_yaml(path, error)}"
+    if isinstance(error, RecursionError):
+        return f"{path}: it is nested too deeply, or holds itself"
+    if isinstance(error, UnicodeDecodeError):
+        return f"{path}: it is no text in UTF-8"
+    if isinstance(error, (ValueError, LookupError, OverflowError)):
+        return f"{path}: a value is not what its tag says, or an endless number"
+    return (
+        f"{path}: it is no parameter file, which has 'NODE:', 'ros__parameters:' below it, and 'name: value' below that"
+    )
+
+
+def _not_yaml(path: str, error: Any) -> str:
+    mark = getattr(error, "problem_mark", None)
+    problem = getattr(error, "problem", None) or getattr(error, "reason", None) or "it cannot be read"
+    if path not in (getattr(mark, "name", None), getattr(error, "name", None)):
+        return f"a text in it, which ROS reads as YAML once more, is none: {problem}"
+    return f"not YAML: line {mark.line + 1}: {problem}" if mark else f"not YAML: {problem}"
