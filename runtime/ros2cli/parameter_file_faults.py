@@ -4,11 +4,17 @@ from __future__ import annotations
 
 from typing import Any
 
+import yaml
+
+UNREADABLE = (
+    *(OSError, RuntimeError, ValueError, TypeError, AttributeError, LookupError, OverflowError),
+    yaml.YAMLError,
+)
+"""What reading may raise: of the file, of YAML, of the values of its tags, and of what has another shape."""
+
 
 def fault_of(path: str, error: Exception) -> str:
     """What is wrong with a file, on one line, by what `rclpy.parameter.parameter_dict_from_yaml_file` raised for it."""
-    import yaml
-
     if isinstance(error, OSError):
         return f"{path}: {error.strerror or error}"
     if isinstance(error, RuntimeError) and not isinstance(error, RecursionError):
@@ -21,9 +27,7 @@ def fault_of(path: str, error: Exception) -> str:
         return f"{path}: it is no text in UTF-8"
     if isinstance(error, (ValueError, LookupError, OverflowError)):
         return f"{path}: a value is not what its tag says, or an endless number"
-    return (
-        f"{path}: it is no parameter file, which has 'NODE:', 'ros__parameters:' below it, and 'name: value' below that"
-    )
+    return f"{path}: it is no parameter file: 'NODE:', below it 'ros__parameters:', below that 'name: value'"
 
 
 def _not_yaml(path: str, error: Any) -> str:

@@ -9,7 +9,6 @@ from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import get_parameter_value, parameter_dict_from_yaml_file
 from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, absolute, call
-from ros2cli.parameter_file_faults import fault_of
 from ros2cli.verbs.param_show import NOT_FOUND, found, warn
 from ros2cli.yaml_values import told_faults
 
@@ -54,12 +53,14 @@ def delete(arguments: argparse.Namespace) -> Result:
 
 def load(arguments: argparse.Namespace) -> Result:
     """`ros2 param load`; every node key of the file is taken, as upstream does."""
+    from ros2cli.parameter_file_faults import UNREADABLE, fault_of
+
     with DirectNode(arguments) as node:
         if not found(node, arguments):
             return NOT_FOUND
         try:
             values = parameter_dict_from_yaml_file(arguments.parameter_file, not arguments.no_use_wildcard)
-        except Exception as error:  # whatever a file may hold
+        except UNREADABLE as error:
             return fault_of(arguments.parameter_file, error)
         parameters = list(values.values())
         request = SetParameters.Request(parameters=parameters)
