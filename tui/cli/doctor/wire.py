@@ -120,10 +120,10 @@ def _attachment_findings(wire: Wire) -> list[Finding]:
 def _clock_findings(wire: Wire, delay: float) -> list[Finding]:
     """How far the sender's clock is from ours: the message that took shortest, less half of the way there and back."""
     offsets = [
-        (arrived - number.time_ns) / 1e9 - delay / 2
+        (arrived - told[1]) / 1e9 - delay / 2
         for samples in wire.samples.values()
         for attachment, _, arrived in samples
-        if (number := _unpacked(attachment)) is not None
+        if (told := _unpacked(attachment)) is not None
     ]
     if not offsets:
         return [Finding(Level.NOTE, "clock", "no message came, so the clocks were not compared")]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import struct
-from typing import NamedTuple
 
 from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
 
@@ -11,16 +10,10 @@ GID_SIZE = 16
 _LAYOUT = struct.Struct("<qqB16s")
 _FIELDS = struct.Struct("<qqx16s")
 """The same without the length of the id."""
-_new = tuple.__new__  # what the class does for each message, without its arguments' names
 _OLD = b"\x0fsequence_number"
 
-
-class Attachment(NamedTuple):
-    """Number (from 1 on per publisher or client), time of sending (ns since 1970), and the sender's id."""
-
-    number: int
-    time_ns: int
-    gid: bytes
+Attachment = tuple[int, int, bytes]
+"""Number (from 1 on per publisher or client), time of sending (ns since 1970), and the sender's id."""
 
 
 def gid_of(token: str) -> bytes:
@@ -43,4 +36,4 @@ def unpack(data: bytes | None) -> Attachment:
         if data.startswith(_OLD):
             raise FormatError("the sender's rmw_zenoh is too old (before Jazzy 0.2.4, Humble 0.1.2): update it")
         raise FormatError(f"no attachment of 33 bytes: {data[:40].hex(' ')}")
-    return _new(Attachment, _FIELDS.unpack(data))
+    return _FIELDS.unpack(data)

@@ -41,7 +41,7 @@ def test_attachments_are_those_that_we_would_write_and_name_their_publisher(capt
         data = bytes.fromhex(sample["attachment"])
         attachment = unpack(data)
         assert pack(*attachment) == data
-        assert parse_token(gids[attachment.gid]).topic == sample["topic"]
+        assert parse_token(gids[attachment[2]]).topic == sample["topic"]
 
 
 def test_profiles_are_read_and_written_alike(capture):

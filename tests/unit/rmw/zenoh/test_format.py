@@ -49,8 +49,8 @@ def test_a_captured_token_is_read_and_written_again(token, depth, reliability):
 
 def test_the_attachment_of_the_captured_talker():
     attachment = unpack(ATTACHMENT)
-    assert attachment.number == 26
-    assert attachment.gid == gid_of(TALKER)
+    number, _, gid = attachment
+    assert (number, gid) == (26, gid_of(TALKER))
     assert pack(*attachment) == ATTACHMENT
 
 
@@ -95,7 +95,7 @@ def test_a_sender_that_is_too_old_is_told_from_garbage():
     old = b"\x0fsequence_number" + bytes(40)
     with pytest.raises(FormatError, match="too old"):
         unpack(old)
-    assert unpack(pack(15, 1, bytes(16))).number == 15  # begins with the same byte
+    assert unpack(pack(15, 1, bytes(16))) == (15, 1, bytes(16))  # begins with the same byte
     for wrong in (None, b"", bytes(33), bytes(32)):
         with pytest.raises(FormatError):
             unpack(wrong)
