@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, cast
 
+from bot_console.tui.keys.taking import ends_at_once
 from bot_console.tui.terminal.clipboard import osc52, within
 from bot_console.tui.terminal.closing import let_go
 from bot_console.tui.terminal.composing.compositor import PartwiseCompositor
@@ -120,6 +121,8 @@ class SparingApp(App[None]):
             driver._file = LastingFile(driver._file)
         if hasattr(driver, "_key_thread"):
             takes_up_again(driver)
+            if SUPPORTED:
+                ends_at_once(driver)
         return driver
 
     def _driver_or_none(self) -> Any:

@@ -27,7 +27,7 @@ from bot_console.tui.pane_table import PaneEntry
 
 ROOT = Path(__file__).resolve().parents[3]
 LAST_WORD = 0.2
-"""Seconds that the final zero Twist has to reach the robot before anything is shut down."""
+"""Seconds that a robot has to acknowledge its stop, or for its last zero, before anything is shut down."""
 READY = 20.0
 HISTORY = "history.sqlite"
 """Holds the changes of parameters of all runs, in the user's folder for state."""
@@ -117,7 +117,7 @@ class Connected:
         """
         if not self._options.attach:
             self.console.all_stop(True, "bot-console was quit")
-            threading.Event().wait(LAST_WORD)
+            self.console.await_standing(LAST_WORD)
         if self._looking is not None:
             self._looking.stop()
         self.launcher.close()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Future
-from threading import Event
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.room import Recordings
@@ -36,7 +35,7 @@ from bot_console.tui.console.sights.model import Sights
 from bot_console.tui.console.traffic import Traffic
 
 LAST_WORD = 0.15
-"""Seconds that the final zero Twist has to reach the robot before anything is shut down."""
+"""Seconds that the final zero Twist, or lock, has to reach the robot before anything is shut down."""
 SHELF_PERIOD = 1.0
 """Seconds between two looks whether a profile has come, gone or changed: editors and nodes write them, too."""
 
@@ -177,6 +176,10 @@ class LinkedConsole:
         if hold:
             self._node.traffic.stop()  # else it would drive on as soon as the robot is released
 
+    def await_standing(self, patience: float) -> None:
+        """Wait until the robot's locks hold it, so many seconds at most."""
+        self._node.drive.await_standing(patience)
+
     def release(self, others: Sequence[str]) -> None:
         """Take back this console's stop and the stops of others."""
         self._node.drive.stop(False, "", others)
@@ -242,6 +245,5 @@ class LinkedConsole:
         """Zero velocity, then leave the ROS system; whoever still waits for an answer is refused."""
         self._recordings.close()
         self._views.close()
-        self._node.drive.close()
-        Event().wait(LAST_WORD)
+        self._node.drive.close(LAST_WORD)
         self._node.close(CLOSED)

@@ -28,6 +28,7 @@ from bot_console.tui.console.parameters.provenance import Learn, Provenance
 from bot_console.tui.console.recording import Keeper
 
 if TYPE_CHECKING:
+    from bot_console.tui.console.connection.linked_console import LinkedConsole
     from bot_console.tui.console.graph.told_types import TypeSource
     from bot_console.tui.console.graph.watch import FrozenNodes, GraphEvents
     from bot_console.tui.console.launch.process_output import Add
@@ -91,7 +92,7 @@ class RosConsole(ConsoleRelay):
         """The newest stop, or its release, that was asked for before there was a link."""
         self._problem = ""
         self._ready = threading.Event()
-        self._connected = False
+        self._linked: LinkedConsole | None = None
         self._thread = threading.Thread(target=self._serve, name="bot-console", daemon=True)
         self._closed = False
         self._snapshot = ConsoleSnapshot(capabilities=self._capabilities)
@@ -132,7 +133,7 @@ class RosConsole(ConsoleRelay):
             node.setter.profile = self._active_profile
             self._heard = node.loggers
             linked = LinkedConsole(node, logs, self._views, shelf, self._capabilities, self._past)
-            self._connected = True
+            self._linked = linked
             if self._closed:
                 self._now = NoConsole(CLOSED, linked)
                 node.close(CLOSED)
@@ -162,7 +163,7 @@ class RosConsole(ConsoleRelay):
 
     def wait_ready(self, timeout: float) -> bool:
         """Wait until connected, or the connection failed; whether it is connected."""
-        return self._ready.wait(timeout) and self._connected
+        return self._ready.wait(timeout) and self._linked is not None
 
     def record(self, stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:
         """Take a log record that a process wrote to its console and that `/rosout` does not bring."""
@@ -210,6 +211,11 @@ class RosConsole(ConsoleRelay):
         with self._linking:
             self._early_stop = (hold, reason)
             super().all_stop(hold, reason)
+
+    def await_standing(self, patience: float) -> None:
+        """Wait until a stop holds the robot, so many seconds at most; without a link nothing is waited for."""
+        if self._linked is not None:
+            self._linked.await_standing(patience)
 
     def _zero_again(self) -> None:
         """After a long silence what had waited in the link is lost, the zero among it: it is said once more."""

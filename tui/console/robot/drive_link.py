@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import threading
 import time
 from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
@@ -213,15 +214,35 @@ class DriveLink:
         else:
             self._stop.hand_back()
 
-    def close(self) -> None:
+    def close(self, patience: float = 0.0) -> None:
         """The last word: zero velocity, and a lock where this console leaves while it holds the steering.
 
-        A robot that was only looked at is left alone.
+        A robot that was only looked at is left alone, and not waited for; any other is as by `await_standing`.
         """
-        if self._stop.steering:
+        steering, acted = self._stop.steering, self._acted
+        if steering:
             self._stop.stop("the console that held the steering was closed")
-        if self._acted:
+        if acted:
             self.zero()
+        if steering or acted:
+            self.await_standing(patience)
+
+    def await_standing(self, patience: float) -> None:
+        """Wait until all locks hold the robot, so many seconds at most.
+
+        All of them for one that is not held: nobody acknowledges a zero. Without anybody who listens nothing is waited
+        for.
+        """
+        if self._stop.info.stopped and self._stop.info.locks:
+            self._stop.await_held(patience)
+        elif self._is_heard():
+            threading.Event().wait(patience)
+
+    def _is_heard(self) -> bool:
+        """Whether anybody else listens where this console drives."""
+        own = [each.topic_name for each in list(self._watching.values())]
+        published = list(self._publishers.values())
+        return any(each.get_subscription_count() > own.count(each.topic_name) for each in published)
 
     def zero(self) -> None:
         """One zero to every topic on which the robot that is steered, or its arbiter, listens."""

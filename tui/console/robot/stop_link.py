@@ -71,7 +71,7 @@ class StopLink:
         self._steered = 0.0
         self.steering = False
         """Whether this console holds the steering."""
-        self._telling = threading.Lock()
+        self._telling = threading.Condition()
         self.info = StopInfo()
 
     def follow(self, topics: Iterable[str]) -> None:
@@ -96,6 +96,12 @@ class StopLink:
     def _update(self) -> None:
         with self._telling:  # else what was known before could be told after what is known since
             self._tell()
+            self._telling.notify_all()
+
+    def await_held(self, patience: float) -> bool:
+        """Wait until every lock has acknowledged what was asked for and holds, so many seconds at most; whether so."""
+        with self._telling:
+            return self._telling.wait_for(lambda: self.info.confirmed, patience)
 
     def _tell(self) -> None:
         states = [self._states.get(each, {}) for each in list(self._watching)]

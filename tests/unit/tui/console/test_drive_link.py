@@ -226,3 +226,31 @@ def test_a_robot_that_was_only_looked_at_hears_nothing_when_the_console_leaves()
     bench.link.close()
     bench.settle()
     assert bench.got == [("/cmd_vel", 0.5), ("/cmd_vel", 0.0)]
+
+
+class Waits:
+    """How long a link has waited for nobody's answer (s)."""
+
+    def __init__(self, monkeypatch):
+        self.waited = []
+        monkeypatch.setattr(drive_link.threading, "Event", lambda: self)
+
+    def wait(self, seconds):
+        self.waited.append(seconds)
+
+
+def test_a_zero_that_nobody_acknowledges_gets_its_time_where_somebody_hears_it(monkeypatch):
+    bench, waits = Bench("/cmd_vel"), Waits(monkeypatch)
+    bench.link.close(7.0)
+    assert waits.waited == [], "it was only looked at"
+    bench.link.drive(0.5, 0.0)
+    bench.link.close(7.0)
+    assert waits.waited == [7.0]
+
+
+def test_a_robot_that_has_gone_is_not_waited_for(monkeypatch):
+    bench, waits = Bench("/cmd_vel"), Waits(monkeypatch)
+    bench.link.stop(True, "bot-console was quit")
+    bench.robot.destroy_node()
+    bench.link.await_standing(7.0)
+    assert waits.waited == []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import threading
 from collections.abc import Iterator
 
 import pytest
@@ -15,6 +16,8 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
 _domains = itertools.count(3300)
+PATIENCE = 60.0
+"""Seconds after which a test gives up; nothing is measured by it."""
 
 
 class Rig:
@@ -146,3 +149,17 @@ def test_who_steers_is_seen_and_hands_back(rig: Rig) -> None:
     rig.link.hand_back()
     rig.settle()
     assert not (rig.link.info.steered_by or base.steered_by or base.lock.held)
+
+
+def test_who_waits_for_the_stop_goes_on_with_the_last_acknowledgement_and_not_before(rig: Rig) -> None:
+    rig.lock("safety_monitor", ARBITER, BASE)
+    rig.lock("simulator", BASE, ARBITER)
+    rig.settle()
+    rig.link.stop("bot-console was quit")
+    assert not rig.link.await_held(0.0), "nobody has acknowledged it"
+    held: list[bool] = []
+    waiting = threading.Thread(target=lambda: held.append(rig.link.await_held(PATIENCE)))
+    waiting.start()
+    rig.settle()
+    waiting.join(PATIENCE)
+    assert held == [True]

@@ -1,0 +1,102 @@
+"""Keys come through, and the thread that takes them ends when it is asked to, not when it happens to look."""
+
+from __future__ import annotations
+
+import os
+import pty
+import threading
+import tty
+from collections.abc import Iterator
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from bot_console.tui.keys import taking
+from bot_console.tui.keys.taking import Ending, ends_at_once
+
+PATIENCE = 20.0
+"""Seconds after which a test gives up; nothing is measured by it."""
+
+
+class Rig:
+    """A driver on one end of a pseudo-terminal, and its thread."""
+
+    def __init__(self) -> None:
+        self.master, self.slave = pty.openpty()
+        tty.setraw(self.slave)
+        self.came = threading.Semaphore(0)
+        self.events: list[Any] = []
+        self.driver: Any = SimpleNamespace(_debug=False, fileno=self.slave, process_message=self._take)
+        ends_at_once(self.driver)
+        self.start()
+
+    def start(self) -> None:
+        self.thread = threading.Thread(target=self.driver.run_input_thread, daemon=True)
+        self.thread.start()
+
+    def _take(self, event: Any) -> None:
+        self.events.append(event)
+        self.came.release()
+
+    def types(self, data: bytes, count: int = 1) -> list[str]:
+        """The keys of the events that come of it."""
+        before = len(self.events)
+        os.write(self.master, data)
+        for _ in range(count):
+            assert self.came.acquire(timeout=PATIENCE)
+        return [each.key for each in self.events[before:]]
+
+    def end(self) -> bool:
+        """As a driver ends it; whether it has ended."""
+        self.driver.exit_event.set()
+        self.thread.join(PATIENCE)
+        self.driver.exit_event.clear()
+        return not self.thread.is_alive()
+
+
+@pytest.fixture
+def rig(monkeypatch: pytest.MonkeyPatch) -> Iterator[Rig]:
+    monkeypatch.setattr(taking, "LOOK", 10 * PATIENCE)  # who waits for the next look never ends
+    rig = Rig()
+    yield rig
+    rig.end()
+    for each in (rig.master, rig.slave):
+        os.close(each)
+
+
+def test_keys_come_in_their_order(rig: Rig) -> None:
+    assert rig.types(b"q!\x1b[A", 3) == ["q", "exclamation_mark", "up"]
+
+
+def test_it_ends_at_once_and_can_begin_again(rig: Rig) -> None:
+    for letter in "ab":
+        assert rig.types(letter.encode()) == [letter]
+        assert rig.end()
+        rig.start()
+
+
+def test_bytes_that_are_no_text_end_nothing(rig: Rig) -> None:
+    rig.types(b"\xff\xfe", 2)
+    assert rig.types(b"x") == ["x"]
+
+
+def test_it_goes_on_when_a_program_has_closed_its_descriptors(rig: Rig, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(taking, "LOOK", 0.01)
+    rig.types(b"a")
+    ending = rig.driver.exit_event
+    for each in list(ending._ends):
+        os.close(each)
+    assert rig.types(b"b") == ["b"]
+    assert rig.end()
+
+
+def test_an_end_before_the_beginning_is_one() -> None:
+    ending = Ending()
+    ending.set()
+    reading, writing = os.pipe()
+    assert not ending.readable(reading, PATIENCE)
+    ending.clear()
+    os.write(writing, b"x")
+    assert ending.readable(reading, PATIENCE) and not ending.is_set()
+    for each in (reading, writing):
+        os.close(each)
