@@ -151,7 +151,7 @@ def _check_pane(parser: argparse.ArgumentParser, pane: str) -> None:
 
 def _profile_and_pairs(parser: argparse.ArgumentParser, given: argparse.Namespace) -> tuple[str, dict[str, str]]:
     pairs: dict[str, str] = {}
-    profiles: list[str] = [given.profile] if given.profile else []
+    profiles: list[str] = [] if given.profile is None else [given.profile]
     for word in given.words:
         name, assigned, value = word.partition(":=")
         if assigned and name:

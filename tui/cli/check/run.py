@@ -45,6 +45,8 @@ def run(words: list[str]) -> int:
     parser.add_argument("--stop", action="store_true", help="end at the first step that fails")
     parser.add_argument("--wait", type=float, default=10.0, metavar="S", help="seconds to wait for nodes (10)")
     given = parser.parse_args(words)
+    if not given.script:
+        parser.error("give the name of a script")
     try:
         steps = read(_text(given.script))
     except (OSError, UnicodeDecodeError, ScriptError) as error:

@@ -68,3 +68,15 @@ def test_an_empty_name_is_no_launch_file(capsys: pytest.CaptureFixture[str]) -> 
     with pytest.raises(SystemExit):
         parse(["--launch", ""])
     assert "--launch: give the name of a launch file" in capsys.readouterr().err
+
+
+def test_an_empty_name_is_no_profile(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        parse(["--profile", ""])
+    assert "there is no profile and no command ''; profiles: " in capsys.readouterr().err
+
+
+def test_an_empty_name_is_no_script_of_a_check(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["check", ""])
+    assert "give the name of a script" in capsys.readouterr().err
