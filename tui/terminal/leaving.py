@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 PATIENCE = 1.0
 """Seconds that the robot's stop has to be acknowledged before the terminal is left anyway."""
 LOOK = 0.05
+EMPTY = "\x1b[m\x1b[H\x1b[J"
 ASLEEP = "bot-console was put to sleep (Ctrl-Z)"
 
 
@@ -102,3 +103,17 @@ def takes_up_again(driver: Any) -> None:
             at_it = False
 
     driver.resume_application_mode = resume
+
+
+def leaves_an_empty_screen(driver: Any) -> None:
+    """Let a Linux driver of Textual clear the alternate screen before it leaves it.
+
+    tmux puts full rows of it into the shell's screen where the terminal was made larger meanwhile.
+    """
+    leave = driver.stop_application_mode
+
+    def stop() -> None:
+        driver.write(EMPTY)
+        leave()
+
+    driver.stop_application_mode = stop

@@ -19,7 +19,7 @@ from bot_console.tui.terminal.difference import ShownScreen
 from bot_console.tui.terminal.gate import AnswerGate
 from bot_console.tui.terminal.gone import LastingFile
 from bot_console.tui.terminal.installed_version import installed_version
-from bot_console.tui.terminal.leaving import takes_up_again
+from bot_console.tui.terminal.leaving import leaves_an_empty_screen, takes_up_again
 from rich.color import ColorSystem
 from textual import events
 from textual._compositor import ChopsUpdate, LayoutUpdate
@@ -121,6 +121,7 @@ class SparingApp(App[None]):
             driver._file = LastingFile(driver._file)
         if hasattr(driver, "_key_thread"):
             takes_up_again(driver)
+            leaves_an_empty_screen(driver)
             if SUPPORTED:
                 ends_at_once(driver)
         return driver

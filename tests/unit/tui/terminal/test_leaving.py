@@ -6,11 +6,20 @@ import threading
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 from bot_console.tui.terminal.editor import editing
-from bot_console.tui.terminal.leaving import ASLEEP, LOOK, PATIENCE, Leaving, takes_up_again
+from bot_console.tui.terminal.leaving import (
+    ASLEEP,
+    EMPTY,
+    LOOK,
+    PATIENCE,
+    Leaving,
+    leaves_an_empty_screen,
+    takes_up_again,
+)
 from fakes.console import FakeConsole
 from samples import live
 
@@ -138,3 +147,11 @@ def test_going_on_twice_at_once_is_one_after_the_other() -> None:
     driver.then = driver.resume_application_mode
     driver.resume_application_mode()
     assert driver.done == ["set up", "left", "set up"]
+
+
+def test_the_screen_is_empty_when_it_is_left() -> None:
+    done: list[str] = []
+    driver: Any = SimpleNamespace(write=done.append, stop_application_mode=lambda: done.append("left"))
+    leaves_an_empty_screen(driver)
+    driver.stop_application_mode()
+    assert done == [EMPTY, "left"]
