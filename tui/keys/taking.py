@@ -67,12 +67,16 @@ def ends_at_once(driver: Any) -> None:
 
 
 def take_keys(driver: Any, ending: Ending) -> None:
-    """Hand on what is typed until the end. Bytes that are no text are shown as such, and end nothing."""
+    """Hand on what is typed until the end, or that of the terminal. Bytes that are no text are shown as such."""
     parser: Any = XTermParser(driver._debug)
     decode = getincrementaldecoder("utf-8")("replace").decode
     while not ending.is_set():
-        if ending.readable(driver.fileno, LOOK) and (text := decode(os.read(driver.fileno, AT_ONCE))):
-            _hand_on(driver, parser.feed(text))
+        if ending.readable(driver.fileno, LOOK):
+            typed = os.read(driver.fileno, AT_ONCE)
+            if not typed:  # the terminal is gone, and would be readable for good
+                break
+            if text := decode(typed):
+                _hand_on(driver, parser.feed(text))
         _hand_on(driver, parser.tick())
     with contextlib.suppress(EOFError, ParseError):
         for _ in parser.feed(""):

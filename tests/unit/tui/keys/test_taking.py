@@ -24,6 +24,7 @@ class Rig:
     def __init__(self) -> None:
         self.master, self.slave = pty.openpty()
         tty.setraw(self.slave)
+        self.gone = False
         self.came = threading.Semaphore(0)
         self.events: list[Any] = []
         self.driver: Any = SimpleNamespace(_debug=False, fileno=self.slave, process_message=self._take)
@@ -53,6 +54,12 @@ class Rig:
         self.driver.exit_event.clear()
         return not self.thread.is_alive()
 
+    def close(self) -> None:
+        """Let go of the terminal, whose other end may be closed."""
+        os.close(self.slave)
+        if not self.gone:
+            os.close(self.master)
+
 
 @pytest.fixture
 def rig(monkeypatch: pytest.MonkeyPatch) -> Iterator[Rig]:
@@ -60,8 +67,7 @@ def rig(monkeypatch: pytest.MonkeyPatch) -> Iterator[Rig]:
     rig = Rig()
     yield rig
     rig.end()
-    for each in (rig.master, rig.slave):
-        os.close(each)
+    rig.close()
 
 
 def test_keys_come_in_their_order(rig: Rig) -> None:
@@ -73,6 +79,14 @@ def test_it_ends_at_once_and_can_begin_again(rig: Rig) -> None:
         assert rig.types(letter.encode()) == [letter]
         assert rig.end()
         rig.start()
+
+
+def test_it_ends_with_its_terminal_and_does_not_turn_round_for_good(rig: Rig) -> None:
+    assert rig.types(b"x") == ["x"]
+    os.close(rig.master)
+    rig.gone = True
+    rig.thread.join(PATIENCE)
+    assert not rig.thread.is_alive()
 
 
 def test_bytes_that_are_no_text_end_nothing(rig: Rig) -> None:
