@@ -35,6 +35,8 @@ class SeenTokens:
 
     def saw(self, key: str, came: bool) -> None:
         """A token came or went; one that is no token of the format is ignored, as are those of this session."""
+        if came and key in self._tokens:  # most come twice: by the question, and to who looks
+            return
         try:
             token = parse_token(key)
         except FormatError:

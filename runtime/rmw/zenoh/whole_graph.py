@@ -31,13 +31,13 @@ class WholeGraph:
         for each in self.silent:
             if each.is_stopped():
                 notify(current(), f"process {each.pid} is stopped, so its nodes are not seen: `kill -CONT {each.pid}`")
-        key, answered = all_tokens(session.domain), threading.Event()
+        key = all_tokens(session.domain)
         self._process, self._has_refused = current(), False
         self._seen = SeenTokens(session, key, apart=True, refused=self._refused)
         self._seen.listen(self._saw)
         # Watching brings what is there some time; only a question says when all of it has come.
-        session.ask_tokens(key, lambda found: self._seen.saw(found, True), answered.set, session.patience)
-        answered.wait(2 * session.patience)
+        for found in session.collect_tokens(key, session.patience):
+            self._seen.saw(found, True)
         self._seen.take_waiting()  # a router shows what is there before it says that it has answered
         for pid in session.stopped_afar():
             notify(

@@ -112,3 +112,11 @@ def test_a_session_is_opened_anew_though_its_close_took_zenoh_too_long(pair) -> 
     linked = threading.Event()
     one.watch_links(lambda zid, on: linked.set())
     assert linked.wait(PATIENCE) and one.linked() == {two.zid}
+
+
+def test_the_tokens_of_others_are_collected(pair):
+    one, two = pair
+    shown(one, two, "token/1")
+    assert set(two.collect_tokens("token/*", PATIENCE)) == {"token/1"}
+    two.close()
+    assert two.collect_tokens("token/*", PATIENCE) == []
