@@ -6,12 +6,13 @@ import argparse
 import importlib.util
 from collections.abc import Callable
 from contextlib import nullcontext
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.learned_interfaces import TYPE_NAME, learned_folders
-from rclpy.node import Node
-from ros2cli.direct_node import DirectNode, spin_until
 from rosidl_runtime_py.utilities import get_message
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
 
 PATIENCE = 2.0
 """Seconds that a node may take to describe a type."""
@@ -60,6 +61,8 @@ def learned(type_name: str, node: Node | None = None) -> str | None:
         return None
     if package not in learned_folders() and importlib.util.find_spec(package) is not None:
         return None
+    from ros2cli.direct_node import DirectNode
+
     with nullcontext(node) if node else DirectNode(argparse.Namespace(no_daemon=True)) as asking:
         return _learned(asking, type_name)
 
@@ -85,6 +88,7 @@ def _learned(node: Node, type_name: str) -> str | None:
 
 def _asked(node: Node, name: str, inquiry: Any) -> str:
     """Ask a node all that is to be asked; why it is no use, else empty."""
+    from ros2cli.direct_node import spin_until
     from type_description_interfaces.srv import GetTypeDescription
 
     client = node.create_client(GetTypeDescription, f"{name}/get_type_description")
