@@ -22,6 +22,7 @@ from bot_console.runtime.rmw.zenoh.declared import Declared, Publisher, Querier,
 from bot_console.runtime.rmw.zenoh.domain.sockets import Socket
 from bot_console.runtime.rmw.zenoh.keeping_publisher import KeepingPublisher
 from bot_console.runtime.rmw.zenoh.kept_threads import here, keep
+from bot_console.runtime.rmw.zenoh.pace import Pace
 from bot_console.runtime.rmw.zenoh.settings import leaves
 
 if TYPE_CHECKING:
@@ -60,6 +61,7 @@ class Session:
         self._declared: dict[Declared, None] = {}
         self._is_open = True  # each subclass opens at once
         self._ended = False
+        self._pace = Pace()
         self.settled = threading.Event()
         """Not set while the session is opened anew, until its links are there: what is sent before may reach nobody."""
         self.settled.set()
@@ -191,8 +193,7 @@ class Session:
                 keep()
             received(sample.payload.to_bytes(), _bytes(sample.attachment))
 
-        ext = zenoh.ext
-        remote = zenoh.Locality.REMOTE
+        ext, remote = zenoh.ext, zenoh.Locality.REMOTE
 
         def declare(session: zenoh.Session) -> Any:
             callback = zenoh.handlers.Callback(take, indirect=False)
@@ -347,8 +348,7 @@ class Session:
 
     def attendance(self, who: str = "*", timeout: float = 0.1) -> set[str]:
         """The first eight digits of the ids of the sessions that answer within `timeout` (s)."""
-        answered: set[str] = set()
-        done = threading.Event()
+        answered, done = set[str](), threading.Event()
         self.ask_tokens(ATTENDANCE + who, lambda key: answered.add(key.removeprefix(ATTENDANCE)), done.set, timeout)
         done.wait(timeout + 0.9)
         return answered
@@ -367,6 +367,7 @@ class Session:
                 thing.inner = thing.declare(self._zenoh)
             if not self._ended:
                 self._declared[thing] = None
+        self._pace.shown()
         return thing
 
     def forget(self, thing: Declared) -> None:
