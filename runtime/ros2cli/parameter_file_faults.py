@@ -5,12 +5,20 @@ from __future__ import annotations
 from typing import Any
 
 import yaml
+from yaml.parser import ParserError
+from yaml.scanner import ScannerError
 
 UNREADABLE = (
     *(OSError, RuntimeError, ValueError, TypeError, AttributeError, LookupError, OverflowError),
     yaml.YAMLError,
 )
 """What reading may raise: of the file, of YAML, of the values of its tags, and of what has another shape."""
+
+
+def is_bad_syntax(path: str, error: Exception) -> bool:
+    """Whether the file is no YAML at all, of which upstream's traceback is recorded."""
+    mark = getattr(error, "problem_mark", None)
+    return isinstance(error, (ScannerError, ParserError)) and mark is not None and mark.name == path
 
 
 def fault_of(path: str, error: Exception) -> str:

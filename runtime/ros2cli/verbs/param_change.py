@@ -53,7 +53,7 @@ def delete(arguments: argparse.Namespace) -> Result:
 
 def load(arguments: argparse.Namespace) -> Result:
     """`ros2 param load`; every node key of the file is taken, as upstream does."""
-    from ros2cli.parameter_file_faults import UNREADABLE, fault_of
+    from ros2cli.parameter_file_faults import UNREADABLE, fault_of, is_bad_syntax
 
     with DirectNode(arguments) as node:
         if not found(node, arguments):
@@ -61,6 +61,8 @@ def load(arguments: argparse.Namespace) -> Result:
         try:
             values = parameter_dict_from_yaml_file(arguments.parameter_file, not arguments.no_use_wildcard)
         except UNREADABLE as error:
+            if is_bad_syntax(arguments.parameter_file, error):
+                raise
             return fault_of(arguments.parameter_file, error)
         parameters = list(values.values())
         request = SetParameters.Request(parameters=parameters)

@@ -9,11 +9,13 @@ import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 import rclpy
 from bot_console.tui.cli.verbs import bag
 from bot_console.tui.cli.verbs.bag import run
+from rclpy.node import Node
 
 pytest.importorskip("mcap")
 PROGRAM = [sys.executable, "-m", "bot_console.tui"]
@@ -83,9 +85,20 @@ def test_a_recorder_that_is_interrupted_as_it_starts_leaves_a_whole_bag_or_none(
     def interrupted(*given: object) -> None:
         raise KeyboardInterrupt
 
+    made: list[Node] = []
+    create = rclpy.create_node
+
+    def noted(*given: Any, **named: Any) -> Node:
+        made.append(create(*given, **named))
+        return made[-1]
+
+    monkeypatch.setattr(rclpy, "create_node", noted)
     monkeypatch.setattr(bag, "take_part", lambda: "")
     monkeypatch.setattr(bag, "_spin" if begun else "_node", interrupted)
     run(["record", "--all", "-o", str(tmp_path / "bag")])
+    assert len(made) == 2 * begun
+    for each in made:
+        each.destroy_node()
     rclpy.try_shutdown()
     files = list((tmp_path / "bag").glob("*.mcap"))
     assert [each.read_bytes().endswith(b"\x89MCAP0\r\n") for each in files] == [True] * begun

@@ -234,7 +234,6 @@ def test_a_file_that_no_parameter_takes_is_refused_on_one_line(ros, tmp_path, va
         (b"Dear diary\n", "no parameter file"),
         (b"/tuned:\n  ros__parameters:\n", "no parameter file"),
         (b"/tuned:\n  ros__parameters:\n    1: 2\n", "no parameter file"),
-        (b"/tuned:\n\tros__parameters:\n", "not YAML: line 2: found character"),
         (b"a: 1\n---\na: 2\n", "not YAML: line 2: but found another document"),
         (b"? [a]\n: 1\n", "not YAML: line 1: found unhashable key"),
         (b"/tuned:\n  ros__parameters:\n    name: !!python/name:os.system\n", "not YAML: line 3: could not determine"),
