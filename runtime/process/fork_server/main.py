@@ -5,8 +5,9 @@ from __future__ import annotations
 import gc
 import socket
 
+from .ending import run_to_end
 from .job import function_named
-from .server import Server
+from .server import Birth, Server
 from .start import become, let_signals_in
 
 
@@ -18,6 +19,10 @@ def main(descriptor: int, warm_up: str) -> None:
     birth = Server(socket.socket(fileno=descriptor)).serve()
     if birth is None:
         return
+    run_to_end(lambda: _live(birth))
+
+
+def _live(birth: Birth) -> None:
     program = become(birth)
     let_signals_in()
     program()

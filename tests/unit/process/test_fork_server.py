@@ -148,6 +148,25 @@ def test_threads_and_exit_functions_come_before_the_end(fork: Any) -> None:
     assert (child.end(), child.out) == (0, "thread\nbye\n")
 
 
+def test_the_interpreter_is_not_taken_apart_below_threads_that_are_not_its_own(fork: Any) -> None:
+    child = fork("import ctypes\nctypes.pythonapi.Py_AtExit(ctypes.CDLL(None).abort)\nprint('last')\n")
+    assert (child.end(), child.out, child.err) == (0, "last\n", "")
+
+
+def test_what_c_has_printed_is_written(fork: Any) -> None:
+    child = fork("import ctypes\nctypes.CDLL(None).printf(b'from C')\n")
+    assert (child.end(), child.out) == (0, "from C")
+
+
+def test_an_exception_hook_of_the_programs_own(fork: Any) -> None:
+    own = "import sys\nsys.excepthook = lambda kind, *rest: print('seen', kind.__name__)\n1 / 0\n"
+    child = fork(own)
+    assert (child.end(), child.out, child.err) == (1, "seen ZeroDivisionError\n", "")
+    child = fork("import sys\nsys.excepthook = None\n1 / 0\n")
+    assert child.end() == 1
+    assert "ZeroDivisionError" in child.err
+
+
 def test_an_exception_begins_in_the_program_and_is_told(fork: Any, tmp_path: Path) -> None:
     child = fork("def f():\n    raise ValueError('the fault')\n\nf()\n")
     assert child.end() == 1

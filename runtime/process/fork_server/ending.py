@@ -1,0 +1,62 @@
+"""The end of a process that runs a program, in the order and with the exit codes of the interpreter's own.
+
+The interpreter itself is not taken apart: threads that are not Python's, a middleware's, call back at any time, and one
+that finds it half gone writes a panic behind what the program has said last.
+"""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable
+from typing import NoReturn
+
+FLUSH_FAILED = 120
+"""Exit code of the interpreter where its last output could not be written."""
+
+
+def run_to_end(program: Callable[[], object]) -> NoReturn:
+    """Run a program, wait for its threads, call its exit functions, and end the process."""
+    code = _run(program)
+    with contextlib.suppress(KeyboardInterrupt):
+        threading._shutdown()  # pyright: ignore[reportAttributeAccessIssue, reportUnknownMemberType]  # waits for threads and executors
+    atexit._run_exitfuncs()  # pyright: ignore[reportPrivateUsage]  # the only way before os._exit
+    for stream in (sys.stdout, sys.stderr):
+        try:
+            stream.flush()
+        except (AttributeError, OSError, ValueError):  # None, a reader that has gone, closed
+            code = code if stream is None or getattr(stream, "closed", False) else FLUSH_FAILED
+    _flush_of_c()
+    if code == -signal.SIGINT:  # so that who waits for it sees by what it ended
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+        os.kill(os.getpid(), signal.SIGINT)
+    os._exit(code & 0xFF)
+
+
+def _run(program: Callable[[], object]) -> int:
+    try:
+        program()
+    except SystemExit as end:
+        if end.code is None or isinstance(end.code, int):
+            return end.code or 0
+        print(end.code, file=sys.stderr)
+        return 1
+    except BaseException as error:
+        try:
+            sys.excepthook(type(error), error, error.__traceback__)
+        except BaseException:  # the program's own hook
+            sys.__excepthook__(type(error), error, error.__traceback__)
+        return -signal.SIGINT if isinstance(error, KeyboardInterrupt) else 1
+    return 0
+
+
+def _flush_of_c() -> None:
+    """Write what libraries in C have printed and their buffers still hold."""
+    import ctypes
+
+    with contextlib.suppress(OSError, AttributeError):
+        ctypes.CDLL(None).fflush(None)
