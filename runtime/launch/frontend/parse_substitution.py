@@ -36,7 +36,10 @@ def parse_substitution(string_value: str) -> list[Any]:
 
     if not string_value:
         return [TextSubstitution(text="")]
-    return _Reader(string_value).pieces("")
+    try:
+        return _Reader(string_value).pieces("")
+    except RecursionError:
+        raise ValueError(f"{string_value[:40]!r}... has too many substitutions in one another") from None
 
 
 def parse_if_substitutions(value: Any) -> Any:

@@ -459,3 +459,8 @@ def test_an_exit_in_a_launch_file_is_the_programs_exit(run_file: Launch) -> None
     with pytest.raises(SystemExit) as stop:
         run_file("import sys; sys.exit(7)")
     assert stop.value.code == 7
+
+
+def test_substitutions_in_one_another_without_end_are_refused() -> None:
+    with pytest.raises(ValueError, match="has too many substitutions in one another"):
+        parse_substitution("$(var " * 5000)
