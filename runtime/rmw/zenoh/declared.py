@@ -7,6 +7,7 @@ there is none at the moment.
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -37,6 +38,10 @@ class Keeper(Protocol):
         ...
 
 
+LENT_FOR = 1.0
+"""Seconds for which something that is to be taken back may be in use; then it is left to the end of the session."""
+
+
 class Declared:
     """Something that a session has declared; `declare` makes it in a Zenoh session."""
 
@@ -49,6 +54,16 @@ class Declared:
     def undeclare(self) -> None:
         """Take it back; a second time does nothing."""
         self._session.forget(self)
+
+    def take_back(self) -> None:
+        """Take back what Zenoh has made of it, once no other thread is just sending with it: until then it is lent."""
+        until = time.monotonic() + LENT_FOR
+        while time.monotonic() < until:
+            try:
+                self.inner.undeclare()
+                return
+            except RuntimeError:  # "Already borrowed", by Zenoh's binding
+                time.sleep(0.0005)
 
     def begin_again(self) -> None:
         """The links that it had are cut, and made anew."""

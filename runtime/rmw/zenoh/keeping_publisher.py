@@ -33,6 +33,8 @@ class KeepingPublisher:
         self._publisher.put(payload, attachment=attachment)
 
     def undeclare(self) -> None:
-        """Take it back; raises `ZError`."""
-        self._token.undeclare()
+        """Take it back; raises `ZError`, and `RuntimeError` while another thread sends with it: then again later."""
+        token, self._token = self._token, None
+        if token is not None:
+            token.undeclare()
         self._publisher.undeclare()

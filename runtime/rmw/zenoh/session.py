@@ -376,7 +376,7 @@ class Session:
             if thing in self._declared:
                 del self._declared[thing]
                 if self._is_open and thing.inner is not None:
-                    thing.inner.undeclare()
+                    thing.take_back()
 
 
 def preload() -> None:
