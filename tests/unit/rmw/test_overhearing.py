@@ -6,21 +6,11 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-import rclpy
 from bot_console.runtime.rmw.middleware import bus_of
 from bot_console_robot.common.demand import wanted
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.serialization import deserialize_message
 from std_msgs.msg import String
-
-
-@pytest.fixture
-def node() -> Iterator[Any]:
-    rclpy.init()
-    made = rclpy.create_node("talker")
-    yield made
-    made.destroy_node()
-    rclpy.try_shutdown()
 
 
 @pytest.fixture

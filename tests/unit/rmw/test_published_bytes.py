@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
-import rclpy
 from bot_console.runtime.rosidl.conversion import FieldTypeError
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile
@@ -14,15 +12,6 @@ from rclpy.serialization import deserialize_message
 from std_msgs.msg import String
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-
-
-@pytest.fixture
-def node() -> Iterator[Any]:
-    rclpy.init()
-    made = rclpy.create_node("talker")
-    yield made
-    made.destroy_node()
-    rclpy.try_shutdown()
 
 
 @pytest.fixture
