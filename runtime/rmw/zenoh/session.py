@@ -22,7 +22,7 @@ from bot_console.runtime.rmw.zenoh.declared import Declared, Publisher, Querier,
 from bot_console.runtime.rmw.zenoh.domain.sockets import Socket
 from bot_console.runtime.rmw.zenoh.keeping_publisher import KeepingPublisher
 from bot_console.runtime.rmw.zenoh.kept_threads import here, keep
-from bot_console.runtime.rmw.zenoh.pace import Pace
+from bot_console.runtime.rmw.zenoh.lifetime import Lifetime
 from bot_console.runtime.rmw.zenoh.settings import leaves
 
 if TYPE_CHECKING:
@@ -30,9 +30,6 @@ if TYPE_CHECKING:
 
 ATTENDANCE = "@bot_console/"
 """Begin of the token that each session shows; the begin of its id follows."""
-
-CLOSING = 0.4
-"""How long closing is waited for, in s: it takes 2.5 s beside a frozen process to which the link is full."""
 
 
 class SessionError(RuntimeError):
@@ -43,7 +40,7 @@ class SettingsError(SessionError):
     """Zenoh does not take the settings of a session."""
 
 
-class Session:
+class Session(Lifetime):
     """A session of one domain; a subclass says where it is. To be called from any thread but Zenoh's own."""
 
     joined: tuple[Socket, ...] = ()
@@ -52,19 +49,12 @@ class Session:
     """How long the first question about the graph waits for its answer, in s; running processes take 5 ms."""
 
     def __init__(self, domain: int) -> None:
+        super().__init__()
         self.domain = domain
         self.zid = f"{int.from_bytes(os.urandom(16), 'big') | 1 << 127:032x}"
         """The session's id: 32 hexadecimal digits, the first not 0. In the graph it stays when the session rejoins."""
         self.on_rejoin: Callable[[], None] = lambda: None
         """Called when the session was opened anew: what was kept for late subscribers is to be published again."""
-        self._lock = threading.RLock()
-        self._declared: dict[Declared, None] = {}
-        self._is_open = True  # each subclass opens at once
-        self._ended = False
-        self._pace = Pace()
-        self.settled = threading.Event()
-        """Not set while the session is opened anew, until its links are there: what is sent before may reach nobody."""
-        self.settled.set()
         self.lost = 0
         """Messages to subscriptions of this session that did not arrive, as far as their numbers tell."""
 
@@ -86,61 +76,15 @@ class Session:
         except zenoh.ZError as error:
             raise SessionError(_first_line(error)) from None
 
-    def _shut(self) -> None:
-        with contextlib.suppress(_errors()):  # on a busy machine Zenoh gives up after 10 s, and is closed all the same
-            self._zenoh.close()
-
-    def _reopen(self, join: Callable[[], None]) -> bool:
-        """Close, open anew by `join`, and declare all again; False where it was closed for good meanwhile.
-
-        That takes seconds beside a frozen process, and more where opening fails and is tried again: nobody who
-        declares, sends, asks or takes back waits for it. What is declared meanwhile is made when all is.
-        """
-        with self._lock:
-            if self._ended:
-                return False
-            self._is_open = False
-            self.settled.clear()
-            for each in self._declared:
-                each.begin_again()
-        self._shut()
-        join()
-        with self._lock:
-            self._is_open = not self._ended
-            if self._is_open:
-                for each in self._declared:
-                    with contextlib.suppress(_errors()):
-                        each.inner = each.declare(self._zenoh)
-                return True
-        self._shut()
-        return False
-
-    def _settle(self) -> None:
-        """The links of a session that was opened anew are there, or will not come."""
-        with self._lock:
-            declared = tuple(self._declared)
-        for each in declared:
-            each.settle()
-
     @staticmethod
     def errors() -> type[Exception]:
         """The class of Zenoh's errors; asked for when something was raised."""
-        return _errors()
+        import zenoh
+
+        return zenoh.ZError
 
     def watch(self) -> None:
         """Look after the session's place for as long as it is open; not for short-lived programs."""
-
-    def close(self) -> None:
-        """Leave; what was declared is gone. A second time does nothing."""
-        self.settled.set()
-        with self._lock:
-            self._ended = True
-            if not self._is_open:
-                return  # closed, or just being opened anew, which then ends in being closed
-            self._is_open = False
-        closing = threading.Thread(target=self._shut, name="zenoh-close", daemon=True)
-        closing.start()
-        closing.join(CLOSING)
 
     def stopped(self) -> Mapping[str, int]:
         """The processes of the mesh that are frozen: the first eight digits of their sessions' ids, and their pids."""
@@ -152,10 +96,6 @@ class Session:
 
     def leave(self) -> None:
         """Take away what would be left of it, for a process that ends at once and does not wait for `close`."""
-
-    def is_closed(self) -> bool:
-        """Whether it was closed."""
-        return self._ended
 
     def declare_publisher(self, key: str, *, reliable: bool = True, cache: int = 0, patient: bool = False) -> Publisher:
         """Make a publisher for other sessions; with a `cache` late subscribers get as many of its last samples.
@@ -193,7 +133,8 @@ class Session:
                 keep()
             received(sample.payload.to_bytes(), _bytes(sample.attachment))
 
-        ext, remote = zenoh.ext, zenoh.Locality.REMOTE
+        ext = zenoh.ext
+        remote = zenoh.Locality.REMOTE
 
         def declare(session: zenoh.Session) -> Any:
             callback = zenoh.handlers.Callback(take, indirect=False)
@@ -315,7 +256,8 @@ class Session:
         found: list[str] = []
         with contextlib.suppress(zenoh.ZError):  # there are no more, or no session is open
             replies = self._zenoh.liveliness().get(key, zenoh.handlers.FifoChannel(WAITING), timeout=timeout)
-            until, pause = time.monotonic() + 2 * timeout, threading.Event()
+            until = time.monotonic() + 2 * timeout
+            pause = threading.Event()
             while time.monotonic() < until:
                 reply = replies.try_recv()
                 if reply is None:
@@ -326,7 +268,7 @@ class Session:
 
     def linked(self) -> set[str]:
         """The ids of the sessions that this one has a link to; none while it is not open."""
-        with contextlib.suppress(_errors()):
+        with contextlib.suppress(self.errors()):
             return {str(each) for each in (*self._zenoh.info.peers_zid(), *self._zenoh.info.routers_zid())}
         return set()
 
@@ -348,47 +290,25 @@ class Session:
 
     def attendance(self, who: str = "*", timeout: float = 0.1) -> set[str]:
         """The first eight digits of the ids of the sessions that answer within `timeout` (s)."""
-        answered, done = set[str](), threading.Event()
+        answered = set[str]()
+        done = threading.Event()
         self.ask_tokens(ATTENDANCE + who, lambda key: answered.add(key.removeprefix(ATTENDANCE)), done.set, timeout)
         done.wait(timeout + 0.9)
         return answered
 
     def is_answered(self, timeout: float) -> bool:
         """Whether the other end answers a small question within `timeout` (s)."""
-        done, began, late = threading.Event(), time.monotonic(), timeout * 0.98
+        done = threading.Event()
+        began, late = time.monotonic(), timeout * 0.98
         self.ask_tokens(f"{ATTENDANCE}nobody/{self.zid}", lambda key: None, done.set, timeout)
         done.wait(timeout + 0.9)
         # Without an answer Zenoh says only after the time-out that it is done, and without a link it says so at once.
         return time.monotonic() - began < late and bool(self.linked())
 
-    def _declare(self, thing: Any) -> Any:
-        with self._lock:
-            if self._is_open:
-                thing.inner = thing.declare(self._zenoh)
-            if not self._ended:
-                self._declared[thing] = None
-        self._pace.shown()
-        return thing
-
-    def forget(self, thing: Declared) -> None:
-        """Take back what was declared."""
-        with self._lock:
-            if thing in self._declared:
-                del self._declared[thing]
-                if self._is_open and thing.inner is not None:
-                    thing.take_back()
-
 
 def preload() -> None:
     """Import Zenoh, which opens nothing and starts no thread: for a process that others are forked from."""
     import zenoh.ext  # noqa: F401  # pyright: ignore[reportUnusedImport]
-
-
-def _errors() -> type[Exception]:
-    """The class of Zenoh's errors; only asked for when something was raised."""
-    import zenoh
-
-    return zenoh.ZError
 
 
 def _bytes(data: Any) -> bytes | None:

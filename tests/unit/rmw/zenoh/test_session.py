@@ -5,7 +5,7 @@ import threading
 
 import pytest
 from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
-from bot_console.runtime.rmw.zenoh.session import Session, _errors
+from bot_console.runtime.rmw.zenoh.session import Session
 
 PATIENCE = 20.0
 
@@ -105,7 +105,7 @@ def test_a_session_is_opened_anew_though_its_close_took_zenoh_too_long(pair) -> 
     class Slow:
         def close(self) -> None:
             old.close()
-            raise _errors()("close operation timed out!")
+            raise one.errors()("close operation timed out!")
 
     one._zenoh = Slow()
     one.rejoin(lambda folder: True)
