@@ -41,6 +41,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         from bot_console.tui.cli.headless.run import run
 
         return run(options)
+    if not _has_screen():
+        return 1
     from bot_console.tui.cli.show import run as show
 
     return show(options)
@@ -53,7 +55,20 @@ def program() -> NoReturn:
     end_program(told(main))
 
 
+def _has_screen() -> bool:
+    """Whether this system's terminals are such that the console can show itself; it is told where they are not."""
+    try:
+        import termios  # noqa: F401  # pyright: ignore[reportUnusedImport]
+    except ImportError:
+        system = "the console needs a terminal of Linux or macOS: on Windows start it in WSL"
+        print(f"{system}, or use `bot-console --headless` and the verbs of ros2", file=sys.stderr)
+        return False
+    return True
+
+
 def _attach(words: Words) -> int:
+    if not _has_screen():
+        return 1
     from bot_console.tui.cli.attach import run
 
     return run(words)

@@ -58,8 +58,16 @@ class Serving:
     tls: Mapping[str, Any] = field(default_factory=dict[str, Any])
 
 
-def session_settings(zid: str, listen: str, connect: Iterable[str], serving: Serving | None = None) -> dict[str, Any]:
-    """The settings of a session with this id that listens on one socket and connects to others (paths).
+def session_settings(
+    zid: str,
+    listen: str,
+    connect: Iterable[str],
+    serving: Serving | None = None,
+    auth: Mapping[str, Any] | None = None,
+) -> dict[str, Any]:
+    """The settings of a session with this id that listens on one endpoint and connects to others.
+
+    `auth` is what each link must show (`transport/auth`), where the endpoints are not closed by the file system.
 
     One that lets other machines in is a router, as clients want to find; all others of the mesh are linked directly, so
     that it carries nothing between them.
@@ -69,9 +77,9 @@ def session_settings(zid: str, listen: str, connect: Iterable[str], serving: Ser
         "mode": "router" if serving else "peer",
         "id": zid,
         "routing": {"router": {"peers_failover_brokering": False}},
-        "listen": {"endpoints": [SCHEME + listen, *beside], "exit_on_failure": True},
+        "listen": {"endpoints": [listen, *beside], "exit_on_failure": True},
         "connect": {
-            "endpoints": [SCHEME + each for each in connect],
+            "endpoints": list(connect),
             "timeout_ms": -1,
             "exit_on_failure": False,
             "retry": {"period_init_ms": 100, "period_max_ms": 2000, "period_increase_factor": 2},
@@ -81,6 +89,7 @@ def session_settings(zid: str, listen: str, connect: Iterable[str], serving: Ser
         "timestamping": {"enabled": True},
         "transport": {
             "shared_memory": {"enabled": False},
+            "auth": dict(auth or {}),
             "unicast": {"open_timeout": OPEN_TIMEOUT, "accept_timeout": OPEN_TIMEOUT},
             "link": {
                 "tls": dict(serving.tls) if serving else {},

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import platform
 import sys
 from collections.abc import Mapping
@@ -64,8 +63,6 @@ def domain_finding(text: str) -> Finding:
 
 def sockets_findings() -> list[Finding]:
     """The programs that meet in the domain's folder, and the sockets of those that are dead or stopped."""
-    if os.name == "nt":
-        return [Finding(Level.NOTE, "sockets", "programs do not meet on this system, which has no Unix sockets")]
     from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
     from bot_console.runtime.rmw.zenoh.domain.sockets import sockets
     from bot_console.tui.cli.system.domain import domain

@@ -16,13 +16,9 @@ _taking_part = False
 CONNECT_VARIABLE = "BOT_CONSOLE_CONNECT"
 """The router that `--connect` would name, for verbs, and for shells in which all is about one robot."""
 
-NO_SOCKETS = "programs cannot meet on this system yet, which has no Unix sockets: this one is alone"
-
 
 def why_alone() -> str:
     """Why this program cannot meet others in its domain, in one line; empty where it can."""
-    if os.name == "nt":
-        return NO_SOCKETS
     from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
 
     try:
@@ -69,13 +65,13 @@ def is_in_range() -> bool:
 def others_take_part() -> bool:
     """Whether another process of this user is in the domain, as far as the folder of their sockets tells."""
     from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
-    from bot_console.runtime.rmw.zenoh.domain.sockets import sockets
+    from bot_console.runtime.rmw.zenoh.domain.sockets import lives, sockets
 
     try:
-        found = sockets(domain_folder(domain())) if os.name != "nt" else []
+        found = sockets(domain_folder(domain()))
     except FolderRefusedError:
         return False
-    return any(each.pid != os.getpid() and _lives(each.pid) for each in found)
+    return any(each.pid != os.getpid() and lives(each.pid) for each in found)
 
 
 def frozen() -> list[int]:
@@ -84,7 +80,7 @@ def frozen() -> list[int]:
     from bot_console.runtime.rmw.zenoh.domain.sockets import sockets
 
     try:
-        found = sockets(domain_folder(domain())) if os.name != "nt" else []
+        found = sockets(domain_folder(domain()))
     except FolderRefusedError:
         return []
     return sorted({each.pid for each in found if each.is_stopped()})
@@ -106,16 +102,6 @@ def robot_there() -> list[str]:
     found += [end for each in tables for end in each.subscriptions.on(VELOCITY)]
     robots = (each.node for each in found if not each.node.name.startswith("_"))
     return sorted({each.full_name for each in robots})
-
-
-def _lives(pid: int) -> bool:
-    try:
-        os.kill(pid, 0)
-    except ProcessLookupError:
-        return False
-    except PermissionError:
-        return True
-    return True
 
 
 def domain() -> int:

@@ -6,7 +6,7 @@ import os
 import threading
 import time
 
-from bot_console.runtime.rmw.zenoh.domain.sockets import Socket
+from bot_console.runtime.rmw.zenoh.domain.sockets import Socket, lives
 from bot_console.runtime.rmw.zenoh.session import Session
 
 PATIENCE = 0.3
@@ -34,10 +34,4 @@ def _runs(socket: Socket) -> bool:
     """Whether its process has neither left nor been killed."""
     if not os.path.lexists(socket.path):
         return False
-    try:
-        os.kill(socket.pid, 0)
-    except ProcessLookupError:
-        return False
-    except PermissionError:
-        pass
-    return True
+    return lives(socket.pid)

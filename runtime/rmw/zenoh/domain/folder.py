@@ -22,7 +22,7 @@ def base_folder() -> str:
     named = os.environ.get(BASE_VARIABLE)
     if named:
         return os.path.abspath(named)
-    return os.path.join(_temporary_folder(), f"bot-console-{os.geteuid()}")
+    return os.path.join(_temporary_folder(), f"bot-console-{_user()}")
 
 
 def domain_folder(domain: int) -> str:
@@ -35,6 +35,11 @@ def domain_folder(domain: int) -> str:
     folder = os.path.join(base, str(domain))
     _private_folder(folder)
     return folder
+
+
+def _user() -> int:
+    """The id of the user; 0 on Windows, where the temporary folder is the user's own and has no mode."""
+    return os.geteuid() if hasattr(os, "geteuid") else 0
 
 
 def _temporary_folder() -> str:
@@ -68,8 +73,8 @@ def _problem(path: str) -> str:
         return "is a symbolic link, which somebody else may have put there: remove it"
     if not stat.S_ISDIR(found.st_mode):
         return "is not a folder: remove it"
-    if found.st_uid != os.geteuid():
+    if found.st_uid != _user():
         return f"belongs to another user (uid {found.st_uid}): ask its owner to remove it"
-    if found.st_mode & 0o077:
+    if found.st_mode & 0o077 and hasattr(os, "geteuid"):
         return f"is open to other users (mode {stat.S_IMODE(found.st_mode):04o}): run `chmod 700 {path}`"
     return ""

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import contextlib
-import fcntl
 import os
 import time
 from collections.abc import Generator
 
+from bot_console.runtime.rmw.zenoh.domain.file_lock import FOLDER_HOLDS_LOCKS, NO_LINK, try_lock
 from bot_console.runtime.rmw.zenoh.domain.sockets import is_stopped, live_sockets
 
 PATIENCE = 0.2
@@ -34,8 +34,7 @@ def folder_lock(folder: str) -> Generator[None]:
     A process that is frozen or hangs while it holds the lock stops nobody: the others go on without, and what they miss
     of each other is mended by the watch that each of them keeps on the folder.
     """
-    # The folder itself is locked: a lock file could be removed while somebody holds it.
-    handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
+    handle = _opened(folder)
     try:
         behind = _Behind()
         while not _taken(handle, PATIENCE) and not behind.hangs(_holder(handle)):
@@ -69,7 +68,7 @@ class _Behind:
 def remove_dead(folder: str) -> None:
     """Take the sockets of the dead out of a domain's folder, unless somebody joins just then, who does it as well."""
     with contextlib.suppress(OSError):
-        handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
+        handle = _opened(folder)
         try:
             if _taken(handle, 0.0):
                 live_sockets(folder)
@@ -77,16 +76,21 @@ def remove_dead(folder: str) -> None:
             os.close(handle)
 
 
+def _opened(folder: str) -> int:
+    """What is locked: the folder itself where it can be, as a lock file could be removed while somebody holds it."""
+    if FOLDER_HOLDS_LOCKS:
+        return os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
+    return os.open(os.path.join(folder, "joining.lock"), os.O_RDWR | os.O_CREAT | NO_LINK, 0o600)
+
+
 def _taken(handle: int, patience: float) -> bool:
     """Whether the lock was got in this time (s)."""
     deadline, pause = time.monotonic() + patience, POLL
     while True:
-        try:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        if try_lock(handle):
             return True
-        except BlockingIOError:
-            if time.monotonic() >= deadline:
-                return False
+        if time.monotonic() >= deadline:
+            return False
         time.sleep(pause)
         pause = min(pause * 1.3, LONGEST_POLL)
 

@@ -5,15 +5,16 @@ from __future__ import annotations
 import contextlib
 import os
 from collections.abc import Callable, Generator, Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from bot_console.runtime.rmw.zenoh.domain import loopback
 from bot_console.runtime.rmw.zenoh.domain.attendance import await_answers
 from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
 from bot_console.runtime.rmw.zenoh.domain.joining import folder_lock, remove_dead
 from bot_console.runtime.rmw.zenoh.domain.sockets import live_sockets, own_socket, sockets
 from bot_console.runtime.rmw.zenoh.domain.watch import Watch
 from bot_console.runtime.rmw.zenoh.session import ATTENDANCE, Session, SessionError
-from bot_console.runtime.rmw.zenoh.settings import Serving, session_settings
+from bot_console.runtime.rmw.zenoh.settings import SCHEME, Serving, session_settings
 
 if TYPE_CHECKING:
     from bot_console.runtime.rmw.zenoh.network.stopped import StoppedTokens
@@ -21,6 +22,10 @@ if TYPE_CHECKING:
 
 SETTLING = 5.0
 """How long a session that was opened anew waits for the answers of the others, in s; 50 processes take 0.1 s."""
+
+
+PORTS = 5
+"""So many ports are tried to listen on, where there are no Unix sockets."""
 
 
 class MeshSession(Session):
@@ -33,6 +38,7 @@ class MeshSession(Session):
         self._opened = False
         self._watch: Watch | None = None
         self._tokens: StoppedTokens | None = None
+        self._port: loopback.OpenPort | None = None
         with self._door() as folder:
             self._join(folder)
         self.declare_token(ATTENDANCE + self.zid[:8])
@@ -44,14 +50,41 @@ class MeshSession(Session):
             yield folder
 
     def _join(self, folder: str) -> None:
+        if loopback.is_chosen():
+            self._join_on_port(folder)
+            return
         self.socket = own_socket(folder, self.zid)
-        self.joined = tuple(live_sockets(folder))
-        others = [each.path for each in self.joined]
-        settings = session_settings(self._link_id(), self.socket.path, others, self._serving)
+        self._open_among(folder, self.socket.endpoint())
+
+    def _join_on_port(self, folder: str) -> None:
+        """The same where there are no Unix sockets; another port is tried where somebody takes the one just found."""
+        if self._serving:
+            raise SessionError(
+                f"other machines are let in only where there are Unix sockets, and not by {loopback.VARIABLE}"
+            )
+        self.socket = own_socket(folder, self.zid)
+        for tries_left in reversed(range(PORTS)):
+            if self._port:
+                self._port.close()
+            try:
+                auth, self._port = loopback.authentication(folder), loopback.OpenPort(self.socket.path)
+                self._open_among(folder, self._port.endpoint, auth)
+                return
+            except OSError as error:
+                raise SessionError(f"cannot write in {folder}: {error.strerror}") from None
+            except SessionError:
+                if not tries_left:
+                    raise
+
+    def _open_among(self, folder: str, listen: str, auth: Mapping[str, Any] | None = None) -> None:
+        """Open the session, listening on an endpoint, with links to all that are in the folder."""
+        self.joined = tuple(each for each in live_sockets(folder) if each != self.socket)
+        others = [place for each in self.joined if (place := each.endpoint())]
+        settings = session_settings(self._link_id(), listen, others, self._serving, auth)
         try:
             self._open(settings)
         except SessionError as error:
-            places: Sequence[str] = (self.socket.path, *(self._serving.endpoints if self._serving else ()))
+            places: Sequence[str] = (listen.removeprefix(SCHEME), *(self._serving.endpoints if self._serving else ()))
             raise SessionError(f"cannot listen on {' and '.join(places)}: {error}") from None
 
     def _link_id(self) -> str:
@@ -90,7 +123,7 @@ class MeshSession(Session):
             self.settled.set()
             self.on_rejoin()
         else:
-            self.socket.remove()
+            self._take_out()
 
     def _join_anew(self) -> None:
         with self._door() as folder:
@@ -113,6 +146,8 @@ class MeshSession(Session):
         self._take_out()
 
     def _take_out(self) -> None:
+        if self._port:
+            self._port.close()
         self.socket.remove()
         if self._watch:  # a process that has been here for long: nodes of its own may have died
             remove_dead(os.path.dirname(self.socket.path))

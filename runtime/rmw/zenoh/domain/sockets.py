@@ -1,21 +1,23 @@
 """The sockets of a domain's folder: one per process, named `<pid>.<begin of its session's id>`.
 
-Zenoh holds a lock on `<socket>.lock` for as long as the process lives, so a socket whose lock can be taken is dead. A
-folder may hold other files; they are left alone.
+`<socket>.lock` is locked for as long as the process lives (Zenoh does that), so a socket whose lock can be taken is
+dead. Where there are no Unix sockets, a file that names a port takes the place of each, with another ending. A folder
+may hold other files; they are left alone.
 """
 
 from __future__ import annotations
 
 import contextlib
-import errno
-import fcntl
 import os
 import re
 import sys
 from typing import NamedTuple
 
 from bot_console.runtime.process.real import getpid
+from bot_console.runtime.rmw.zenoh.domain import loopback
+from bot_console.runtime.rmw.zenoh.domain.file_lock import NO_LINK, try_lock
 from bot_console.runtime.rmw.zenoh.domain.folder import BASE_VARIABLE
+from bot_console.runtime.rmw.zenoh.settings import SCHEME
 
 LONGEST_PATH = 107 if sys.platform == "linux" else 103
 """The bytes that the path of a Unix socket may have; a longer one fails silently on connecting."""
@@ -39,20 +41,22 @@ class Socket(NamedTuple):
         """The file that is locked while its process lives."""
         return self.path + ".lock"
 
+    def endpoint(self) -> str:
+        """What Zenoh connects to; empty where the process ended before it said."""
+        return loopback.endpoint(self.path) if self.path.endswith(loopback.SUFFIX) else SCHEME + self.path
+
     def is_dead(self) -> bool:
         """Whether nobody listens on it any more."""
         try:
-            handle = os.open(self.lock, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW, 0o600)
+            handle = os.open(self.lock, os.O_RDWR | os.O_CREAT | NO_LINK, 0o600)
         except OSError:
             return False
         try:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError as error:
-            # Held, so its process lives.
-            return error.errno not in (errno.EWOULDBLOCK, errno.EAGAIN)
+            return try_lock(handle)  # where another holds it, its process lives
+        except OSError:
+            return True
         finally:
             os.close(handle)
-        return True
 
     def is_stopped(self) -> bool:
         """Whether its process is frozen (SIGSTOP, a debugger, a suspended job)."""
@@ -67,9 +71,9 @@ class Socket(NamedTuple):
 
 def own_socket(folder: str, zid: str) -> Socket:
     """The socket that a session of this process is to listen on; raises `PathTooLongError`."""
-    path = os.path.join(folder, f"{getpid()}.{zid[:8]}")
+    path = os.path.join(folder, f"{getpid()}.{zid[:8]}{_ending()}")
     length = len(os.fsencode(path))
-    if length > LONGEST_PATH:
+    if length > LONGEST_PATH and not _ending():
         raise PathTooLongError(
             f"the path {path} has {length} bytes, and that of a socket may have {LONGEST_PATH}: "
             f"set {BASE_VARIABLE} to a shorter folder"
@@ -79,9 +83,9 @@ def own_socket(folder: str, zid: str) -> Socket:
 
 def sockets(folder: str) -> list[Socket]:
     """All sockets in a folder, dead ones too."""
-    found: list[Socket] = []
+    found, ending = list[Socket](), _ending()
     for name in sorted(os.listdir(folder)):
-        match = _NAME.fullmatch(name)
+        match = _NAME.fullmatch(name.removesuffix(ending)) if name.endswith(ending) else None
         if match:
             found.append(Socket(os.path.join(folder, name), int(match[1]), match[2]))
     return found
@@ -98,6 +102,11 @@ def live_sockets(folder: str) -> list[Socket]:
     return live
 
 
+def _ending() -> str:
+    """What ends the names: those that meet on ports and those that meet on sockets cannot be linked."""
+    return loopback.SUFFIX if loopback.is_chosen() else ""
+
+
 def is_stopped(pid: int) -> bool:
     """Whether a process is frozen; False where the system does not tell."""
     try:
@@ -105,3 +114,16 @@ def is_stopped(pid: int) -> bool:
             return file.read().rpartition(b")")[2].split()[0] in (b"T", b"t")
     except (OSError, IndexError):
         return False
+
+
+def lives(pid: int) -> bool:
+    """Whether there is such a process; True where it cannot be asked without ending it (Windows)."""
+    if os.name == "nt":
+        return True
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    except PermissionError:
+        pass
+    return True

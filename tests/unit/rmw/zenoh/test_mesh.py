@@ -29,7 +29,7 @@ def every_pair_talks(present: list[Member]) -> bool:
 
 
 def sockets_of(folder: str) -> set[str]:
-    return {name for name in os.listdir(os.path.join(folder, "0")) if not name.endswith(".lock")}
+    return {name for name in os.listdir(os.path.join(folder, "0")) if name[0].isdigit() and not name.endswith(".lock")}
 
 
 def test_those_that_start_at_one_moment_all_meet():

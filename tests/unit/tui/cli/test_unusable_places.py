@@ -80,3 +80,15 @@ def test_an_empty_name_is_no_script_of_a_check(capsys: pytest.CaptureFixture[str
     with pytest.raises(SystemExit):
         main(["check", ""])
     assert "give the name of a script" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("words", [[], ["attach"], ["--profile", "indoor"]])
+def test_a_system_without_terminals_of_this_kind_is_told_where_the_console_runs(
+    words: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setitem(sys.modules, "termios", None)
+    assert main(words) == 1
+    assert capsys.readouterr().err == (
+        "the console needs a terminal of Linux or macOS: on Windows start it in WSL, "
+        "or use `bot-console --headless` and the verbs of ros2\n"
+    )

@@ -1,0 +1,144 @@
+"""Where there are no Unix sockets, programs meet on ports of 127.0.0.1, and only those that can read a secret."""
+
+from __future__ import annotations
+
+import json
+import os
+import socket
+import stat
+import sys
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+import zenoh
+from bot_console.runtime.rmw.zenoh.domain import loopback, sockets
+from bot_console.runtime.rmw.zenoh.domain.mesh import MeshSession, open_session
+from bot_console.runtime.rmw.zenoh.session import SessionError
+from bot_console.runtime.rmw.zenoh.settings import Serving
+from helpers.processes.mesh import Member, eventually, members
+
+
+@pytest.fixture(autouse=True)
+def on_ports(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("BOT_CONSOLE_LOOPBACK", "1")
+
+
+@pytest.fixture
+def session(socket_folder: str) -> Iterator[MeshSession]:
+    opened = open_session(0)
+    yield opened
+    opened.close()
+
+
+def every_pair_talks(present: list[Member]) -> bool:
+    ids = {each.zid for each in present}
+
+    def heard() -> bool:
+        for each in present:
+            each.ask("call")
+        return all(each.ask("heard") >= ids - {each.zid} for each in present)
+
+    return eventually(heard)
+
+
+def names(folder: str) -> set[str]:
+    return {name for name in os.listdir(f"{folder}/0") if name.endswith(".tcp")}
+
+
+def linked_from(settings: dict[str, Any]) -> bool:
+    """Whether a program with these settings for its links, besides the defaults, gets one; it waits for that."""
+    config = zenoh.Config.from_json5(json.dumps({"mode": "client", "scouting": {"multicast": {"enabled": False}}}))
+    for path, value in settings.items():
+        config.insert_json5(path, json.dumps(value))
+    try:
+        with zenoh.open(config) as opened:
+            return bool([*opened.info.peers_zid(), *opened.info.routers_zid()])
+    except zenoh.ZError:
+        return False
+
+
+def test_those_that_start_at_one_moment_meet_and_a_killed_one_is_cleaned_away(socket_folder: str) -> None:
+    with members(3) as (one, two, killed):
+        assert every_pair_talks([one, two, killed])
+        killed.end()
+        assert eventually(lambda: one.ask("linked") == {two.zid})
+        with members(1) as [late]:
+            assert every_pair_talks([one, two, late])
+            assert len(names(socket_folder)) == 3
+
+
+def test_one_whose_files_were_taken_away_is_found_again(socket_folder: str) -> None:
+    with members(2) as (one, two):
+        assert every_pair_talks([one, two])
+        for name in os.listdir(f"{socket_folder}/0"):
+            os.unlink(f"{socket_folder}/0/{name}")
+        assert eventually(lambda: len(names(socket_folder)) == 2)
+        with members(1) as [late]:
+            assert every_pair_talks([one, two, late])
+
+
+def test_only_the_own_address_is_listened_on(session: MeshSession) -> None:
+    assert session.socket.endpoint().startswith("tcp/127.0.0.1:")
+    port = int(session.socket.endpoint().rpartition(":")[2])
+    with socket.create_connection(("127.0.0.1", port), 5.0):
+        pass
+    with pytest.raises(OSError), socket.create_connection(("127.0.0.2", port), 5.0):
+        pass
+
+
+def test_who_does_not_know_the_secret_gets_no_link(session: MeshSession, socket_folder: str) -> None:
+    place = {"connect/endpoints": [session.socket.endpoint()], "connect/timeout_ms": 2000}
+    known = loopback.authentication(f"{socket_folder}/0")["usrpwd"]
+    assert linked_from({**place, "transport/auth/usrpwd": {**known}})
+    assert not linked_from(place)
+    assert not linked_from({**place, "transport/auth/usrpwd": {**known, "password": "guessed"}})
+
+
+def test_the_secret_is_the_users_alone_and_stays(session: MeshSession, socket_folder: str) -> None:
+    path = f"{socket_folder}/0/{loopback.SECRET}"
+    assert stat.S_IMODE(os.stat(path).st_mode) == 0o600
+    assert loopback.authentication(f"{socket_folder}/0") == loopback.authentication(f"{socket_folder}/0")
+
+
+def test_another_port_is_tried_where_somebody_takes_the_one_found(
+    socket_folder: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        ports = iter([taken.getsockname()[1], loopback._free_port()])
+        monkeypatch.setattr(loopback, "_free_port", lambda: next(ports))
+        session = open_session(0)
+    session.close()
+    assert not names(socket_folder)
+
+
+def test_a_port_that_was_not_written_yet_harms_nobody(session: MeshSession, socket_folder: str) -> None:
+    half = loopback.OpenPort(f"{socket_folder}/0/{os.getpid()}.0badc0de.tcp")
+    with open(f"{socket_folder}/0/{os.getpid()}.0badc0de.tcp", "w"):
+        pass
+    late = open_session(0)
+    assert eventually(lambda: session.zid in late.linked())
+    late.close()
+    half.close()
+
+
+def test_those_on_sockets_and_those_on_ports_do_not_see_each_other(
+    session: MeshSession, socket_folder: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert [each.pid for each in sockets.sockets(f"{socket_folder}/0")] == [os.getpid()]
+    monkeypatch.delenv("BOT_CONSOLE_LOOPBACK")
+    assert sockets.sockets(f"{socket_folder}/0") == []
+
+
+def test_other_machines_are_not_let_in(socket_folder: str) -> None:
+    with pytest.raises(SessionError, match="BOT_CONSOLE_LOOPBACK"):
+        MeshSession(0, Serving(("tcp/127.0.0.1:0",)))
+
+
+def test_it_is_chosen_where_there_are_no_unix_sockets(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("BOT_CONSOLE_LOOPBACK")
+    assert not loopback.is_chosen()
+    monkeypatch.setattr(sys, "platform", "win32")
+    assert loopback.is_chosen()
