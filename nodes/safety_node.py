@@ -36,7 +36,7 @@ ZEROS = 10
 NO_COMMAND = "no fresh command"
 NO_SCAN = "no fresh scan"
 LOCKED = "emergency stop"
-STEERED = "a person holds the steering"
+STEERED = "the person who steers"
 
 
 class SafetyMonitor(Node):

@@ -23,7 +23,8 @@ def stop_text(drive: DriveInfo) -> str:
     key = "! releases" if drive.stopped_here else "! holds it too, once more releases"
     if drive.refused:
         key = "released elsewhere: this console only looks on"
-    return f"ALL STOP held{held_by(drive)} ({key})"
+    # The key first: in a narrow terminal the end of the line is not seen.
+    return f"ALL STOP held ({key}){held_by(drive)}"
 
 
 def held_by(drive: DriveInfo) -> str:
@@ -34,10 +35,12 @@ def held_by(drive: DriveInfo) -> str:
     return f"{who}{why}{more}"
 
 
-def release_question(others: Sequence[RobotStop], then: Callable[[None], object]) -> Confirmation:
-    """Whether stops that others have made are to be released too."""
+def release_question(
+    others: Sequence[RobotStop], then: Callable[[None], object], gone: Callable[[], str]
+) -> Confirmation:
+    """Whether stops that others have made are to be released too; `gone` tells when there are none any more."""
     lines = [f"  {harmless(each.holder)}: {harmless(each.reason)}" for each in others[:MOST]]
     if len(others) > MOST:
         lines.append(f"  and {len(others) - MOST} more")
     reasons = ["These stops are not this console's:", *lines, "", "With no the robot stays held, by you too."]
-    return Confirmation("Release the robot all the same?", then, reasons="\n".join(reasons))
+    return Confirmation("Release the robot all the same?", then, gone, reasons="\n".join(reasons))

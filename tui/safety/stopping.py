@@ -9,6 +9,7 @@ from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.safety.stop_words import release_question
 from bot_console.tui.screens.door import screen_for
 from textual.app import App
+from textual.screen import Screen
 
 
 class Stopping:
@@ -17,11 +18,16 @@ class Stopping:
     def __init__(self, app: App[None], console: Console) -> None:
         self._app = app
         self._console = console
+        self._question: Screen[None] | None = None
+        """Whether to release what others hold; on the screen, or answered."""
 
     def wanted(self) -> None:
-        """Hold the robot still, or let it go; a stop that nobody has acknowledged is sent again."""
+        """Hold the robot still, or let it go; a stop that nobody has acknowledged is sent again.
+
+        The question whether to let it go is answered by its own keys: asked for meanwhile, the robot stays held.
+        """
         drive = self._console.snapshot().drive
-        if not drive.stopped_here or (drive.lockable and not drive.stop_confirmed):
+        if self._asking or not drive.stopped_here or (drive.lockable and not drive.stop_confirmed):
             self.hold()
         else:
             self.release()
@@ -38,8 +44,18 @@ class Stopping:
             self._app.notify("Nobody holds the robot.")
         elif all(each.by_node for each in others):
             self._release(others)
-        else:
-            self._app.push_screen(screen_for(release_question(others, lambda _: self._release(others))))
+        elif not self._asking:
+            question = release_question(others, lambda _: self._release(others), lambda: self._gone(others))
+            self._question = screen_for(question)
+            self._app.push_screen(self._question)
+
+    @property
+    def _asking(self) -> bool:
+        return self._question in self._app.screen_stack
+
+    def _gone(self, others: Sequence[RobotStop]) -> str:
+        held = {each.key for each in self._console.snapshot().drive.stops}
+        return "" if any(each.key in held for each in others) else "These stops have been released meanwhile."
 
     def _release(self, others: Sequence[RobotStop]) -> None:
         if others:

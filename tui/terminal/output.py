@@ -207,7 +207,15 @@ class HoldingScreen(Screen[None]):
         if isinstance(app, SparingApp) and self is app.screen and not app.may_draw():
             self._dirty_widgets.clear()
             return
+        if self.is_current and self is not app.screen:
+            self._pass_on()
         super()._compositor_refresh()
+
+    def _pass_on(self) -> None:
+        # Textual tells the foremost screen what has changed below it; those between keep what they have drawn of it.
+        between = self.app.screen_stack  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- as above
+        for each in between[between.index(self) + 1 : -1]:
+            each._set_dirty(*self._compositor._dirty_regions)
 
 
 def _lines(update: ChopsUpdate | LayoutUpdate) -> dict[int, Mapping[int, Strip | None]]:

@@ -30,9 +30,9 @@ def test_a_robot_that_somebody_else_holds_is_held_by_us_first_then_asked_about()
     async def play(session: Session) -> None:
         session.console.hold([BEN])
         await session.settle()
-        assert "my [foot] (! holds it too" in session.text()
+        assert "(! holds it too, once more releases) by ben" in session.text()
         await session.press(STOP)
-        assert held_by(session) == ["b", "ours"] and "and 1 other stop (! releases)" in session.text()
+        assert held_by(session) == ["b", "ours"] and "held (! releases)" in session.text()
         await session.press(STOP)
         assert isinstance(session.app.screen, ConfirmScreen) and "my [foot]" in session.text()
         await session.press("n")
@@ -41,6 +41,31 @@ def test_a_robot_that_somebody_else_holds_is_held_by_us_first_then_asked_about()
         assert held_by(session) == [] and session.console.asked[-1] == ("release", "b")
 
     run(live(), play, (120, 40))
+
+
+def test_stop_pressed_in_the_question_holds_and_asks_no_second_time() -> None:
+    async def play(session: Session) -> None:
+        session.console.hold([BEN])
+        await session.press(STOP, STOP, STOP, STOP)
+        assert held_by(session) == ["b", "ours"]
+        assert len(session.app.screen_stack) == 2
+        await session.press("n")
+        assert len(session.app.screen_stack) == 1 and held_by(session) == ["b", "ours"]
+
+    run(live(), play)
+
+
+def test_the_question_closes_when_others_have_released_what_it_is_about() -> None:
+    async def play(session: Session) -> None:
+        session.console.hold([BEN])
+        await session.press(STOP, STOP)
+        session.console.hold([each for each in session.console.current.drive.stops if each.here])
+        session.app.pull()
+        await session.settle()
+        assert len(session.app.screen_stack) == 1 and "have been released" in session.text()
+        assert held_by(session) == ["ours"]
+
+    run(live(), play)
 
 
 def test_a_stop_that_comes_while_the_question_is_open_is_not_released_by_its_yes() -> None:

@@ -48,7 +48,7 @@ def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
         return ((" STANDS ", "warn"), (" enter steers on, ! hands it back to its program", ""))
     if drive.stopped:
         key = "! lets it go" if drive.stopped_here else "! holds it too, once more lets it go"
-        return ((" ALL STOP ", "error"), (f" the robot is held{held_by(drive)}; {key}", ""))
+        return ((" ALL STOP ", "error"), (f" {key}: held{held_by(drive)}", ""))
     if state.armed:
         return ((" ● ARMED ", "warn"), (f" keys drive, h hands back  {topic}", "dim"))
     return ((" ○ disarmed ", "dim"), (" enter arms  " if width >= 34 else " ", "strong"), (topic, "dim"))

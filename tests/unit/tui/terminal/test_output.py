@@ -150,6 +150,21 @@ def test_a_screen_over_the_panes_comes_and_goes() -> None:
     run(script)
 
 
+@pytest.mark.parametrize("screens", [1, 2, 3])
+def test_panes_go_on_below_screens_that_lie_over_each_other(screens: int) -> None:
+    async def script(app: Panes, pilot: Pilot[None]) -> None:
+        for _ in range(screens):
+            await app.push_screen(Over())
+            await pilot.pause()
+        for number in range(3):
+            app.screen_stack[0].query_one("#left", Static).update(f"\nnumber {number}", layout=False)
+            await pilot.pause()
+            await pilot.pause()
+            assert f"number {number}" in "".join(app.terminal.lines())
+
+    run(script)
+
+
 def test_a_new_size_is_drawn_whole() -> None:
     async def script(app: Panes, pilot: Pilot[None]) -> None:
         for width, height in ((20, 5), (60, 12), (1, 1), (WIDTH, HEIGHT)):
