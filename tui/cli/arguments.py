@@ -165,6 +165,11 @@ def _profile_and_pairs(parser: argparse.ArgumentParser, given: argparse.Namespac
     if len(profiles) > 1:
         parser.error(f"one profile at a time, not {', '.join(profiles)}")
     if profiles and given.launch:
+        if profiles[0] not in known:
+            parser.error(
+                f"--launch takes the path of a launch file, and {profiles[0]} is no argument NAME:=VALUE of it; one "
+                "of a package is started by `bot-console launch`, or after : in the console"
+            )
         parser.error("a launch file brings its own settings: give either a profile or --launch")
     if profiles and profiles[0] not in known:
         parser.error(f"there is no profile and no command '{profiles[0]}'; profiles: {', '.join(known)}")

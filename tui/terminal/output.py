@@ -213,9 +213,11 @@ class HoldingScreen(Screen[None]):
 
     def _pass_on(self) -> None:
         # Textual tells the foremost screen what has changed below it; those between keep what they have drawn of it.
+        compositor: Any = self._compositor
+        dirty = compositor._dirty_regions
         between = self.app.screen_stack  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- as above
         for each in between[between.index(self) + 1 : -1]:
-            each._set_dirty(*self._compositor._dirty_regions)
+            each._set_dirty(*dirty)
 
 
 def _lines(update: ChopsUpdate | LayoutUpdate) -> dict[int, Mapping[int, Strip | None]]:

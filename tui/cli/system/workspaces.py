@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from bot_console.runtime.workspace.choices import launch_file_paths
+from bot_console.runtime.workspace.demos import is_demo
 from bot_console.runtime.workspace.discover import Workspace, default_folders, use, workspace
 from bot_console.runtime.workspace.own import FIRST_VARIABLE, NAME, PAGE_NAME, ROOT, is_own
 
@@ -50,5 +51,7 @@ def config_folders() -> tuple[Path, ...]:
 
 
 def launch_files() -> tuple[str, ...]:
-    """The launch files of all packages of the workspace."""
-    return tuple(str(path) for name in workspace().packages for path in launch_file_paths(name))
+    """The launch files of all packages of the workspace, those of the user's own packages first."""
+    packages = workspace().packages
+    names = sorted(packages, key=lambda name: is_own(packages[name]) or is_demo(packages[name]))
+    return tuple(str(path) for name in names for path in launch_file_paths(name))

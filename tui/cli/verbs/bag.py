@@ -55,13 +55,13 @@ def _parser() -> argparse.ArgumentParser:
     record.add_argument("-a", "--all", action="store_true", help="all topics, also those that come later")
     record.add_argument("-e", "--regex", default="", help="topics whose names have it")
     record.add_argument("-x", "--exclude-regex", default="", help="but for those whose names have this")
-    record.add_argument("-o", "--output", type=Path, metavar="FOLDER", help="else rosbag2_ and the time")
+    record.add_argument("-o", "--output", type=_named, metavar="FOLDER", help="else rosbag2_ and the time")
     record.add_argument("--duration", type=float, metavar="S", help="end after so many seconds")
     record.add_argument("--snapshot-mode", action="store_true", help="keep in memory; `bag snapshot` writes it")
     record.add_argument("--snapshot-duration", type=float, default=300.0, metavar="S", help="how much to keep (300)")
     play = verbs.add_parser("play", help="publish what is in a bag")
     play.set_defaults(run=_play)
-    play.add_argument("bag", type=Path)
+    play.add_argument("bag", type=_named)
     play.add_argument("-r", "--rate", type=_positive, default=1.0, help="how fast; 2 is twice as fast as it was")
     play.add_argument("-l", "--loop", action="store_true", help="begin again at the end")
     play.add_argument("--topics", nargs="+", metavar="TOPIC", help="only these")
@@ -70,13 +70,19 @@ def _parser() -> argparse.ArgumentParser:
     play.add_argument("--clock", nargs="?", type=_positive, const=40.0, default=0.0, help="publish /clock (40 Hz)")
     info = verbs.add_parser("info", help="what is in a bag")
     info.set_defaults(run=_info)
-    info.add_argument("bag", type=Path)
+    info.add_argument("bag", type=_named)
     opened = verbs.add_parser("open", help="show what is in a bag in the console, and move through its time")
     opened.set_defaults(run=_open)
-    opened.add_argument("bag", type=Path)
+    opened.add_argument("bag", type=_named)
     snapshot = verbs.add_parser("snapshot", help="let a recorder in snapshot mode write what it keeps")
     snapshot.set_defaults(run=_snapshot)
     return parser
+
+
+def _named(text: str) -> Path:
+    if not text:
+        raise argparse.ArgumentTypeError("the name of the bag is empty")
+    return Path(text)
 
 
 def _positive(text: str) -> float:

@@ -6,7 +6,6 @@ import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from bot_console.tui.console.answer import Answer
@@ -19,6 +18,7 @@ from bot_console.tui.console.launch.process_output import Add, ProcessOutput
 from bot_console.tui.console.launch.restart import Recipe, recipe
 from bot_console.tui.console.launch.run import LaunchRun, Listener
 from bot_console.tui.console.launch.timeline import LaunchTimeline
+from bot_console.tui.console.launch.title import title_of, unused
 from bot_console.tui.console.launch.vitals import HANGS, FindVitals, Usage, Vitals
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo, ProcessState, Severity
 
@@ -158,9 +158,8 @@ class RosLauncher(AskedForProcesses):
             self._problem = ""
             words = "".join(f" {name}:={value}" for name, value in given.items())
             self._tell(f"launch {path}{words}")
-            name = Path(path).name
-            again = sum(Path(each).name == name for each in self._files)
-            run = LaunchRun(name if again == 1 else f"{name} ({again})", self._listener)
+            shown = {each.title for each in self._runs} | {each.run.title for each in self._held.values()}
+            run = LaunchRun(unused(title_of(path, given), shown), self._listener)
             run.path = path
             self._unanswered[run] = outcome
             self._begin(run, lambda: run.run_file(path, given))

@@ -70,6 +70,12 @@ def test_an_empty_name_is_no_launch_file(capsys: pytest.CaptureFixture[str]) -> 
     assert "--launch: give the name of a launch file" in capsys.readouterr().err
 
 
+def test_a_second_word_behind_launch_is_told_what_it_is_not(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        parse(["--launch", "my_package", "both.launch.py"])
+    assert "--launch takes the path of a launch file" in capsys.readouterr().err
+
+
 def test_an_empty_name_is_no_profile(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         parse(["--profile", ""])
@@ -92,3 +98,10 @@ def test_a_system_without_terminals_of_this_kind_is_told_where_the_console_runs(
         "the console needs a terminal of Linux or macOS: on Windows start it in WSL, "
         "or use `bot-console --headless` and the verbs of ros2\n"
     )
+
+
+@pytest.mark.parametrize("words", [["info", ""], ["play", ""], ["open", ""], ["record", "-o", "", "-a"]])
+def test_an_empty_name_is_no_bag(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["bag", *words])
+    assert ended.value.code == 2 and "the name of the bag is empty" in capsys.readouterr().err

@@ -26,3 +26,12 @@ def test_for_another_name_no_folder_is_searched(named, monkeypatch):
 
     monkeypatch.setattr(workspaces, "workspace", Unsearched)
     workspaces.tell_whose(named)
+
+
+def test_launch_files_of_ones_own_packages_stand_before_those_that_come_along(monkeypatch):
+    packages = {"demo": "tutorials", "mine": "mine", NAME: "ours"}
+    monkeypatch.setattr(workspaces, "workspace", lambda: SimpleNamespace(packages=packages))
+    monkeypatch.setattr(workspaces, "is_own", "ours".__eq__)
+    monkeypatch.setattr(workspaces, "is_demo", "tutorials".__eq__)
+    monkeypatch.setattr(workspaces, "launch_file_paths", lambda name: [f"{name}.launch.py"])
+    assert workspaces.launch_files() == ("mine.launch.py", "demo.launch.py", f"{NAME}.launch.py")

@@ -211,6 +211,13 @@ def test_two_launch_files_at_once_and_one_of_them_twice(bench):
     assert [each.state for each in bench.info.processes[1:]] == [ProcessState.RUNNING] * 2
 
 
+def test_a_launch_that_came_to_nothing_takes_no_number(bench):
+    bench.file("[1 / 0]", "a.launch.py")
+    assert not bench.launcher.launch(str(bench.folder / "a.launch.py"), {}).result(PATIENCE).ok
+    bench.run(f"[Node(executable={bench.program(WAITS)!r}, name='a')]", "a.launch.py")
+    assert [each.group for each in bench.info.processes] == [("a.launch.py",)]
+
+
 SYNTAX = "def generate_launch_description(:\n    pass\n"
 RAISES = "def generate_launch_description():\n    return 1 / 0\n"
 NOTHING = "x = 1\n"

@@ -1,0 +1,23 @@
+"""What a launch goes by: its file, or the one program that a person has named."""
+
+import pytest
+from bot_console.tui.console.launch.title import title_of, unused
+
+
+@pytest.mark.parametrize(
+    ("path", "arguments", "title"),
+    [
+        ("/a/robot.launch.py", {"program": "talker"}, "robot.launch.py"),
+        ("/a/program.launch.py", {"program": "talker", "package": "mine"}, "talker"),
+        ("/a/program.launch.py", {"program": "/home/me/node.py"}, "node.py"),
+        ("/a/program.launch.py", {}, "program.launch.py"),
+    ],
+)
+def test_the_title_is_what_a_person_has_named(path, arguments, title):
+    assert title_of(path, arguments) == title
+
+
+def test_a_number_tells_two_apart_and_one_that_is_free_is_taken_again():
+    assert unused("a", ()) == "a"
+    assert unused("a", {"a", "a (2)"}) == "a (3)"
+    assert unused("a", {"b", "a (2)"}) == "a"

@@ -1,0 +1,21 @@
+"""What a launch goes by in the list of processes."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from itertools import count
+from pathlib import Path
+
+PROGRAM = "program.launch.py"
+"""The launch file that runs one program, which `ros2 run` does; a person has named that program, not this file."""
+
+
+def title_of(path: str, arguments: Mapping[str, str]) -> str:
+    """The name of a launch file, or of the program that it is there for."""
+    name = Path(path).name
+    return Path(arguments.get("program", name)).name if name == PROGRAM else name
+
+
+def unused(title: str, used: Collection[str]) -> str:
+    """A title, with a number where another launch that is shown has it."""
+    return next(each for number in count(1) if (each := title if number == 1 else f"{title} ({number})") not in used)
