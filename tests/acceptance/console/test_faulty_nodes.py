@@ -6,6 +6,7 @@ One launch host with our robot system and a good node for all tests of this file
 from __future__ import annotations
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -110,6 +111,7 @@ def system(tmp_path_factory: pytest.TempPathFactory) -> Iterator[System]:
         yield made
         launcher.close()
         host.end()
+        shutil.rmtree(os.environ["BOT_CONSOLE_SOCKET_DIR"])
 
 
 @pytest.fixture(autouse=True)

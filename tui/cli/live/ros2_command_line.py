@@ -68,7 +68,7 @@ class Ros2CommandLine:
         answer = self._launcher.launch(wanted.file, wanted.arguments).result(STARTING)
         if not answer.ok:
             raise ValueError(answer.text)
-        return f"{wanted.name} runs: it stands in the Launch pane, which ends it"
+        return f"{wanted.name} runs, and stands in the Launch pane: x ends it there"
 
 
 class _Names:

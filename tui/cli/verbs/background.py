@@ -85,7 +85,9 @@ def up(words: Sequence[str]) -> int:
         process = subprocess.Popen(
             line, stdin=subprocess.DEVNULL, stdout=output, stderr=output, start_new_session=True, close_fds=True
         )
-    started = Background(process.pid, tuple(words), str(log), _open_way_in(serving, log) if serving else 0)
+    # A file of its own, which goes with the log: the system's takes turns, and would leave the router in an old one.
+    router_log = log.with_name(f"{log.name}.router")
+    started = Background(process.pid, tuple(words), str(log), _open_way_in(serving, router_log) if serving else 0)
     save_file(_file(), json.dumps(asdict(started)))
     deadline = time.monotonic() + STARTING
     is_up = partial(_runs, process.pid) if options.launch else robot_there
@@ -99,7 +101,7 @@ def up(words: Sequence[str]) -> int:
     print(f"running in ROS domain {domain()}: {started.told()}")
     print("bot-console attach shows it, bot-console down ends it")
     if serving and not _is_program(started.way_in, b"router"):
-        print(f"other machines are not let in; why is at the end of {log}", file=sys.stderr)
+        print(f"other machines are not let in; why is at the end of {router_log}", file=sys.stderr)
         return 1
     return 0
 

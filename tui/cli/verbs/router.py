@@ -42,7 +42,8 @@ def run(words: Sequence[str]) -> int:
     for each in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(each, end)
     what = "the programs of this ROS domain are reached" if given.mesh else "a router for nodes of rmw_zenoh"
-    print(f"{what} at {', '.join(serving.endpoints)}; Ctrl-C ends it", flush=True)
+    how = "; Ctrl-C ends it" if sys.stdin.isatty() else ""  # `up --serve` has none
+    print(f"{what} at {', '.join(serving.endpoints)}{how}", flush=True)
     over.wait()
     session.close()
     return 0

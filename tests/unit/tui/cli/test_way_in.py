@@ -1,0 +1,31 @@
+"""`up --serve`: the router that lets others in keeps a log of its own, which goes when the system's goes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+from bot_console.tui.cli.system import system_log
+from bot_console.tui.cli.verbs import background
+
+
+def test_the_router_writes_into_no_log_that_takes_turns(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    there = iter([[], ["/simulator"]])
+    written: dict[str, Path] = {}
+
+    def start(words: list[str], *, stdout, **_: object) -> SimpleNamespace:
+        written["router" if "router" in words else "system"] = Path(stdout.name)
+        return SimpleNamespace(pid=1, poll=lambda: None)
+
+    monkeypatch.setattr(background, "take_part", lambda: "")
+    monkeypatch.setattr(background, "_known", lambda: None)
+    monkeypatch.setattr(background, "robot_there", lambda: next(there))
+    monkeypatch.setattr(background, "_is_program", lambda pid, word: False)
+    monkeypatch.setattr(background.subprocess, "Popen", start)
+    monkeypatch.setattr(system_log, "state_folder", lambda: tmp_path)
+    assert background.up(["--serve", "tcp/127.0.0.1:7447"]) == 1
+    assert written["router"] in system_log.parts(written["system"])
+    assert str(written["router"]) in capsys.readouterr().err
