@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
+from bot_console.tui.arrangement.early_keys import panes_needed
 from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.screens.door import prepare
 from bot_console.tui.widgets.coming_pane import ComingPane
 from bot_console.tui.widgets.key_bar import KeyBar
 from bot_console.tui.widgets.pane_area import PaneArea
+from textual import events
 from textual.app import App
 from textual.widget import MountError
 
 if TYPE_CHECKING:
     from bot_console.tui.console.protocol import CommandLine, Console, Launcher
     from bot_console.tui.crew import Crew
-    from bot_console.tui.keys.keyboard import Keyboard
+    from bot_console.tui.keys.keyboard import Keyboard, Typed
     from bot_console.tui.panes.pane import Pane
 
 COMING_STATUS = "coming-status"
@@ -41,7 +43,8 @@ class System(NamedTuple):
 class ArrivingApp(App[None]):
     """An app whose first frame is seen before there is a console.
 
-    It brings one part after the other, and in between deals with what it was sent: with a stop before all else.
+    It brings one part after the other, and in between deals with what it was sent: with a stop before all else, with
+    the keys for what is seen as soon as that stands, and with the others when all does.
     """
 
     crew: Crew
@@ -99,8 +102,8 @@ class ArrivingApp(App[None]):
         places = {each for each, _, _ in self.stage.at_first(self.size)}
         seen = [each for each in ORDERED if each.id in places]
         self._steps += [partial(self._import_pane, each) for each in seen]
-        self._steps.append(partial(self._bring_seen, seen))
-        self._steps += [partial(self._bring_hidden, each) for each in ORDERED if each not in seen]
+        hidden = deque(each for each in ORDERED if each not in seen)
+        self._steps += [partial(self._bring_seen, seen), *[partial(self._bring_hidden, hidden)] * len(hidden)]
         self._steps.append(self._complete)
 
     async def _import_pane(self, entry: PaneEntry) -> None:
@@ -118,11 +121,29 @@ class ArrivingApp(App[None]):
             each.display = False
         self.panes_changed()
         await coming.remove()
+        await self._keyboard.hold(self._may_act)
 
-    async def _bring_hidden(self, entry: PaneEntry) -> None:
+    async def _bring_hidden(self, hidden: deque[PaneEntry]) -> None:
+        """Bring one of the panes that are not seen: first one that a key waits for."""
+        wanted = self._awaited()
+        entry = next((each for each in hidden if each.id in wanted), hidden[0])
+        hidden.remove(entry)
         area = self.screen_stack[0].query_one(PaneArea)
         behind = {each.id for each in ORDERED[ORDERED.index(entry) + 1 :]}
         await area.mount(self._made(entry), before=next((each for each in area.children if each.id in behind), None))
+        self.stage.look_again()
+        await self._keyboard.hold(self._may_act)
+
+    def _awaited(self) -> Sequence[str]:
+        key = self._keyboard.next
+        return self._needed(key) or () if key is not None else ()
+
+    def _may_act(self, key: Typed) -> bool:
+        wanted = () if self.is_stop(key) else self._needed(key)
+        return wanted is not None and {*wanted} <= {each.id for each in self.stage.panes()}
+
+    def _needed(self, key: Typed) -> Sequence[str] | None:
+        return panes_needed(self, self.stage, key.key) if isinstance(key, events.Key) else None
 
     async def _complete(self) -> None:
         self.panes_changed()

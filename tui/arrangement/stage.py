@@ -118,9 +118,18 @@ class Stage:
         self._extent = size
         self.lay_out()
 
+    def look_again(self) -> None:
+        """A pane has come that is not seen."""
+        self._panes = []
+
+    def seen_with(self, name: str) -> Sequence[str]:
+        """The panes, by their ids, that are seen once a pane, or the layout, is chosen."""
+        tree = self._tree() if name == OVERVIEW else None
+        return panes(tree or (self._focused if name == OVERVIEW else name))
+
     def changed(self) -> None:
         """A pane stands where another was, or one has come."""
-        self._panes = []
+        self.look_again()
         self.lay_out()
 
     def go(self, name: str) -> None:

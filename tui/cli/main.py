@@ -43,9 +43,12 @@ def main(argv: Sequence[str] | None = None) -> int:
         return run(options)
     if not _has_screen():
         return 1
-    from bot_console.tui.cli.show import run as show
+    from bot_console.tui.cli.interpreter import without_collector
 
-    return show(options)
+    with without_collector():
+        from bot_console.tui.cli.show import run as show
+
+        return show(options)
 
 
 def program() -> NoReturn:
@@ -70,8 +73,10 @@ def _attach(words: Words) -> int:
     if not _has_screen():
         return 1
     from bot_console.tui.cli.attach import run
+    from bot_console.tui.cli.interpreter import without_collector
 
-    return run(words)
+    with without_collector():
+        return run(words)
 
 
 def _run(words: Words) -> int:

@@ -51,6 +51,11 @@ class Keyboard:
         """Whether what a key brings about is still under way."""
         return bool(self._under_way)
 
+    @property
+    def next(self) -> Typed | None:
+        """What is dealt with next, where that was held up."""
+        return self._waiting[0] if self._waiting else None
+
     def overtake(self, event: events.Key) -> None:
         """Note a key that does not wait for those before it."""
         self._overtaken = event.time

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable
+from typing import cast
 
 import pytest
 from bot_console.tui.app import BotConsoleApp
@@ -14,14 +15,17 @@ from bot_console.tui.panes.plot.pane import PlotPane
 from bot_console.tui.screens.picker import PickerScreen
 from bot_console.tui.widgets.coming_pane import ComingPane
 from bot_console.tui.widgets.command_line import CommandField
+from bot_console.tui.widgets.row_list import RowList
 from fakes.command_line import FakeCommandLine
 from piloting import Session, run
 from rest import at_rest
 from samples import live
 from textual import events
+from textual.widget import Widget
 from textual.widgets import Input
 
 SIZE = (120, 40)
+NAMES = {"!": "exclamation_mark", ":": "colon", "?": "question_mark"}
 
 
 def arrive(typed: str, play: Callable[[Session], Awaitable[None]]) -> None:
@@ -33,7 +37,7 @@ def arrive(typed: str, play: Callable[[Session], Awaitable[None]]) -> None:
         def reach() -> System:
             assert app.query(ComingPane) and not app.query("Pane")
             for letter in typed:
-                app.post_message(events.Key({"!": "exclamation_mark", ":": "colon"}.get(letter, letter), letter))
+                app.post_message(events.Key(NAMES.get(letter, letter), letter))
             return System(console, launcher, FakeCommandLine(console.asked))
 
         app = BotConsoleApp(reach=reach, refresh_hz=0)
@@ -119,6 +123,38 @@ def test_a_stop_typed_first_waits_for_no_pane(monkeypatch: pytest.MonkeyPatch) -
         assert session.app.current_pane is not None and session.app.current_pane.id == "launch"
 
     arrive("!8", play)
+
+
+@pytest.mark.parametrize(
+    ("key", "action", "hidden"),
+    [("?", "help", 0), ("j", "", 1), ("2", "pane", 0), ("6", "pane", 1), ("I", "pane", 1), (":", "command_line", None)],
+)
+def test_a_key_waits_for_no_pane_but_those_that_it_is_for(
+    key: str, action: str, hidden: int | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    there: list[int] = []
+    owner, name = (BotConsoleApp, f"action_{action}") if action else (RowList, "action_cursor")
+    act = getattr(owner, name)
+
+    def noted(self: Widget, *given: object) -> object:
+        there.append(len(app_of(self).query("Pane")))
+        return act(self, *given)
+
+    monkeypatch.setattr(owner, name, noted)
+
+    async def play(session: Session) -> None:
+        seen = sum(entry.overview == 1 for entry in ORDERED)
+        least, most = (len(ORDERED),) * 2 if hidden is None else (seen, seen + hidden)
+        assert len(there) == 1 and least <= there[0] <= most  # a pane is given the keyboard a moment after it stands
+        assert [each.id for each in session.app.panes()] == [each.id for each in ORDERED]
+        if key in ("6", "I"):
+            assert session.app.current_pane is not None and session.app.current_pane.display
+
+    arrive(key, play)
+
+
+def app_of(node: Widget | BotConsoleApp) -> BotConsoleApp:
+    return node if isinstance(node, BotConsoleApp) else cast(BotConsoleApp, node.app)
 
 
 def test_a_pane_that_cannot_be_made_takes_no_other_with_it(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.cli.arguments import Options
+from bot_console.tui.cli.interpreter import collect_from_now_on, eager_switching
 from bot_console.tui.cli.live.descriptors import own_terminal
 from bot_console.tui.cli.live.ending_signals import ended_by_signals, hangup_as_signal
 from bot_console.tui.cli.live.for_panes import for_panes
@@ -51,7 +52,12 @@ class AttachedSession:
 
     def run(self) -> int:
         """Show the console until it is quit. A robot that it steers is left standing; all else goes on."""
-        with own_terminal(self._console.printed) as self._has_begun, ended_by_signals(self._end), hangup_as_signal():
+        with (
+            own_terminal(self._console.printed) as self._has_begun,
+            ended_by_signals(self._end),
+            hangup_as_signal(),
+            eager_switching(),
+        ):
             try:
                 self.app.run()
             finally:
@@ -63,6 +69,7 @@ class AttachedSession:
     def _on_first_frame(self) -> None:
         self._has_begun()
         self._first_frame()
+        collect_from_now_on()
         self._console.start()
         threading.Thread(target=self._tell, name="start", daemon=True).start()
 

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import contextlib
-import gc
 import signal
-import sys
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.cli.interpreter import collect_from_now_on, eager_switching
 from bot_console.tui.cli.live.descriptors import own_terminal
 from bot_console.tui.cli.live.ending_signals import ended_by_signals, hangup_as_signal
 from bot_console.tui.cli.look import look_of
@@ -23,9 +21,6 @@ if TYPE_CHECKING:
     from bot_console.tui.cli.system.connected import Connected
     from bot_console.tui.console.connection.ros_console import RosConsole
     from bot_console.tui.pane_table import PaneEntry
-
-SWITCH_INTERVAL = 0.0005
-"""Seconds after which a busy node must let the screen's thread run; Python's 5 ms make keys feel slow."""
 
 
 class Session:
@@ -41,7 +36,7 @@ class Session:
         self.app = BotConsoleApp(
             reach=self._reach,
             opening=replace(options.opening, notes=(*options.opening.notes, *look.notes)),
-            on_first_frame=gc.freeze,  # what was imported stays; to look it through again would hold the screen up
+            on_first_frame=collect_from_now_on,
             look=look,
             plugins=self._plugins,
         )
@@ -87,7 +82,7 @@ class Session:
             own_terminal(self._printed) as self._has_begun,
             ended_by_signals(self._end),
             hangup_as_signal(),
-            _eager_switching(),
+            eager_switching(),
         ):
             try:
                 self.app.run()
@@ -112,13 +107,3 @@ class Session:
         if not self._closed and self._is_connected():
             self.connected.close()
         self._closed = True
-
-
-@contextlib.contextmanager
-def _eager_switching() -> Generator[None]:
-    before = sys.getswitchinterval()
-    sys.setswitchinterval(SWITCH_INTERVAL)
-    try:
-        yield
-    finally:
-        sys.setswitchinterval(before)

@@ -1,0 +1,36 @@
+"""Which keys need not wait until all panes are there: those whose effect is on what is seen already."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from bot_console.tui.keymap import TABLE
+
+if TYPE_CHECKING:
+    from bot_console.tui.arrangement.stage import Stage
+    from textual.app import App
+
+AT_ONCE = {
+    *("app.help", "app.stop", "app.quit", "app.quit_now", "app.acknowledge", "app.theme", "app.glyphs", "app.redraw"),
+    *(each.id for scope in ("list", "overlay", "box", "help") for each in TABLE[scope]),
+}
+"""What acts on one pane that has the keyboard, on what lies over the panes, or on the app as a whole; by their ids.
+
+All else may name a pane that is not there yet: a curve goes to the plot, a line to whatever it says.
+"""
+NEXT = ("app.next", "app.previous")
+PANE = "pane('"
+
+
+def panes_needed(app: App[None], stage: Stage, key: str) -> Sequence[str] | None:
+    """The panes without which a key must not be dealt with, by their ids; None where that is all of them."""
+    active = app.screen.active_bindings.get(key)
+    if active is None:
+        return None
+    id, action = active.binding.id or "", active.binding.action
+    if id in AT_ONCE or (id in NEXT and len(stage.visible()) > 1):
+        return ()
+    if active.node is app and action.startswith(PANE):
+        return stage.seen_with(action.removeprefix(PANE).removesuffix("')"))
+    return None
