@@ -6,7 +6,6 @@ that finds it half gone writes a panic behind what the program has said last.
 
 from __future__ import annotations
 
-import atexit
 import contextlib
 import os
 import signal
@@ -15,8 +14,7 @@ import threading
 from collections.abc import Callable
 from typing import NoReturn
 
-FLUSH_FAILED = 120
-"""Exit code of the interpreter where its last output could not be written."""
+from ..ending import exit_functions_run
 
 
 def run_to_end(program: Callable[[], object]) -> NoReturn:
@@ -24,12 +22,7 @@ def run_to_end(program: Callable[[], object]) -> NoReturn:
     code = _run(program)
     with contextlib.suppress(KeyboardInterrupt):
         threading._shutdown()  # pyright: ignore[reportAttributeAccessIssue, reportUnknownMemberType]  # waits for threads and executors
-    atexit._run_exitfuncs()  # pyright: ignore[reportPrivateUsage]  # the only way before os._exit
-    for stream in (sys.stdout, sys.stderr):
-        try:
-            stream.flush()
-        except (AttributeError, OSError, ValueError):  # None, a reader that has gone, closed
-            code = code if stream is None or getattr(stream, "closed", False) else FLUSH_FAILED
+    code = exit_functions_run(code)
     _flush_of_c()
     if code == -signal.SIGINT:  # so that who waits for it sees by what it ended
         signal.signal(signal.SIGINT, signal.SIG_DFL)

@@ -115,14 +115,7 @@ def domain() -> int:
 def end_program(code: int) -> NoReturn:
     """End the process: at once where it has taken part, since closing waits up to 0.5 s beside a frozen process."""
     if _taking_part:
-        import atexit
+        from bot_console.runtime.process.ending import exit_functions_run
 
-        # Its sockets and temporary folders go, as they do at any other end.
-        atexit._run_exitfuncs()  # pyright: ignore[reportPrivateUsage]  # the only way before os._exit
-        for stream in (sys.stdout, sys.stderr):
-            try:
-                stream.flush()
-            except (OSError, ValueError):  # as where the reader of a pipe has gone
-                code = code or 1
-        os._exit(code)
+        os._exit(exit_functions_run(code))  # its sockets and temporary folders go, as they do at any other end
     sys.exit(code)

@@ -1,0 +1,36 @@
+"""The last words of a process that ends without taking its interpreter apart."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+PROGRAM = """
+import atexit, os, sys
+from bot_console.runtime.process.ending import exit_functions_run
+atexit.register(lambda: print("last word", file=sys.stderr))
+print("first word")
+os._exit(exit_functions_run(3))
+"""
+
+
+def ended(output: Any) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-c", PROGRAM]
+    buffered = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
+    return subprocess.run(command, stdout=output, stderr=subprocess.PIPE, text=True, check=False, env=buffered)
+
+
+def test_exit_functions_are_called_and_what_was_printed_is_written() -> None:
+    end = ended(subprocess.PIPE)
+    assert (end.returncode, end.stdout, end.stderr) == (3, "first word\n", "last word\n")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full")
+def test_output_that_cannot_be_written_has_the_exit_code_of_the_interpreter() -> None:
+    with open("/dev/full", "w") as full:
+        assert ended(full).returncode == 120
