@@ -108,7 +108,7 @@ def convert(a: Any, b_type: type) -> Any:
 
 
 class BufferInterface:
-    """What every buffer of transforms offers; one that asks another process would be such too."""
+    """What every buffer of transforms offers: `Buffer`, and `BufferClient`, which asks another process."""
 
     def __init__(self) -> None:
         self.registration = TransformRegistration()

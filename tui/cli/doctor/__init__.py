@@ -29,6 +29,7 @@ examples:
 
 exit codes: 0 all is well enough, 1 something fails, 2 wrong usage
 """
+UPSTREAM_OPTIONS = ("--report", "-r", "--include-warnings", "-iw")
 
 
 def run(words: Sequence[str]) -> int:
@@ -57,6 +58,11 @@ def run(words: Sequence[str]) -> int:
     if given.json:
         print(json.dumps(as_json(findings), indent=2))
     return exit_code(findings)
+
+
+def run_as_ros2(words: Sequence[str]) -> int:
+    """`ros2 doctor`: what it says is always a report here, and with its warnings."""
+    return run([each for each in words if each not in UPSTREAM_OPTIONS])
 
 
 def _parser() -> argparse.ArgumentParser:

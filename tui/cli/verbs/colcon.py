@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator, Sequence
 
+from bot_console.runtime.importer import install
 from bot_console.runtime.workspace.choices import package_names
 
 SELECTING = ("--packages-select", "--packages-up-to")
@@ -12,6 +13,7 @@ SELECTING = ("--packages-select", "--packages-up-to")
 
 def run(words: Sequence[str]) -> int:
     """Print what there is to say to `colcon WORDS`."""
+    install()
     *warnings, answer = answers(words)
     for each in warnings:
         print(each, file=sys.stderr)

@@ -33,20 +33,32 @@ def main(words: Sequence[str]) -> int:
 def taking_part(words: Sequence[str]) -> int:
     """Run a command line in the domain that the environment names; what answers from files needs none."""
     problem = ""
-    if words[0] == "launch":
-        problem = take_part()
-    elif words[0] in ALONE:
+    if words[0] in ALONE:
         reach_when_asked()
     else:
         problem = reach_system()
     if problem:
         print(problem, file=sys.stderr)
         return 1
-    if words[0] == "launch":
-        from bot_console.runtime.importer import install
-        from bot_console.tui.cli.system.own_processes import isolate, watch_threads
-
-        install()
-        isolate()
-        watch_threads()
     return main(words)
+
+
+def launch(words: Sequence[str]) -> int:
+    """Run a launch file in the domain that the environment names; a user's nodes get processes of their own."""
+    from bot_console.tui.cli.system.own_processes import foresee
+
+    foresee(words)
+    from bot_console.tui.cli.system.workspaces import tell_whose
+
+    tell_whose(next((each for each in words if not each.startswith("-")), ""))
+    problem = take_part()
+    if problem:
+        print(problem, file=sys.stderr)
+        return 1
+    from bot_console.runtime.importer import install
+    from bot_console.tui.cli.system.own_processes import isolate, watch_threads
+
+    install()
+    isolate()
+    watch_threads()
+    return main(["launch", *words])

@@ -19,6 +19,16 @@ PATIENCE = 3.0
 """Seconds to find the robot and hear its answer."""
 
 
+def stop(words: list[str]) -> int:
+    """Lock every robot that is found; 0 when it has acknowledged, 1 when nothing has."""
+    return run("stop", words)
+
+
+def release(words: list[str]) -> int:
+    """Release every robot that is found; 0 when it has acknowledged, 1 when nothing has."""
+    return run("release", words)
+
+
 def run(verb: str, words: list[str]) -> int:
     """Lock or release every robot that is found; 0 when it has acknowledged, 1 when nothing has."""
     what = f"{verb.capitalize()} the robot, and wait for its word."
