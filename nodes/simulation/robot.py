@@ -45,11 +45,6 @@ class DifferentialDrive:
         self._feasible = feasible(linear, angular, self._limits)
         self._age = 0.0
 
-    @property
-    def timed_out(self) -> bool:
-        """Whether the last command is too old to be obeyed."""
-        return self._age > self._limits.command_timeout
-
     def advance(self, dt: float) -> None:
         """Let `dt` s pass: the wheels change speed towards the command as fast as they may."""
         limits, before = self._limits, self.linear

@@ -152,7 +152,7 @@ def world() -> WorldInfo:
     grid = GridMap(width, height, 0.1, Pose(), b"".join(rows))
     hits = tuple((9.8, 1.0 + 0.1 * step) for step in range(40))
     trail = tuple((2.0 + 0.1 * step, 3.0) for step in range(30))
-    return WorldInfo(grid, Pose(5.0, 3.0, 0.0), "/ground_truth", trail, hits, None, 0.98, 0.0, 4.8)
+    return WorldInfo(grid, Pose(5.0, 3.0, 0.0), trail, hits, None, 0.98, 0.0, 4.8)
 
 
 def driving() -> DriveInfo:

@@ -51,7 +51,6 @@ class Options:
     """Where else profiles are looked for."""
     simulator: bool | None = None
     """Whether the simulated robot runs beside a launch file; None: when its nodes want a robot and nobody gives one."""
-    log_to: Path | None = None
     layout: str = ""
     """The layout to begin with; empty: what the settings say."""
     theme: str = ""

@@ -29,7 +29,7 @@ _COMMANDS = {
     "lint": "lint.run:run",
     "release": "verbs.stop:release",
     "reset": "verbs.reset:run",
-    "ros2": "main:_ros2",
+    "ros2": "main:ros2_command",
     "router": "verbs.router:run",
     "run": "verbs.run:run",
     "setup": "verbs.setup:run",
@@ -123,7 +123,8 @@ def _imported(place: str) -> Callable[[Words], int]:
     return getattr(import_module(f"bot_console.tui.cli.{module}"), function)
 
 
-def _ros2(words: Words) -> int:
+def ros2_command(words: Words) -> int:
+    """`bot-console ros2 WORDS`: as `bot-console WORDS`, but for what upstream has under that name."""
     if words and words[0] in _ROS2:
         return _imported(_ROS2[words[0]])(words[1:])
     return ros2.taking_part(words) if words and words[0] in ros2.VERBS else ros2.main(words)

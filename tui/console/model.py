@@ -369,10 +369,7 @@ class Capabilities:
     launch: str = ""
     launched_elsewhere: str = ""
     world: str = ""
-    pause_time: str = ""
-    logger_levels: str = ""
     change: str = ""
-    others_refusals: str = "refusals of changes made elsewhere are not announced in ROS"
 
 
 @dataclass(frozen=True, slots=True)

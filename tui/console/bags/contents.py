@@ -134,7 +134,7 @@ class Contents:
             pose = at
             if not trail or math.dist(trail[-1], (pose.x, pose.y)) >= TRAIL_STEP:
                 trail.append((pose.x, pose.y))
-        self.world = WorldInfo(grid, pose, source if pose else "", tuple(trail[-TRAIL * 10 :]))
+        self.world = WorldInfo(grid, pose, tuple(trail[-TRAIL * 10 :]))
 
     @property
     def parameters(self) -> MappingProxyType[str, ParameterTree]:

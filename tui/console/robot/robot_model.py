@@ -63,14 +63,10 @@ class TurtleField:
 
 @dataclass(frozen=True, slots=True)
 class WorldInfo:
-    """What is known of the place: the map, the robot in it, its trail, and where the LIDAR beams end (x, y in m).
-
-    `pose_source` names the topic the pose came from, so that a pane can say ground truth from odometry.
-    """
+    """What is known of the place: the map, the robot in it, its trail, and where the LIDAR beams end (x, y in m)."""
 
     map: GridMap | None = None
     pose: Pose | None = None
-    pose_source: str = ""
     trail: tuple[tuple[float, float], ...] = ()
     hits: Sequence[tuple[float, float]] = ()
     goal: tuple[float, float] | None = None

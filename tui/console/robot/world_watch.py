@@ -124,11 +124,9 @@ class WorldWatch:
             pose = pose_of(odometry.pose.pose)
             speed, turn = odometry.twist.twist.linear.x, odometry.twist.twist.angular.z
         ends = BeamEnds(scan, pose) if scan else None
-        source = self._subscriptions.get("nav_msgs/msg/Odometry")
         return WorldInfo(
             self._map,
             pose,
-            source.topic_name if source and pose else "",
             tuple(self._trail),
             ends or (),
             None,
