@@ -9,6 +9,7 @@ from bot_console.tui import keymap
 from bot_console.tui.keymap import TABLE
 from bot_console.tui.keys.key import Key, key_text
 from bot_console.tui.screens.overlay import Overlay
+from bot_console.tui.text.rendered_once import RenderedOnce
 from rich.console import RenderableType
 from rich.style import Style
 from rich.table import Table
@@ -48,11 +49,11 @@ class HelpScreen(Overlay):
             self.app.call_later(self.app.simulate_key, key)  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic, and its type is not told
 
 
-def _keys(rows: tuple[Key, ...]) -> Table:
+def _keys(rows: tuple[Key, ...]) -> RenderedOnce:
     table = Table.grid(padding=(0, 2))
     table.add_column(style="bold", justify="right", min_width=12)
     table.add_column()
     for key in rows:
         pressed = Style(meta={KEY: key.keys.split(",")[0]})
         table.add_row(Text(key_text(key), pressed), Text(key.text, pressed))
-    return table
+    return RenderedOnce(table)
