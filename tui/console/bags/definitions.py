@@ -42,15 +42,19 @@ def _needed(kind: Any, found: dict[str, Any]) -> Iterator[tuple[str, Any]]:
     for text in kind.get_fields_and_field_types().values():
         name = _element(text)
         if "/" in name and name not in found:
-            found[name] = _class(name)
+            found[name] = _class(name, kind)
             yield name, found[name]
             yield from _needed(found[name], found)
 
 
-def _class(name: str) -> Any:
+def _class(name: str, user: Any) -> Any:
+    """The class of a field's type, which stands beside the class that has the field where both are of an action."""
     import importlib
 
     package, _, message = name.partition("/")
+    beside = getattr(importlib.import_module(user.__module__), message, None)
+    if beside is not None and beside.__module__.startswith(f"{package}."):
+        return beside
     return getattr(importlib.import_module(f"{package}.msg"), message)
 
 

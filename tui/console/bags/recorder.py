@@ -94,13 +94,13 @@ class Recorder:
         if len(types) != 1:
             self.unknown[name] = f"it has several types: {', '.join(types)}"
             return
+        offers = self._node.get_publishers_info_by_topic(name)
         try:
             kind = self._find(types[0])
-        except (ImportError, AttributeError, ValueError) as error:
+            self._sink.topic(name, kind, noted(each.qos_profile for each in offers), _hash(offers))
+        except (ImportError, AttributeError, ValueError) as error:  # of it, or of what it is made of
             self.unknown[name] = f"its type {types[0]} is not here ({error})"
             return
-        offers = self._node.get_publishers_info_by_topic(name)
-        self._sink.topic(name, kind, noted(each.qos_profile for each in offers), _hash(offers))
         self.subscribed[name] = OfferedSubscription(
             self._node, kind, name, _nobody, BEST, eager=False, once_weak=True, raw=True
         )

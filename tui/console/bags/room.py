@@ -65,7 +65,7 @@ class Recordings:
     def stop(self) -> Future[Answer]:
         """End the bag."""
         if self._thread is None:
-            return done(Answer(False, "nothing is being recorded"))
+            return done(Answer(False, self._tape.problem or "nothing is being recorded"))
 
         def end() -> Answer:
             try:
@@ -126,11 +126,20 @@ class Recordings:
             if recorder is not None:
                 recorder.close()
             self._tape.end()
+        except Exception as error:  # the border of the thread: the bag ends here, the next one has a thread of its own
+            self._tape.fail(f"recording ended by a fault: {type(error).__name__}: {error}")
         finally:
-            self._closing.set()
-            self._obey()
             node.destroy_node()
             context.try_shutdown()
+            self._ended()
+
+    def _ended(self) -> None:
+        with self._lock:
+            self._thread = None
+        if self._closing.is_set():
+            self._obey()
+        elif not self._orders.empty():
+            self._run()
 
     def _obey(self) -> None:
         while True:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from typing import Any
 
 from bot_console.tui.console.bags.recorder import Ring, Sink
 from bot_console.tui.console.bags.writer import BagWriter
+from bot_console.tui.files.save_file import NotSaved
 
 LOG = "/rosout"
 """A latching topic whose last message is no state: a line of the log."""
@@ -61,11 +63,17 @@ class BagTape(Tape):
             writer.close()
         return writer
 
+    def fail(self, problem: str) -> None:
+        """Finish the bag as far as it has come, and say why."""
+        with suppress(OSError, NotSaved):
+            self.end()
+        self.problem = problem
+
     def topic(self, name: str, kind: Any, qos: list[dict[str, Any]], type_hash: str = "") -> None:
         """Begin a topic."""
-        super().topic(name, kind, qos, type_hash)
         if self.writer is not None:
             self.writer.topic(name, kind, qos, type_hash)
+        super().topic(name, kind, qos, type_hash)  # after it: what no bag takes is in none that follows either
 
     def write(self, topic: str, data: bytes, received: int, sent: int) -> None:
         """Add a message."""

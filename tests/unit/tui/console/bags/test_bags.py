@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 import rclpy
+from action_tutorials_interfaces.action import Fibonacci
 from bot_console.tui.console.bags.contents import Contents
 from bot_console.tui.console.bags.damage import NoBag
 from bot_console.tui.console.bags.definitions import definition, type_name
@@ -305,3 +306,9 @@ def test_offers_are_noted_and_made_again() -> None:
     both = offered(noted([weak, QoSProfile(depth=2, durability=DurabilityPolicy.TRANSIENT_LOCAL)]))
     assert both.reliability == ReliabilityPolicy.RELIABLE and both.durability == DurabilityPolicy.TRANSIENT_LOCAL
     assert offered([{"depth": "many", "history": 3}]).depth == 10
+
+
+def test_the_definition_of_an_actions_feedback_has_what_stands_beside_it() -> None:
+    text = definition(Fibonacci.Impl.FeedbackMessage)
+    assert "MSG: action_tutorials_interfaces/Fibonacci_Feedback\nint32[] partial_sequence\n" in text
+    assert "MSG: unique_identifier_msgs/UUID\nuint8[16] uuid\n" in text

@@ -100,3 +100,21 @@ def test_a_full_disk_ends_the_bag(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(tape.writer, "write", full)
     tape.write("/words", b"x", 10**9, 0)
     assert tape.writer is None and "No space left" in tape.problem and "bag" in tape.problem
+
+
+def test_a_fault_ends_one_bag_and_not_recording(
+    tmp_path: Path, node: rclpy.node.Node, room: Recordings, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(*_: object) -> None:
+        raise KeyError("a fault")
+
+    with monkeypatch.context() as patch:
+        patch.setattr("bot_console.tui.console.bags.room.Recorder", broken)
+        assert told(room.start(str(tmp_path / "first"))).ok
+        thread = room._thread
+        if thread is not None:
+            thread.join(20)
+    assert "a fault" in room.info.problem and not room.info.folder
+    assert "a fault" in told(room.stop()).text
+    assert told(room.start(str(tmp_path / "second"))).ok and not room.info.problem
+    assert told(room.stop()).ok and Bag(tmp_path / "second").files
