@@ -236,7 +236,7 @@ class ZenohBus:
         """The graph of the other processes, looked at from the first question on."""
         with self._whole_lock:
             if self._whole is None:
-                self._whole = WholeGraph(self._session, self._local.changed)
+                self._whole = WholeGraph(self._session, self._local.changed, self._watches.known)
             return self._whole
 
     def tables(self) -> Sequence[GraphTables]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
@@ -136,6 +136,8 @@ class TokenWatch(Declared):
     def __init__(self, session: Keeper, declare: Declare, seen: TokenSeen) -> None:
         super().__init__(session, declare)
         self._seen = seen
+        self._is_asked = False
+        self._gone: set[str] = set()
         self._lock = threading.RLock()
         self._there: set[str] = set()
         self._not_again: set[str] = set()
@@ -146,9 +148,31 @@ class TokenWatch(Declared):
             self._not_again.discard(key)
             if came:
                 self._there.add(key)
+                self._gone.discard(key)
             else:
                 self._there.discard(key)
+                if self._is_asked:
+                    self._gone.add(key)
             self._seen(key, came)
+
+    def begin_question(self) -> None:
+        """It is asked for what is there: from now on it is noted what goes, so that no answer brings it back."""
+        self._is_asked = True
+
+    def found(self, keys: Iterable[str]) -> None:
+        """An answer: those that were there, but for what has gone since."""
+        for key in keys:
+            with self._lock:
+                if key not in self._gone:
+                    self._not_again.discard(key)
+                    self._there.add(key)
+                    self._seen(key, True)
+
+    def end_question(self) -> None:
+        """All answers are in."""
+        with self._lock:
+            self._is_asked = False
+            self._gone.clear()
 
     def begin_again(self) -> None:
         """The links are cut: each token is to come again."""

@@ -6,6 +6,7 @@ import threading
 from collections.abc import Callable
 
 from bot_console.runtime.rmw.zenoh.declared import TokenWatch
+from bot_console.runtime.rmw.zenoh.present import Known, watch_all
 from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
 from bot_console.runtime.rmw.zenoh.wire.tokens import Kind, Token, parse_token, tokens_of
@@ -22,16 +23,18 @@ class SeenTokens:
         session: Session,
         key: str,
         *,
-        apart: bool = False,
+        known: Known | None = None,
         refused: Callable[[str], None] = lambda key: None,
     ) -> None:
-        """`apart`: as in `Session.watch_tokens`; `refused` is called with a key that came and is no token."""
+        """With `known` all that is there is seen at once; `refused` is called with a key that came and is no token."""
         self._refused = refused
         self._own = session.zid
         self._lock = threading.RLock()
         self._tokens: dict[str, Token] = {}
         self._listeners: list[Listener] = []
-        self._declared: TokenWatch = session.watch_tokens(key, self.saw, apart=apart)
+        self._declared: TokenWatch = (
+            watch_all(session, key, self.saw, known) if known else session.watch_tokens(key, self.saw)
+        )
 
     def saw(self, key: str, came: bool) -> None:
         """A token came or went; one that is no token of the format is ignored, as are those of this session."""
@@ -75,11 +78,6 @@ class SeenTokens:
         with self._lock:
             return list(self._tokens.values())
 
-    def take_waiting(self) -> None:
-        """Take at once what has come, where that is done apart."""
-        if self._declared.taking is not None:
-            self._declared.taking.take_waiting()
-
     def close(self) -> None:
         """Look no more."""
         self._declared.undeclare()
@@ -90,8 +88,9 @@ class Watches:
 
     def __init__(self, session: Session) -> None:
         self._session = session
-        self._lock = threading.Lock()
+        self._lock = threading.RLock()  # the garbage collector ends nodes in the middle of anything
         self._seen: dict[tuple[Kind, str], SeenTokens] = {}
+        self._has_forgotten = False
 
     def listen(self, kind: Kind, topic: str, listener: Listener) -> SeenTokens:
         """Tell a listener of the tokens of one kind for one topic or service."""
@@ -110,4 +109,11 @@ class Watches:
             if seen is None or not seen.forget(listener):
                 return
             del self._seen[kind, topic]
+            self._has_forgotten = True
         seen.close()
+
+    def known(self) -> list[str] | None:
+        """All tokens that were told and are there; None where that is not known, for some are looked at no more."""
+        with self._lock:
+            each_seen = None if self._has_forgotten else [*self._seen.values()]
+        return None if each_seen is None else [token.key for seen in each_seen for token in seen.tokens()]

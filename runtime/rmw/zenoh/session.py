@@ -246,16 +246,19 @@ class Session(Lifetime):
                 raise
             done()
 
-    def collect_tokens(self, key: str, timeout: float) -> list[str]:
+    def collect_tokens(self, key: str, timeout: float) -> tuple[list[str], bool]:
         """The tokens that are there now, from those who answer within `timeout` (s), and of a busy machine twice that.
 
-        Unlike `ask_tokens` it keeps no thread of Zenoh's waiting for the interpreter at each of thousands.
+        With it whether all have answered. Unlike `ask_tokens` it keeps no thread of Zenoh's waiting for the interpreter
+        at each of thousands.
         """
         import zenoh
 
         found: list[str] = []
+        answered = False
         with contextlib.suppress(zenoh.ZError):  # there are no more, or no session is open
             replies = self._zenoh.liveliness().get(key, zenoh.handlers.FifoChannel(WAITING), timeout=timeout)
+            answered = True
             until = time.monotonic() + 2 * timeout
             pause = threading.Event()
             while time.monotonic() < until:
@@ -264,7 +267,14 @@ class Session(Lifetime):
                     pause.wait(0.002)
                 elif reply.ok is not None:
                     found.append(str(reply.ok.key_expr))
-        return found
+                else:
+                    answered = False
+            answered = False
+        return found, answered
+
+    def links_directly(self) -> bool:
+        """Whether there is a link to each process itself, and no router that answers for others."""
+        return False
 
     def linked(self) -> set[str]:
         """The ids of the sessions that this one has a link to; none while it is not open."""

@@ -10,6 +10,7 @@ from bot_console.runtime.process.notices import notify
 from bot_console.runtime.rmw.endpoints import ClientEndpoint, Endpoint, GraphChanged, NodeId, ServiceEndpoint
 from bot_console.runtime.rmw.graph_tables import GraphTables
 from bot_console.runtime.rmw.zenoh.domain.attendance import await_answers
+from bot_console.runtime.rmw.zenoh.present import Known
 from bot_console.runtime.rmw.zenoh.seen import SeenTokens
 from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.runtime.rmw.zenoh.wire.attachment import gid_of
@@ -21,7 +22,8 @@ Row = NodeId | Endpoint | ServiceEndpoint | ClientEndpoint
 class WholeGraph:
     """What other processes have in the graph, in tables like those of this process."""
 
-    def __init__(self, session: Session, changed: GraphChanged) -> None:
+    def __init__(self, session: Session, changed: GraphChanged, known: Known = lambda: None) -> None:
+        """`known` gives what other watches of the session have seen."""
         self._changed = changed
         self.tables = GraphTables(threading.RLock())
         self._rows: dict[str, Row] = {}  # by the key of the token; tokens come one after the other
@@ -33,12 +35,8 @@ class WholeGraph:
                 notify(current(), f"process {each.pid} is stopped, so its nodes are not seen: `kill -CONT {each.pid}`")
         key = all_tokens(session.domain)
         self._process, self._has_refused = current(), False
-        self._seen = SeenTokens(session, key, apart=True, refused=self._refused)
+        self._seen = SeenTokens(session, key, known=known, refused=self._refused)
         self._seen.listen(self._saw)
-        # Watching brings what is there some time; only a question says when all of it has come.
-        for found in session.collect_tokens(key, session.patience):
-            self._seen.saw(found, True)
-        self._seen.take_waiting()  # a router shows what is there before it says that it has answered
         for pid in session.stopped_afar():
             notify(
                 current(), f"process {pid} of the robot is stopped, so its nodes are silent: `kill -CONT {pid}` there"

@@ -129,6 +129,12 @@ class MeshSession(Session):
         with self._door() as folder:
             self._join(folder)
 
+    def links_directly(self) -> bool:
+        """Whether no process of the mesh is the way in for other machines, for which it answers."""
+        with contextlib.suppress(self.errors()):
+            return not self._serving and not list(self._zenoh.info.routers_zid())
+        return False
+
     def stopped(self) -> Mapping[str, int]:
         """The processes of the mesh that are frozen: the first eight digits of their sessions' ids, and their pids."""
         found = sockets(os.path.dirname(self.socket.path))
