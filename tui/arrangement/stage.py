@@ -110,8 +110,9 @@ class Stage:
         """What is to be seen in a terminal of a size: ids and titles of panes, and which is to have the keyboard."""
         self._extent = size
         shown = panes(self._shown())
-        chosen = self._focused if self._focused in shown else shown[0]
-        return [(each.id, each.title, each.id == chosen) for each in PANES if each.id in shown]
+        if self._focused not in shown:
+            self._focused = shown[0]
+        return [(each.id, each.title, each.id == self._focused) for each in PANES if each.id in shown]
 
     def resized(self, size: Size) -> None:
         """The terminal has another size."""

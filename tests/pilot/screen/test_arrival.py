@@ -9,6 +9,7 @@ from typing import cast
 import pytest
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.arrangement.arrival import ORDERED, System
+from bot_console.tui.opening import Opening
 from bot_console.tui.pane_table import PaneEntry
 from bot_console.tui.panes.broken import BrokenPane
 from bot_console.tui.panes.plot.pane import PlotPane
@@ -48,6 +49,25 @@ def arrive(typed: str, play: Callable[[Session], Awaitable[None]]) -> None:
                 session = Session(app, pilot, console, launcher)
                 await session.settle()
                 await play(session)
+
+    asyncio.run(main())
+
+
+def test_the_keys_of_the_first_frame_are_those_of_the_pane_that_is_coming() -> None:
+    async def main() -> None:
+        lines: list[str] = []
+
+        def reach() -> System:
+            lines.extend(strip.text for strip in app.screen._compositor.render_strips())
+            console, launcher = live()
+            return System(console, launcher, FakeCommandLine(console.asked))
+
+        app = BotConsoleApp(reach=reach, refresh_hz=0, opening=Opening(pane="steering"))
+        with at_rest():
+            async with app.run_test(size=SIZE) as pilot:
+                while not app.query("#images"):
+                    await pilot.pause()
+        assert "Steering" in lines[1] and "enter Arm" in lines[-1]
 
     asyncio.run(main())
 
