@@ -43,7 +43,7 @@ if os.environ.pop("PYTHONDONTWRITEBYTECODE", None):
 
 # The default run tries the same few examples each time, so that red means a change: HYPOTHESIS_PROFILE=explore tries
 # many others.
-settings.register_profile("repeatable", derandomize=True, deadline=None, database=None, max_examples=50)
+settings.register_profile("repeatable", derandomize=True, deadline=None, database=None, max_examples=25)
 settings.register_profile("explore", deadline=None, max_examples=1000)
 PROFILE = os.environ.get("HYPOTHESIS_PROFILE", "repeatable")
 settings.load_profile(PROFILE)

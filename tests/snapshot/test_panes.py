@@ -22,9 +22,9 @@ STATES: list[tuple[str, System, tuple[int, int]]] = [
     ("faulty", faulty, (80, 24)),
     ("narrow", live, (60, 20)),
     ("medium", live, (120, 40)),
-    ("large", live, (200, 60)),
 ]
 RARER: list[tuple[str, System, tuple[int, int]]] = [
+    ("large", live, (200, 60)),
     ("empty_medium", empty, (120, 40)),
     ("faulty_medium", faulty, (120, 40)),
     ("empty_large", empty, (200, 50)),

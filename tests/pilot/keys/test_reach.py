@@ -178,41 +178,43 @@ def test_q_quits_and_the_keys_line_fits_every_width() -> None:
     run(live(), play, (60, 20))
 
 
-@pytest.mark.parametrize("digit", [each.digit for each in PANES])
-def test_no_two_scopes_that_are_live_together_claim_one_key(digit: str) -> None:
+def test_no_two_scopes_that_are_live_together_claim_one_key() -> None:
     async def play(session: Session) -> None:
-        await session.press(digit)
         ours = {key.id for keys in TABLE.values() for key in keys}
-        claims: dict[str, set[str]] = {}
-        assert session.app.focused is not None
-        for node in session.app.focused.ancestors_with_self:
-            for key, bound in node._bindings.key_to_bindings.items():
-                claims.setdefault(key, set()).update(each.id for each in bound if each.id in ours)
-        assert {key for key in claims if key in ("q", "0")} == {"q", "0"}, "the keys of the app are among them"
-        assert {key: ids for key, ids in claims.items() if len(ids) > 1} == {}
+        for entry in PANES:
+            await session.press(entry.digit)
+            claims: dict[str, set[str]] = {}
+            assert session.app.focused is not None
+            for node in session.app.focused.ancestors_with_self:
+                for key, bound in node._bindings.key_to_bindings.items():
+                    claims.setdefault(key, set()).update(each.id for each in bound if each.id in ours)
+            assert {key for key in claims if key in ("q", "0")} == {"q", "0"}, "the keys of the app are among them"
+            assert {key: ids for key, ids in claims.items() if len(ids) > 1} == {}, entry.id
 
     run(live(), play)
 
 
-@pytest.mark.parametrize("digit", ["1", "2", "3"])
-def test_the_key_bar_names_the_filter_at_80_columns(digit: str) -> None:
+def test_the_key_bar_names_the_filter_at_80_columns() -> None:
     async def play(session: Session) -> None:
-        await session.press(digit)
-        assert "/ Filter" in session.lines()[-1]
+        for digit in ("1", "2", "3"):
+            await session.press(digit)
+            assert "/ Filter" in session.lines()[-1], digit
 
     run(live(), play)
 
 
-@pytest.mark.parametrize("pane", [ParametersPane, LaunchPane, ProfilesPane, LogsPane])
-def test_the_first_and_the_last_row_are_one_key_away_in_every_list(pane: type[Pane]) -> None:
+def test_the_first_and_the_last_row_are_one_key_away_in_every_list() -> None:
+    panes: tuple[type[Pane], ...] = (ParametersPane, LaunchPane, ProfilesPane, LogsPane)
+
     async def play(session: Session) -> None:
-        await session.press(next(each.digit for each in PANES if each.load() is pane))
-        rows = next(each for each in session.pane(pane).query(RowList) if each.can_focus)
-        for last, first in (("G", "g"), ("end", "home")):
-            await session.press(last)
-            assert rows.cursor == rows.row_count() - 1 > 0
-            await session.press(first)
-            assert rows.cursor == 0
+        for pane in panes:
+            await session.press(next(each.digit for each in PANES if each.load() is pane))
+            rows = next(each for each in session.pane(pane).query(RowList) if each.can_focus)
+            for last, first in (("G", "g"), ("end", "home")):
+                await session.press(last)
+                assert rows.cursor == rows.row_count() - 1 > 0, pane
+                await session.press(first)
+                assert rows.cursor == 0, pane
 
     run(live(), play)
 

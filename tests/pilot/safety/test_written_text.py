@@ -35,8 +35,8 @@ LETTERS = [
     ":smile:",
     "#",
 ]
-DRAWN = ["[/[@click=app.quit]x[/]", "a\\"]
-MORE = ["[/", "\\[", *("".join(random.Random(seed).choices(LETTERS, k=8)) for seed in range(4))]
+DRAWN = ["[/[@click=app.quit]x[/]"]
+MORE = ["a\\", "[/", "\\[", *("".join(random.Random(seed).choices(LETTERS, k=8)) for seed in range(4))]
 KEYS = {
     "graph": ["down", "enter"],
     "launch": ["down", "enter", "escape", "K"],

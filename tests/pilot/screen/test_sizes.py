@@ -29,9 +29,15 @@ def check(session: Session, size: tuple[int, int]) -> None:
 CASES = [(size, live) for size in SIZES] + [
     (size, other) for size in (SIZES[0], SIZES[-1]) for other in (empty, faulty)
 ]
+OFTEN = [(SIZES[0], faulty), (SIZES[0], live), ((120, 40), live), (SIZES[-1], live), (SIZES[0], empty)]
+"""Where room is scarce in every state, a usual terminal, and the largest; those between and beside are for the soak."""
 
 
-@pytest.mark.parametrize(("size", "system"), CASES, ids=[f"{w}x{h}-{system.__name__}" for (w, h), system in CASES])
+@pytest.mark.parametrize(
+    ("size", "system"),
+    [pytest.param(*each, marks=() if each in OFTEN else pytest.mark.soak) for each in CASES],
+    ids=[f"{w}x{h}-{system.__name__}" for (w, h), system in CASES],
+)
 def test_every_pane_and_the_overview_fit(size, system) -> None:
     async def play(session: Session) -> None:
         for digit in ("0", *(each.digit for each in PANES)):

@@ -35,8 +35,7 @@ def value(session: Session, name: str) -> object:
 
 
 async def find(session: Session, words: str) -> None:
-    await session.press("1", "slash")
-    await session.pilot.press(*["backspace"] * 12)
+    await session.press("1", "slash", "ctrl+u")
     await session.type(words)
     await session.press("enter")
 
@@ -81,14 +80,14 @@ def test_find_refuse_set_plot_stage_apply_swap_undo_save_restart_load(tmp_path: 
         await session.press("enter", "u", "y")
         assert value(session, "turn_rate") == 0.9 and value(session, "max_speed") == 0.8
         await session.press("1", "escape", "s", "enter")
-        await session.pilot.press(*["backspace"] * len("parameters.yaml"))
+        await session.press("ctrl+u")
         await session.type(str(file))
         await session.press("enter")
         assert "max_speed: 0.8" in file.read_text()
 
     async def load(session: Session) -> None:
         await session.press("7", "o")
-        await session.pilot.press(*["backspace"] * 40)
+        await session.press("ctrl+u")
         await session.type(str(file))
         await session.press("enter")
         await session.press("a", "y")
@@ -112,6 +111,7 @@ async def slide(session: Session, name: str, share: float) -> None:
     await session.settle()
 
 
+@pytest.mark.soak
 def test_the_same_by_mouse_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     left: list[object] = []

@@ -155,7 +155,7 @@ def test_keys_that_mean_no_node_and_parameters_that_no_node_has_are_told(tmp_pat
     [
         ("launch: !!timestamp x\n", "not YAML: has a value that its tag does not allow"),
         ("launch: !!timestamp 2020-13-45\n", "not YAML: has a value that its tag does not allow"),
-        (f"launch: {'[' * 5000}\n", "not YAML: nested too deeply"),
+        (f"launch: {'[' * 1000}\n", "not YAML: nested too deeply"),
         ("launch: a\0\n", "not YAML: .*characters are not allowed"),
         ('"a\nlaunch: b"\n', "a launch profile has the lines"),
         (f"launch: a\narguments: {{n: 0x{'f' * 5000}}}\n", "a whole number of thousands of digits"),
