@@ -87,7 +87,7 @@ def pane_text(text: str) -> None:
     )
     line = status_text(ConsoleSnapshot(drive=drive, problem=text))
     assert "\x1b" not in line
-    release_question([RobotStop(text, text, text)], lambda _: None)
+    release_question([RobotStop(text, text, text)], lambda _: None, lambda: "")
 
 
 def stop(text: str) -> None:
