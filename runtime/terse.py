@@ -41,7 +41,7 @@ def help_tells_faults() -> None:
         if message:
             (file or sys.stderr).write(message)
 
-    argparse.ArgumentParser._print_message = write  # pyright: ignore[reportPrivateUsage]  # where all help passes
+    argparse.ArgumentParser._print_message = write  # pyright: ignore[reportPrivateUsage] -- where all help passes
 
 
 def told(run: Callable[[], int]) -> int:

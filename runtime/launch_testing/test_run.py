@@ -155,4 +155,4 @@ def test_runs(module: Any) -> list[TestRun]:
     return [TestRun(module, made, row) for made, row in rows]
 
 
-test_runs.__test__ = False  # type: ignore[attr-defined]  # it is no test itself
+test_runs.__test__ = False  # type: ignore[attr-defined] -- it is no test itself

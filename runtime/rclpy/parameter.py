@@ -173,7 +173,7 @@ def parameter_dict_from_yaml_file(
     keys = ["/**"] if use_wildcard and "/**" in content else []
     if target_nodes:
         for node in target_nodes:
-            if node not in content.keys():  # noqa: SIM118 - what is no mapping fails as upstream does
+            if node not in content.keys():  # noqa: SIM118 -- what is no mapping fails as upstream does
                 raise RuntimeError(
                     f"Param file does not contain parameters for {node},only for nodes: {list(content.keys())} "
                 )

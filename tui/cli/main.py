@@ -98,7 +98,7 @@ def program() -> NoReturn:
 def _has_screen() -> bool:
     """Whether this system's terminals are such that the console can show itself; it is told where they are not."""
     try:
-        import termios  # noqa: F401  # pyright: ignore[reportUnusedImport]
+        import termios  # noqa: F401  # pyright: ignore[reportUnusedImport] -- whether it is there
     except ImportError:
         system = "the console needs a terminal of Linux or macOS: on Windows start it in WSL"
         print(f"{system}, or use `bot-console --headless` and the verbs of ros2", file=sys.stderr)

@@ -64,7 +64,7 @@ class Node(ExecuteProcess):
         cmd += [] if arguments is None else arguments
         if ros_arguments is not None:
             given: Any = ros_arguments
-            cmd += ["--ros-args"] + given  # noqa: RUF005 - fails as upstream does for what is no list
+            cmd += ["--ros-args"] + given  # noqa: RUF005 -- fails as upstream does for what is no list
         cmd += ["--ros-args"]
         if name is not None:
             cmd += ["-r", LocalSubstitution(f"{LOCALS}['name']", description="node name")]

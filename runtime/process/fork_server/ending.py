@@ -21,7 +21,7 @@ def run_to_end(program: Callable[[], object]) -> NoReturn:
     """Run a program, wait for its threads, call its exit functions, and end the process."""
     code = _run(program)
     with contextlib.suppress(KeyboardInterrupt):
-        threading._shutdown()  # pyright: ignore[reportAttributeAccessIssue, reportUnknownMemberType]  # waits for threads and executors
+        threading._shutdown()  # pyright: ignore[reportAttributeAccessIssue, reportUnknownMemberType] -- waits for threads and executors
     code = exit_functions_run(code)
     _flush_of_c()
     if code == -signal.SIGINT:  # so that who waits for it sees by what it ended

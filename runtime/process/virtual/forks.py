@@ -49,7 +49,7 @@ def _become(process: CurrentProcess) -> None:
         capture = getattr(process, name)
         if capture is not None:
             os.dup2(capture.fileno(), descriptor)
-            setattr(sys, name, open(descriptor, "w", buffering=1, closefd=False))  # noqa: SIM115 - for the life of the process
+            setattr(sys, name, open(descriptor, "w", buffering=1, closefd=False))  # noqa: SIM115 -- for the life of the process
     sys.stdin = open(os.devnull)  # noqa: SIM115 -- the same
     sys.argv = process.argv
     sys.path = process.path

@@ -59,7 +59,7 @@ def _withheld() -> Generator[int]:
     nowhere = os.open(os.devnull, os.O_RDONLY)
     os.dup2(nowhere, 0)
     os.close(nowhere)
-    setattr(sys, "__stdin__", keys)  # noqa: B010 # it is final for type checkers
+    setattr(sys, "__stdin__", keys)  # noqa: B010 -- it is final for type checkers
     try:
         yield keys.fileno()
     finally:

@@ -31,7 +31,7 @@ def rows(info: Frames, clock: float, query: Query) -> list[FrameRow]:
     for each in info.frames:
         below.setdefault(each.parent, []).append(each)
     parents = {each.name: each.parent for each in info.frames}
-    wanted = _wanted(info, parents, query)
+    wanted = _wanted(parents, query)
     wrong = _wrong(info, clock)
     found: list[FrameRow] = []
     seen: set[str] = set()
@@ -53,7 +53,7 @@ def rows(info: Frames, clock: float, query: Query) -> list[FrameRow]:
     return found
 
 
-def _wanted(info: Frames, parents: dict[str, str], query: Query) -> set[str]:
+def _wanted(parents: dict[str, str], query: Query) -> set[str]:
     every = {*parents, *parents.values()}
     if not query.terms:
         return every

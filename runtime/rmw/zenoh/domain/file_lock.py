@@ -32,7 +32,7 @@ def _try_lock_windows(handle: int) -> bool:
 
     os.lseek(handle, 0, os.SEEK_SET)
     try:
-        msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)  # pyright: ignore[reportAttributeAccessIssue, reportUnknownMemberType]
+        msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)  # pyright: ignore[reportAttributeAccessIssue, reportUnknownMemberType] -- of Windows
     except PermissionError:
         return False
     return True

@@ -57,7 +57,7 @@ class Mapping:
         return next((value for name, value in self.entries if name.text == key), None)
 
 
-YamlTree: TypeAlias = Union[Scalar, Sequence, Mapping]  # noqa: UP007 - evaluated on Python 3.10, before the classes
+YamlTree: TypeAlias = Union[Scalar, Sequence, Mapping]  # noqa: UP007 -- evaluated on Python 3.10, before the classes
 
 
 def read_tree(text: str) -> YamlTree | None:
