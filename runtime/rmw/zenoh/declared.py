@@ -41,6 +41,9 @@ class Keeper(Protocol):
 LENT_FOR = 1.0
 """Seconds for which something that is to be taken back may be in use; then it is left to the end of the session."""
 
+TAKEN = "Already mutably borrowed"
+"""What Zenoh's binding says where another thread is just taking back what is used."""
+
 
 class Declared:
     """Something that a session has declared; `declare` makes it in a Zenoh session."""
@@ -78,7 +81,8 @@ class Publisher(Declared):
     def put(self, payload: bytes, attachment: bytes) -> bool:
         """Send one sample; waits at most `WAIT_BEFORE_DROP` for a link that is full.
 
-        False where it could not be sent, because the session is closed or just rejoins.
+        False where it could not be sent, because the session is closed or just rejoins, or as another thread is just
+        taking the publisher back.
         """
         inner = self.inner
         if inner is None:
@@ -86,6 +90,10 @@ class Publisher(Declared):
         try:
             inner.put(payload, attachment=attachment)
         except self._session.errors():
+            return False
+        except RuntimeError as error:
+            if str(error) != TAKEN:
+                raise
             return False
         return True
 

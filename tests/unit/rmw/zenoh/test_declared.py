@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import Any
 
-from bot_console.runtime.rmw.zenoh.declared import Declared
+import pytest
+from bot_console.runtime.rmw.zenoh.declared import Declared, Publisher
 
 
 def test_what_another_thread_is_sending_with_is_taken_back_after_that() -> None:
@@ -21,3 +23,20 @@ def test_what_another_thread_is_sending_with_is_taken_back_after_that() -> None:
     thing.inner = lent = Lent()
     thing.take_back()
     assert lent.tries == 4
+
+
+def test_what_is_sent_while_another_thread_takes_the_publisher_back_reaches_nobody() -> None:
+    class Going:
+        def __init__(self, words: str) -> None:
+            self.words = words
+
+        def put(self, payload: bytes, *, attachment: bytes) -> None:
+            raise RuntimeError(self.words)
+
+    session: Any = SimpleNamespace(errors=lambda: ZeroDivisionError)
+    publisher = Publisher(session, lambda opened: opened)
+    publisher.inner = Going("Already mutably borrowed")
+    assert publisher.put(b"", b"") is False
+    publisher.inner = Going("something else")
+    with pytest.raises(RuntimeError, match="something else"):
+        publisher.put(b"", b"")
