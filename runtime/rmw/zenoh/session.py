@@ -228,29 +228,12 @@ class Session(Lifetime):
         watch = TokenWatch(self, declare, seen)
         return self._declare(watch)
 
-    def ask_tokens(self, key: str, seen: Callable[[str], None], done: Callable[[], None], timeout: float) -> None:
-        """Call back once for each token that is there now, then `done`, after at most `timeout` (s).
-
-        Only `done` where no session is open.
-        """
-        import zenoh
-
-        def take(reply: zenoh.Reply) -> None:
-            if reply.ok is not None:
-                seen(str(reply.ok.key_expr))
-
-        try:
-            self._zenoh.liveliness().get(key, zenoh.handlers.Callback(take, done, indirect=False), timeout=timeout)
-        except zenoh.ZError:
-            if not self._zenoh.is_closed():
-                raise
-            done()
-
     def collect_tokens(self, key: str, timeout: float) -> tuple[list[str], bool]:
         """The tokens that are there now, from those who answer within `timeout` (s), and of a busy machine twice that.
 
-        With it whether all have answered. Unlike `ask_tokens` it keeps no thread of Zenoh's waiting for the interpreter
-        at each of thousands.
+        With it whether all have answered. Answers go to a channel, not to a callback: Zenoh gives them while it holds
+        its session's lock, and would wait there for the interpreter, which another thread may keep while it waits for
+        that lock in turn (`KeepingPublisher.undeclare`).
         """
         import zenoh
 
@@ -264,7 +247,7 @@ class Session(Lifetime):
             while time.monotonic() < until:
                 reply = replies.try_recv()
                 if reply is None:
-                    pause.wait(0.002)
+                    pause.wait(0.001)
                 elif reply.ok is not None:
                     found.append(str(reply.ok.key_expr))
                 else:
@@ -300,18 +283,12 @@ class Session(Lifetime):
 
     def attendance(self, who: str = "*", timeout: float = 0.1) -> set[str]:
         """The first eight digits of the ids of the sessions that answer within `timeout` (s)."""
-        answered = set[str]()
-        done = threading.Event()
-        self.ask_tokens(ATTENDANCE + who, lambda key: answered.add(key.removeprefix(ATTENDANCE)), done.set, timeout)
-        done.wait(timeout + 0.9)
-        return answered
+        return {each.removeprefix(ATTENDANCE) for each in self.collect_tokens(ATTENDANCE + who, timeout)[0]}
 
     def is_answered(self, timeout: float) -> bool:
         """Whether the other end answers a small question within `timeout` (s)."""
-        done = threading.Event()
         began, late = time.monotonic(), timeout * 0.98
-        self.ask_tokens(f"{ATTENDANCE}nobody/{self.zid}", lambda key: None, done.set, timeout)
-        done.wait(timeout + 0.9)
+        self.collect_tokens(f"{ATTENDANCE}nobody/{self.zid}", timeout)
         # Without an answer Zenoh says only after the time-out that it is done, and without a link it says so at once.
         return time.monotonic() - began < late and bool(self.linked())
 

@@ -55,10 +55,9 @@ class Wire:
 
 def watch_wire(session: Session, seconds: float) -> Wire:
     """Take all tokens there are, then listen to every topic of the domain for so many seconds."""
-    wire, answered = Wire(session.domain), threading.Event()
-    session.ask_tokens(all_tokens(session.domain), wire.tokens.append, answered.set, PATIENCE)
-    answered.wait(2 * PATIENCE)
-    wire.tokens = sorted({each for each in wire.tokens if session.zid not in each})
+    wire = Wire(session.domain)
+    found, _ = session.collect_tokens(all_tokens(session.domain), PATIENCE)
+    wire.tokens = sorted({each for each in found if session.zid not in each})
     good, _ = wire.parsed()
     listening = [_listen(session, wire, each) for each in _publishers(good)]
     threading.Event().wait(seconds)

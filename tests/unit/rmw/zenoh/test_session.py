@@ -31,11 +31,9 @@ def ask(session: Session, key: str, payload: bytes) -> list[tuple[bytes, bytes |
 
 
 def tokens(session: Session, key: str) -> set[str]:
-    seen: set[str] = set()
-    done = threading.Event()
-    session.ask_tokens(key, seen.add, done.set, PATIENCE)
-    assert done.wait(PATIENCE)
-    return seen
+    found, answered = session.collect_tokens(key, PATIENCE)
+    assert answered
+    return set(found)
 
 
 def shown(one: Session, two: Session, key: str) -> threading.Event:
