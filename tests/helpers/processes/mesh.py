@@ -75,3 +75,21 @@ def eventually(true: Callable[[], bool]) -> bool:
             return False
         time.sleep(0.02)
     return True
+
+
+def all_linked(present: list[Member]) -> bool:
+    """Whether each has a link to all others."""
+    ids = {each.zid for each in present}
+    return all(each.ask("linked") >= ids - {each.zid} for each in present)
+
+
+def every_pair_talks(present: list[Member]) -> bool:
+    """Whether what each says is heard by all others; said again until then, as links are made in the background."""
+    ids = {each.zid for each in present}
+
+    def heard() -> bool:
+        for each in present:
+            each.ask("call")
+        return all(each.ask("heard") >= ids - {each.zid} for each in present)
+
+    return eventually(lambda: all_linked(present)) and eventually(heard)

@@ -16,7 +16,7 @@ from bot_console.runtime.rmw.zenoh.domain import loopback, sockets
 from bot_console.runtime.rmw.zenoh.domain.mesh import MeshSession, open_session
 from bot_console.runtime.rmw.zenoh.session import SessionError
 from bot_console.runtime.rmw.zenoh.settings import Serving
-from helpers.processes.mesh import Member, eventually, members
+from helpers.processes.mesh import eventually, every_pair_talks, members
 
 
 @pytest.fixture(autouse=True)
@@ -29,17 +29,6 @@ def session(socket_folder: str) -> Iterator[MeshSession]:
     opened = open_session(0)
     yield opened
     opened.close()
-
-
-def every_pair_talks(present: list[Member]) -> bool:
-    ids = {each.zid for each in present}
-
-    def heard() -> bool:
-        for each in present:
-            each.ask("call")
-        return all(each.ask("heard") >= ids - {each.zid} for each in present)
-
-    return eventually(heard)
 
 
 def names(folder: str) -> set[str]:

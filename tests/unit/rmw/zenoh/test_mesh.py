@@ -8,24 +8,7 @@ import signal
 import time
 
 import pytest
-from helpers.processes.mesh import Member, eventually, members
-
-
-def all_linked(present: list[Member]) -> bool:
-    ids = {each.zid for each in present}
-    return all(each.ask("linked") >= ids - {each.zid} for each in present)
-
-
-def every_pair_talks(present: list[Member]) -> bool:
-    """Whether what each says is heard by all others; said again until then, as links are made in the background."""
-    ids = {each.zid for each in present}
-
-    def heard() -> bool:
-        for each in present:
-            each.ask("call")
-        return all(each.ask("heard") >= ids - {each.zid} for each in present)
-
-    return eventually(lambda: all_linked(present)) and eventually(heard)
+from helpers.processes.mesh import eventually, every_pair_talks, members
 
 
 def sockets_of(folder: str) -> set[str]:
