@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+import pytest
+from bot_console.tui.console.model import Endpoint, GraphInfo
 from bot_console.tui.opening import Opening
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.panes.plot.pane import PlotPane
 from piloting import Session, run
 from samples import NEAREST, SPEED, live
+
+PAIR = ([59.0, 60.0], [1.0, 2.0])
 
 
 def test_a_line_of_rqt_plot_replaces_the_curves_and_waits_for_what_is_not_there() -> None:
@@ -20,6 +26,38 @@ def test_a_line_of_rqt_plot_replaces_the_curves_and_waits_for_what_is_not_there(
         assert session.pane(PlotPane).paths == [NEAREST]
         assert "waits for /none/x" in session.text()
         assert not any(each[0] == "run" for each in session.console.asked)
+
+    run(live(), play, (120, 40))
+
+
+@pytest.mark.parametrize("wanted", ["/scan/ranges[2]", "/tf/transforms[0].rotation.z - 1", "max(/scan/ranges[4:8])"])
+def test_what_no_list_suggests_is_plotted_as_soon_as_its_topic_is_there(wanted: str) -> None:
+    console, launcher = live()
+    console.plottable = lambda: ()  # type: ignore[method-assign]
+    console.series |= dict.fromkeys(
+        ("/scan/ranges[2]", "/tf/transforms[0].rotation.z", "/scan/ranges[4:8].max()"), PAIR
+    )
+    there = console.snapshot().graph
+    console.change(graph=GraphInfo(topics=(Endpoint("/rosout", ("rcl_interfaces/msg/Log",)),)))
+
+    async def play(session: Session) -> None:
+        session.app.open(Opening("plot", (wanted,)))
+        await session.settle()
+        assert f"waits for {wanted}" in session.text()
+        console.change(graph=replace(there, topics=(*there.topics, Endpoint("/tf", ("tf2_msgs/msg/TFMessage",)))))
+        await session.settle()
+        assert len(session.pane(PlotPane).paths) == 1
+        assert "waits for" not in session.text()
+
+    run((console, launcher), play, (120, 40))
+
+
+def test_why_a_field_of_a_topic_that_is_there_cannot_be_plotted_stands_beside_it() -> None:
+    async def play(session: Session) -> None:
+        session.console.unplottable["/scan/rangs[2]"] = "LaserScan has no field 'rangs'"
+        session.app.open(Opening("plot", ("/scan/rangs[2]",)))
+        await session.settle()
+        assert "waits for /scan/rangs[2]: LaserScan has no field 'rangs'" in session.text()
 
     run(live(), play, (120, 40))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import Any, ClassVar
 
 from bot_console.tui import keymap
@@ -48,7 +48,8 @@ class PlotPane(PlotQuestions):
         self._timeline = Timeline(self.console)
         self._responses = Responses(self.console)
         self._form = "framed"
-        self._expected: list[str] = []
+        self._expected: dict[str, str] = {}
+        """What waits to be plotted, and why it cannot be yet where more is known than that it is not there."""
         self._journal: JournalState | None = None
         self._graph: object = None
         self._parameters: object = None
@@ -67,10 +68,10 @@ class PlotPane(PlotQuestions):
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Plot the speed when there is one and nothing else was asked for; mark new changes."""
         known = (snapshot.graph, snapshot.parameters)
-        if not self._touched and (known[0] is not self._graph or known[1] is not self._parameters):
+        if known[0] is not self._graph or known[1] is not self._parameters:
             self._graph, self._parameters = known
-            self._add_defaults()
-        if self._expected:
+            if not self._touched:
+                self._add_defaults()
             self._take_expected(snapshot)
         if snapshot.journal is not self._journal:
             self._journal = snapshot.journal
@@ -95,17 +96,26 @@ class PlotPane(PlotQuestions):
         if not self._touched:
             self.action_remove_all()
         self._touched = True
-        self._expected += [each for each in wanted if each not in self._expected]
+        self._expected |= {each: "" for each in wanted if each not in self._expected}
+        self._graph = None  # so that the next look tries them, though nothing has come meanwhile
 
     def _take_expected(self, snapshot: ConsoleSnapshot) -> None:
+        if not self._expected:
+            return
         known = self.console.plottable()
         topics = {each.name for each in snapshot.graph.topics}
         for wanted in tuple(self._expected):
-            found = matching(wanted, known) or _worked_out(wanted, known)
+            found = matching(wanted, known)
             if found or wanted in topics:
-                self._expected.remove(wanted)
+                del self._expected[wanted]
                 for path in found or [wanted]:  # of which the latter is refused with the reason
                     self.add(path)
+            elif _within(wanted, known, topics):
+                answer = self._timeline.add(wanted)  # not refused for good: its own topic may be still to come
+                if answer.ok:
+                    del self._expected[wanted]
+                else:
+                    self._expected[wanted] = answer.text
 
     def tick(self, force: bool = False) -> None:
         """Fetch new samples and draw, if there are any and the pane is seen."""
@@ -225,7 +235,8 @@ class PlotPane(PlotQuestions):
         if timeline.limits:
             parts.append(f"y {timeline.limits[0]:g} .. {timeline.limits[1]:g}")
         if self._expected:
-            parts.append(f"waits for {', '.join(self._expected)}")
+            waiting = (f"{each}: {why}" if why else each for each, why in self._expected.items())
+            parts.append(f"waits for {', '.join(waiting)}")
         return " · ".join(parts)
 
     def on_picture_resized(self, event: Picture.Resized) -> None:
@@ -310,12 +321,16 @@ class PlotPane(PlotQuestions):
         self.draw()
 
 
-def _worked_out(wanted: str, known: Sequence[str]) -> list[str]:
-    """An expression, as soon as all that it needs is there."""
+def _within(wanted: str, known: Collection[str], topics: Collection[str]) -> bool:
+    """Whether all that a path or an expression names is in a topic that is there, or is known itself.
+
+    What is known names the first element of an array only, and nothing of arrays of messages.
+    """
     from bot_console.tui.panes.plot.formulas.formula import Formula, read
 
     try:
         formula = read(wanted)
     except ValueError:
-        return []
-    return [wanted] if isinstance(formula, Formula) and all(each in known for each in formula.paths) else []
+        return False
+    paths = formula.paths if isinstance(formula, Formula) else (formula,)
+    return all(path in known or any(path.startswith(f"{each}/") for each in topics) for path in paths)
