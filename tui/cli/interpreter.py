@@ -22,7 +22,7 @@ def without_collector() -> Generator[None]:
     try:
         yield
     finally:
-        gc.enable()
+        collect_from_now_on()  # else the end would begin with a look through all that was made up to now
 
 
 def collect_from_now_on() -> None:

@@ -10,20 +10,30 @@ import sys
 import termios
 from collections.abc import Callable, Generator
 from pathlib import Path
+from typing import NamedTuple
 
 from bot_console.tui.terminal import guardian
 
 
+class Watch(NamedTuple):
+    """What the guardian is to be told, by calling it."""
+
+    has_begun: Callable[[], None]
+    """The terminal is set for us."""
+    has_ended: Callable[[], None]
+    """The terminal is as it was: the guardian goes, while this process does what else there is to do at its end."""
+
+
 @contextlib.contextmanager
-def guarded(terminal: int) -> Generator[Callable[[], None]]:
-    """Have the terminal put right after the block, however this process ends; to be called once it is set for us."""
+def guarded(terminal: int) -> Generator[Watch]:
+    """Have the terminal put right after the block, however this process ends, unless it is told to be right."""
     try:
         process = subprocess.Popen(
             [sys.executable, "-I", "-S", str(Path(guardian.__file__)), str(terminal)], pass_fds=[terminal],
             stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True,
         )  # fmt: skip
     except OSError:  # no process can be started: go on without
-        yield lambda: None
+        yield Watch(lambda: None, lambda: None)
         return
     assert process.stdin is not None
     pipe = process.stdin.fileno()
@@ -36,11 +46,14 @@ def guarded(terminal: int) -> Generator[Callable[[], None]]:
         with contextlib.suppress(termios.error):
             tell(json.dumps(guardian.settings_of(terminal)))
 
+    def has_ended() -> None:
+        tell(guardian.WELL)
+
     has_begun()
     try:
-        yield has_begun
+        yield Watch(has_begun, has_ended)
     finally:
-        tell(guardian.WELL)
+        has_ended()
         with contextlib.suppress(OSError):
             process.stdin.close()
         process.wait()

@@ -53,13 +53,15 @@ class AttachedSession:
     def run(self) -> int:
         """Show the console until it is quit. A robot that it steers is left standing; all else goes on."""
         with (
-            own_terminal(self._console.printed) as self._has_begun,
+            own_terminal(self._console.printed) as watch,
             ended_by_signals(self._end),
             hangup_as_signal(),
             eager_switching(),
         ):
+            self._has_begun = watch.has_begun
             try:
                 self.app.run()
+                watch.has_ended()
             finally:
                 self.app.stage.arrangement.remember()
                 self._on_close()

@@ -14,7 +14,7 @@ import threading
 from collections.abc import Callable, Generator, Iterator
 from typing import IO
 
-from bot_console.tui.terminal.guarding import guarded
+from bot_console.tui.terminal.guarding import Watch, guarded
 
 Printed = Callable[[int, str, str], None]
 LABEL = "stderr"
@@ -25,13 +25,10 @@ FIRST = 100
 
 
 @contextlib.contextmanager
-def own_terminal(printed: Printed) -> Generator[Callable[[], None]]:
-    """Captured descriptors for the time of an app, and the terminal put right after it, however this process ends.
-
-    To be called once the terminal is set for the screen.
-    """
-    with captured_descriptors(printed) as keys, guarded(keys) as has_begun:
-        yield has_begun
+def own_terminal(printed: Printed) -> Generator[Watch]:
+    """Captured descriptors for the time of an app, and the terminal put right after it, however this process ends."""
+    with captured_descriptors(printed) as keys, guarded(keys) as watch:
+        yield watch
 
 
 @contextlib.contextmanager

@@ -79,13 +79,15 @@ class Session:
     def run(self) -> int:
         """Show the console until it is quit; the robot stands still when this returns, however it ended."""
         with (
-            own_terminal(self._printed) as self._has_begun,
+            own_terminal(self._printed) as watch,
             ended_by_signals(self._end),
             hangup_as_signal(),
             eager_switching(),
         ):
+            self._has_begun = watch.has_begun
             try:
                 self.app.run()
+                watch.has_ended()
             finally:
                 self.app.stage.arrangement.remember()
                 self.close()

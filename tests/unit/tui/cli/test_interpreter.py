@@ -30,6 +30,19 @@ def test_no_garbage_is_looked_for_until_all_is_there_and_none_among_that() -> No
         gc.unfreeze()
 
 
+def test_an_end_before_all_is_there_does_not_look_through_what_was_made() -> None:
+    class There:
+        pass
+
+    try:
+        with without_collector():
+            there = There()
+        assert gc.isenabled()
+        assert not any(each is there for each in gc.get_objects())
+    finally:
+        gc.unfreeze()
+
+
 def test_a_start_that_fails_leaves_the_collector_at_work() -> None:
     with pytest.raises(ZeroDivisionError), without_collector():
         raise ZeroDivisionError
