@@ -87,7 +87,7 @@ class Inlet:
         """A message has come, on one of Zenoh's threads."""
         subscription = self._subscription
         try:
-            number, stamp, gid = unpack(attachment)
+            number, stamp, gid = unpack(attachment, payload)
             # The question for what was kept reaches the caches of this session too, whatever its origin may be.
             if gid in self._own:
                 return

@@ -55,7 +55,7 @@ class Outlet(deque[Any]):
         """Send one message that the publisher has serialized."""
         data, stamp, number, _ = entry
         out = self._out or self._open()
-        attachment = pack(number, stamp, self.gid)
+        attachment = pack(number, stamp, self.gid, data)
         if self._patient:
             self._sender.send(out, self._topic, data, attachment)
         else:

@@ -49,7 +49,7 @@ class Served:
         """A request has come, on one of Zenoh's threads."""
         service = self._service
         try:
-            number, _, gid = unpack(query.attachment)
+            number, _, gid = unpack(query.attachment, query.payload)
             if number < 0 or not query.payload:
                 raise FormatError("its number is negative, or it is empty")
             request = deserialize(query.payload, service.service_class.Request)
@@ -75,7 +75,8 @@ class Served:
         with self._lock:
             query = self._pending.pop((client.gid, number), None)
         if query is not None:
-            query.answer(serialize(response), pack(number, self._clock.system_ns(), client.gid))
+            payload = serialize(response)
+            query.answer(payload, pack(number, self._clock.system_ns(), client.gid, payload))
 
     def close(self) -> None:
         """Serve no more."""
@@ -121,8 +122,9 @@ class Asking:
         if self._querier is None:
             timeout = RESULT_TIMEOUT if self._client.name.endswith(RESULT) else TIMEOUT
             self._querier = self._session.declare_querier(self._key, timeout)
-        attachment = pack(number, self._clock.system_ns(), self._client.gid)
-        return self._querier.get(serialize(request), attachment, self._replied, _nothing)
+        payload = serialize(request)
+        attachment = pack(number, self._clock.system_ns(), self._client.gid, payload)
+        return self._querier.get(payload, attachment, self._replied, _nothing)
 
     def send_again(self) -> None:
         """Ask what was not asked while the session was opened anew."""
@@ -139,7 +141,7 @@ class Asking:
         """A response has come, on one of Zenoh's threads."""
         client = self._client
         try:
-            number, _, gid = unpack(attachment)
+            number, _, gid = unpack(attachment, payload)
             if gid != client.gid:
                 return
             response = deserialize(payload, client.service_class.Response)

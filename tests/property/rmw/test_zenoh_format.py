@@ -35,7 +35,7 @@ def check(token, profile, data, head):
     if read is not None:
         assert decode_qos(encode_qos(read)) is not None
     found = attempt(unpack, data)
-    assert found is None or pack(*found) == data
+    assert found is None or data.startswith(pack(*found))
     for kind in (LaserScan, TFMessage):
         with suppress(CdrError):
             deserialize(head + data, kind)

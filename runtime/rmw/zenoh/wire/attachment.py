@@ -1,15 +1,30 @@
-"""The 33 bytes that go with each message, request and response: its number, its time, and whose it is."""
+"""What goes with each message, request and response: its number, its time, and whose it is, in rmw_zenoh's 33 bytes.
+
+Ours have a seal behind them, a hash of the payload, which rmw_zenoh does not read. Zenoh stops in the middle of a
+message when it cuts the link to a process that does not read, and still writes what waits behind it: the rest of
+that message is then bytes of others, and would be taken for the end of a command or a parameter.
+"""
 
 from __future__ import annotations
 
 import struct
 
 from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
+from xxhash import xxh3_64_intdigest, xxh3_128_intdigest
 
 GID_SIZE = 16
 _LAYOUT = struct.Struct("<qqB16s")
 _FIELDS = struct.Struct("<qqx16s")
 """The same without the length of the id."""
+_SEALED_LAYOUT = struct.Struct("<qqB16s4sQ")
+_SEALED_FIELDS = struct.Struct("<qqx16s4xQ")
+_SEAL = b"xxh3"
+_SEAL_END = _LAYOUT.size + len(_SEAL)
+SEALED = 1 << 16
+"""So many bytes of a payload's end are hashed: a link writes at most that at once, and a cut spoils no more of one
+message. Where a longer one is cut in a piece before its last, the next piece is missing, too, unless by chance the
+foreign bytes end with the piece; Zenoh drops such a message by the numbers of its pieces.
+"""
 _OLD = b"\x0fsequence_number"
 
 Attachment = tuple[int, int, bytes]
@@ -18,22 +33,36 @@ Attachment = tuple[int, int, bytes]
 
 def gid_of(token: str) -> bytes:
     """The id of an entity: a hash of its liveliness token."""
-    from xxhash import xxh3_128_intdigest
-
     return xxh3_128_intdigest(token.encode()).to_bytes(GID_SIZE, "little")
 
 
-def pack(number: int, time_ns: int, gid: bytes) -> bytes:
-    """The bytes."""
-    return _LAYOUT.pack(number, time_ns, GID_SIZE, gid)
+def pack(number: int, time_ns: int, gid: bytes, payload: bytes | None = None) -> bytes:
+    """The bytes; with a payload they are sealed."""
+    if payload is None:
+        return _LAYOUT.pack(number, time_ns, GID_SIZE, gid)
+    return _SEALED_LAYOUT.pack(number, time_ns, GID_SIZE, gid, _SEAL, _hash(payload))
 
 
-def unpack(data: bytes | None) -> Attachment:
-    """What the bytes say; raises `FormatError`, which names the releases that wrote them otherwise."""
+def unpack(data: bytes | None, payload: bytes | None = None) -> Attachment:
+    """What the bytes say.
+
+    Raises `FormatError`, which names the releases that wrote them otherwise, and where they are sealed and the given
+    payload is not what was sent.
+    """
     if data is None:
         raise FormatError("a message without attachment: its sender does not speak the format of rmw_zenoh")
-    if len(data) != _LAYOUT.size or data[16] != GID_SIZE:
+    size = len(data)
+    if size == _SEALED_LAYOUT.size and data[16] == GID_SIZE and data[_LAYOUT.size : _SEAL_END] == _SEAL:
+        number, time_ns, gid, seal = _SEALED_FIELDS.unpack(data)
+        if payload is not None and seal != _hash(payload):
+            raise FormatError("it is not what was sent: the link to its sender was cut while it was written")
+        return number, time_ns, gid
+    if size != _LAYOUT.size or data[16] != GID_SIZE:
         if data.startswith(_OLD):
             raise FormatError("the sender's rmw_zenoh is too old (before Jazzy 0.2.4, Humble 0.1.2): update it")
         raise FormatError(f"no attachment of 33 bytes: {data[:40].hex(' ')}")
     return _FIELDS.unpack(data)
+
+
+def _hash(payload: bytes) -> int:
+    return xxh3_64_intdigest(payload if len(payload) <= SEALED else memoryview(payload)[-SEALED:])

@@ -1,7 +1,7 @@
 """The wire format of rmw_zenoh against fixed points: captures of live nodes, and hashes that others publish."""
 
 import pytest
-from bot_console.runtime.rmw.zenoh.wire.attachment import gid_of, pack, unpack
+from bot_console.runtime.rmw.zenoh.wire.attachment import SEALED, gid_of, pack, unpack
 from bot_console.runtime.rmw.zenoh.wire.keys import FormatError, data_key, ros_type
 from bot_console.runtime.rmw.zenoh.wire.qos_text import (
     Durability,
@@ -52,6 +52,24 @@ def test_the_attachment_of_the_captured_talker():
     number, _, gid = attachment
     assert (number, gid) == (26, gid_of(TALKER))
     assert pack(*attachment) == ATTACHMENT
+
+
+@pytest.mark.parametrize("size", [0, 1, 52, SEALED, SEALED + 1, 1_000_000])
+def test_ours_begins_with_the_bytes_of_rmw_zenoh_and_tells_whether_the_end_of_a_payload_is_its_own(size):
+    attachment = unpack(ATTACHMENT)
+    payload = bytes(size)
+    data = pack(*attachment, payload)
+    assert data.startswith(ATTACHMENT)
+    assert unpack(data, payload) == unpack(data) == attachment
+    for spoilt in (payload[:-1] + b"\1", payload + b"\0" if size < SEALED else payload[:-SEALED] + b"\1" * SEALED):
+        with pytest.raises(FormatError, match="not what was sent"):
+            unpack(data, spoilt)
+
+
+@pytest.mark.parametrize("end", [b"xxh", b"xxh3", b"xxh3" + bytes(7), b"xxh4" + bytes(8), bytes(12)])
+def test_another_end_than_ours_is_no_attachment(end):
+    with pytest.raises(FormatError, match="no attachment"):
+        unpack(ATTACHMENT + end, b"")
 
 
 def test_names_within_namespaces():

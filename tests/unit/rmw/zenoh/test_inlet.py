@@ -72,6 +72,20 @@ def test_bytes_that_are_no_message_are_dropped_when_they_are_taken(received, not
     assert "'/t' was dropped" in notices[0]
 
 
+def test_a_message_whose_end_is_not_its_own_is_dropped_told_and_counted(received, notices):
+    inlet, queue, events = received
+    give(inlet, 1)
+    whole = serialize_message(String(data="forward, slowly"))
+    inlet.received(whole[:-8] + b"foreign\0", pack(2, 5, GID, whole))
+    assert len(queue) == 1
+    assert notices == [
+        "a message on '/t' was dropped: it is not what was sent: the link to its sender was cut while it was written"
+    ]
+    inlet.received(whole, pack(3, 5, GID, whole))
+    assert own(queue[-1][0]).data == "forward, slowly"
+    assert events == [("lost", 1)]
+
+
 @pytest.mark.parametrize(("payload", "attachment"), [(b"", None), (b"", b"x")])
 def test_garbage_is_dropped(received, payload, attachment):
     inlet, queue, _ = received

@@ -1,0 +1,103 @@
+"""All that goes to other processes is sealed: who hears it can tell a message that was cut from a whole one."""
+
+import os
+import threading
+
+import pytest
+from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
+from bot_console.runtime.rmw.zenoh.wire.attachment import pack, unpack
+from bot_console.runtime.rmw.zenoh.wire.keys import FormatError, data_key
+from bot_console.runtime.rosidl import type_hash
+from geometry_msgs.msg import Twist, Vector3
+from helpers.processes.two_processes import DOMAIN, two_processes
+from rclpy.qos import HistoryPolicy, QoSProfile
+from rclpy.serialization import serialize_message
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+
+PATIENCE = 20.0
+GID = bytes(range(16))
+EVERYTHING = QoSProfile(history=HistoryPolicy.KEEP_ALL, depth=0)
+PULL = data_key(DOMAIN, "/pull", "std_srvs/srv/Trigger", type_hash.text(Trigger))
+
+
+@pytest.fixture(scope="module")
+def here(tmp_path_factory):
+    with two_processes(tmp_path_factory.mktemp("mesh") / "s") as (system, _):
+        system.folder = os.environ["BOT_CONSOLE_SOCKET_DIR"]
+        yield system
+
+
+@pytest.fixture
+def stranger(here, monkeypatch):
+    """A session of the same domain that is nobody's node."""
+    monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", here.folder)
+    session = open_session(DOMAIN)
+    here.until(lambda: len(session.linked()) == 2)
+    yield session
+    session.close()
+
+
+def is_sealed(payload, attachment):
+    unpack(attachment, payload)
+    try:
+        unpack(attachment, payload[:-1] + bytes([payload[-1] ^ 1]))
+    except FormatError:
+        return True
+    return False
+
+
+@pytest.mark.parametrize("profile", [QoSProfile(depth=10), EVERYTHING], ids=["depth", "all"])
+def test_messages_are_sealed(here, stranger, profile):
+    heard = []
+    key = data_key(DOMAIN, "/say", "std_msgs/msg/String", type_hash.text(String))
+    stranger.declare_subscriber(key, lambda *sample: heard.append(sample))
+    publisher = here.node.create_publisher(String, "/say", profile)
+    here.until(lambda: publisher.get_subscription_count() == 1)
+
+    def said():
+        publisher.publish(String(data="sealed"))
+        return heard
+
+    here.until(said)
+    here.node.destroy_publisher(publisher)
+    assert all(is_sealed(*sample) for sample in heard)
+
+
+def test_requests_and_responses_are_sealed(here, stranger):
+    asked, replies, done = [], [], threading.Event()
+
+    def take(query):
+        asked.append((query.payload, query.attachment))
+        query.drop()
+
+    client = here.node.create_client(Trigger, "/pull")
+    here.until(client.service_is_ready)
+    stranger.declare_queryable(PULL, take)
+
+    def was_asked():
+        here.result(client.call_async(Trigger.Request()))
+        return asked
+
+    here.until(was_asked)
+    payload = serialize_message(Trigger.Request())
+    querier = stranger.declare_querier(PULL, PATIENCE)
+    querier.get(payload, pack(1, 5, GID), lambda *reply: replies.append(reply), done.set)
+    assert done.wait(PATIENCE)
+    assert len(replies) == 1 and all(is_sealed(*each) for each in (*asked, *replies))
+
+
+def test_a_command_that_was_cut_moves_nothing_and_one_without_a_seal_is_taken(here, stranger):
+    heard = []
+    here.node.create_subscription(Twist, "/cmd_vel", lambda command: heard.append(command.linear.x), 10)
+    key = data_key(DOMAIN, "/cmd_vel", "geometry_msgs/msg/Twist", type_hash.text(Twist))
+    publisher = stranger.declare_publisher(key, patient=True)
+    slow, fast = (serialize_message(Twist(linear=Vector3(x=speed))) for speed in (0.1, 9.0))
+
+    def came():
+        publisher.put(fast, pack(1, 5, GID, slow))
+        publisher.put(slow, pack(2, 5, GID))
+        return heard
+
+    here.until(came)
+    assert set(heard) == {0.1}
