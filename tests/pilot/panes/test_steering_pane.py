@@ -216,6 +216,23 @@ def test_space_stops_armed_or_not() -> None:
     run(live(), play)
 
 
+def test_who_only_looks_on_is_told_of_no_key_that_is_refused() -> None:
+    async def play(session: Session) -> None:
+        await session.press("6")
+        drive = replace(driving(), refused="this console only looks on")
+        session.console.change(drive=drive)
+        await session.settle()
+        assert "this console only looks on" in session.text() and "enter arms" not in session.text()
+        session.console.change(
+            drive=replace(drive, stopped=True, stop_confirmed=True, stop_holder="bot-console of a@b")
+        )
+        await session.settle()
+        assert "released elsewhere: held by bot-console of a@b" in session.text()
+        assert "lets it go" not in session.text()
+
+    run(live(), play, (120, 40))
+
+
 def test_the_all_stop_zeroes_the_sliders_and_holds_the_keys() -> None:
     async def play(session: Session) -> None:
         await session.press("6", "enter", "W", "exclamation_mark")

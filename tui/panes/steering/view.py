@@ -40,6 +40,8 @@ def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
         topic += f"  {drive.robots.index(drive.robot) + 1} of {len(drive.robots)}, r steers another"
     if drive.stopped and drive.nothing_to_stop:
         return ((" STOP ", "warn"), (f" nothing is here to stop: {topic}", ""))
+    if drive.refused:
+        return _looked_on(drive, topic)
     if drive.stopped and not drive.lockable and stands_after_steering(drive):
         return ((" STANDS ", "warn"), (" by zeros, having no emergency stop: enter steers on, ! ends them", ""))
     if drive.stopped and not drive.stop_confirmed:
@@ -52,6 +54,13 @@ def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
     if state.armed:
         return ((" ● ARMED ", "warn"), (f" keys drive, h hands back  {topic}", "dim"))
     return ((" ○ disarmed ", "dim"), (" enter arms  " if width >= 34 else " ", "strong"), (topic, "dim"))
+
+
+def _looked_on(drive: DriveInfo, topic: str) -> Line:
+    """Where nothing may be steered or released: no key is named that would be refused."""
+    if drive.stopped:
+        return ((" ALL STOP ", "error"), (f" released elsewhere: held{held_by(drive)}", ""))
+    return ((" ○ ", "dim"), (f" {drive.refused}  ", "strong"), (topic, "dim"))
 
 
 def _unconfirmed(drive: DriveInfo) -> str:
