@@ -90,7 +90,8 @@ class ConsoleNode:
         self._drive_node = DriveNode(self.context)
         self.drive = self._drive_node.link
         self.provenance = provenance or Provenance()
-        self.parameters = ParameterMirror(self.node, self.calls, self._parameter_changed, self.provenance)
+        told = self._parameter_changed, self.provenance, self._parameter_anew
+        self.parameters = ParameterMirror(self.node, self.calls, *told)
         self._compared: tuple[Profile | None, object, int] = (None, None, 0)
         self.setter = ParameterSetter(self.calls, self.parameters, self.journal)
         self.traffic = NodeTraffic(self.node, self.calls, lambda: self.graph.info, types)
@@ -133,12 +134,20 @@ class ConsoleNode:
     def _parameter_changed(self, node: str, name: str, old: Value, new: Value) -> ChangeSource:
         self.plots.parameter_is(node, name, new)
         source = self.setter.announced(node, name, old, new)
+        self._warn_if_unsafe(node, name, old, new)
+        return source
+
+    def _parameter_anew(self, node: str, name: str, old: Value, new: Value) -> None:
+        self.plots.parameter_is(node, name, new)
+        self.setter.begun_anew(node, name, old, new)
+        self._warn_if_unsafe(node, name, old, new)
+
+    def _warn_if_unsafe(self, node: str, name: str, old: Value, new: Value) -> None:
         parameter = self.parameters.get(node, name)
         why = takes_safety(parameter, old, new) if parameter else ""
         if why:
             text = f"{node} {name} {old} -> {new} {why}"
             self._log(time.time_ns(), Severity.WARN, "bot-console", text, ("", "", 0))
-        return source
 
     def learn(self, kind: str, facts: Mapping[str, Any]) -> None:
         """Take in what a program or a launch tells of itself; from any thread."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from collections import deque
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from bot_console.tui.console.model import Change, ChangeSource, JournalState, Value
 from bot_console.tui.console.parameters.history import History
@@ -121,6 +121,16 @@ class Journal:
             self._unsaved.saved(nodes)
             self._renew()
 
+    def begun_anew(self, node: str, name: str) -> None:
+        """A node has begun again with another value: what was set before is neither taken back nor lost any more."""
+        with self._lock:
+            for steps in (self._undo, self._redo):
+                left = [each for each in (_without(step, node, name) for step in steps) if each.moves]
+                steps.clear()
+                steps.extend(left)
+            self._unsaved.begun_anew(node, name)
+            self._renew()
+
     def after(self, seq: int) -> Sequence[Change]:
         """Entries numbered `seq` and up, oldest first; from a number below 0 on with those of earlier runs."""
         with self._lock:
@@ -138,3 +148,18 @@ class Journal:
         problem = self._history.problem if self._history else ""
         steps = bool(self._undo), bool(self._redo)
         self._state = JournalState(first, self._end, first, *steps, self._unsaved.names, problem)
+
+
+def _without(step: Step, node: str, name: str) -> Step:
+    """A step that moves all but one parameter."""
+    if not any(each.node == node and name in each.after for each in step.moves):
+        return step
+    moves = [
+        Move(each.node, _but(each.before, name), _but(each.after, name)) if each.node == node else each
+        for each in step.moves
+    ]
+    return replace(step, moves=tuple(each for each in moves if each.after))
+
+
+def _but(values: Mapping[str, Value], name: str) -> Mapping[str, Value]:
+    return {key: value for key, value in values.items() if key != name}

@@ -11,7 +11,7 @@ from typing import Any
 
 from bot_console.tui.console.calls import Calls, NoAnswer
 from bot_console.tui.console.model import ChangeSource, GraphInfo, Kind, NodeInfo, ParameterInfo, ParameterTree, Value
-from bot_console.tui.console.parameters.origin import origin_text
+from bot_console.tui.console.parameters.origin import START, origin_text
 from bot_console.tui.console.parameters.provenance import Provenance
 from bot_console.tui.console.values import from_message, info
 from rcl_interfaces.msg import Parameter, ParameterEvent, ParameterValue
@@ -29,20 +29,34 @@ WINDOW = 16
 """Nodes that are read at the same time. Asked all at once, the nodes of a busy machine would all answer too late."""
 
 Changed = Callable[[str, str, Value, Value], ChangeSource]
+Anew = Callable[[str, str, Value, Value], object]
+
+LEFT = 500
+"""Nodes that have left whose values are kept, so that it is seen which are others when they come back."""
 
 
 class ParameterMirror:
     """The parameters of each node that offers the parameter services.
 
     `changed(node, name, old, new)` is called for each value that an event tells, equal ones too, but never for a
-    first sight; it gives back who has made the change.
+    first sight; it gives back who has made the change. `anew(node, name, old, new)` is called instead where a node has
+    begun again, with another value than it had: nobody has set that one.
     """
 
-    def __init__(self, node: Node, calls: Calls, changed: Changed, provenance: Provenance | None = None) -> None:
+    def __init__(
+        self,
+        node: Node,
+        calls: Calls,
+        changed: Changed,
+        provenance: Provenance | None = None,
+        anew: Anew = lambda node, name, old, new: None,
+    ) -> None:
         self._provenance = provenance or Provenance()
         self.trees: Mapping[str, ParameterTree] = MappingProxyType({})
         self._calls = calls
         self._changed = changed
+        self._anew = anew
+        self._left: dict[str, ParameterTree] = {}
         self._offering: set[str] = set()
         self._loading: set[str] = set()
         self._waiting: deque[tuple[Reading, str]] = deque()
@@ -60,6 +74,9 @@ class ParameterMirror:
         self._offering = offering = {node.name for node in graph.nodes if _offers(node, f"{node.name}/list_parameters")}
         gone = [name for name in self.trees if name not in offering]
         if gone:
+            self._left |= {name: self.trees[name] for name in gone if self.trees[name].parameters}
+            while len(self._left) > LEFT:
+                del self._left[next(iter(self._left))]
             self._publish({name: tree for name, tree in self.trees.items() if name in offering})
             for name in gone:
                 self._calls.forget(name + "/")
@@ -104,6 +121,15 @@ class ParameterMirror:
             tree = ParameterTree(node, old.parameters if old else (), str(error))
         if node in self._offering:  # else it has left meanwhile
             self._publish({**self.trees, node: tree})
+            if not tree.problem:
+                self._compare(tree, self._left.pop(node, None))
+
+    def _compare(self, tree: ParameterTree, before: ParameterTree | None) -> None:
+        """Tell of each value that is another one than when its node left."""
+        for each in tree.parameters:
+            old = before.get(each.name) if before else None
+            if old is not None and old.value != each.value:
+                self._anew(each.node, each.name, old.value, each.value)
 
     async def _describe(self, node: str, names: Sequence[str]) -> list[ParameterInfo]:
         if not names:
@@ -166,7 +192,15 @@ class ParameterMirror:
         deleted = {each.name for each in event.deleted_parameters}
         known = {each.name: each for each in tree.parameters if each.name not in deleted}
         unknown = False
-        for message in [*event.new_parameters, *event.changed_parameters]:
+        for message in event.new_parameters:
+            before = known.get(message.name)
+            if before is not None and before.value is None:  # the first value of one that was declared without any
+                known[message.name] = self._moved(before, message)
+                continue
+            unknown = True  # its description may be another one, too: the program may have been changed and restarted
+            if before is not None:
+                known[message.name] = self._begun_anew(before, message)
+        for message in event.changed_parameters:
             before = known.get(message.name)
             if before is None:
                 unknown = True
@@ -185,6 +219,15 @@ class ParameterMirror:
         source = self._changed(before.node, before.name, before.value, value)
         same = value == before.value and kind is before.kind
         return before if same else replace(before, value=value, kind=kind, origin=origin_text(source, time.time_ns()))
+
+    def _begun_anew(self, before: ParameterInfo, message: Parameter) -> ParameterInfo:
+        """A parameter that is declared again: its node was restarted before anybody saw that it was gone."""
+        value = from_message(message.value)
+        if value != before.value:
+            self._anew(before.node, before.name, before.value, value)
+        kind = Kind(message.value.type) if message.value.type else before.kind
+        first = replace(before, value=value, kind=kind, default=value, origin=START, declared_at="")
+        return self._provenance.applied(first)
 
 
 def _offers(node: NodeInfo, service: str) -> bool:

@@ -16,6 +16,9 @@ from bot_console.tui.console.values import refusal, to_message
 from rcl_interfaces.msg import Parameter, SetParametersResult
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 
+BEGUN_ANEW = "the node came back with it"
+"""By whom a value is that a node has after it was gone, or was started again."""
+
 
 class ParameterSetter:
     """Sets parameters on any node and writes the journal. Coroutines run in the console's executor."""
@@ -35,6 +38,11 @@ class ParameterSetter:
         if old != new or wish:
             self._journal.record(time.time_ns(), node, name, (old, new), source, by=wish.by if wish else "")
         return source
+
+    def begun_anew(self, node: str, name: str, old: Value, new: Value) -> None:
+        """A node came back with another value than it had: nobody has set that one."""
+        self._journal.record(time.time_ns(), node, name, (old, new), ChangeSource.OTHER, by=BEGUN_ANEW)
+        self._journal.begun_anew(node, name)
 
     async def set(
         self, node: str, values: Mapping[str, Value], source: ChangeSource, *, atomically: bool = False

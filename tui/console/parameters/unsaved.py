@@ -36,6 +36,11 @@ class Unsaved:
             if not nodes or key[0] in nodes:
                 self._safe[key].append(value)
 
+    def begun_anew(self, node: str, name: str) -> None:
+        """A parameter has the value again that its node begins with."""
+        self._now.pop((node, name), None)
+        self._safe.pop((node, name), None)
+
     @property
     def names(self) -> tuple[tuple[str, str], ...]:
         """Node and name of each value that is in no file, sorted."""

@@ -30,6 +30,8 @@ NODE, NAME, VALUES = 18, 24, 22
 
 def who(change: Change) -> str:
     """Who has asked for a change, and what it was a part of."""
+    if change.source is ChangeSource.OTHER and change.by:
+        return change.by  # more is known of it
     return f"{WHO[change.source]} {change.by}".rstrip()
 
 

@@ -44,3 +44,16 @@ def test_a_refused_undo_is_put_back() -> None:
     assert step is not None
     journal.put_back(step, ChangeSource.UNDO)
     assert journal.state.can_undo
+
+
+def test_what_a_node_has_begun_anew_with_is_neither_undone_nor_lost() -> None:
+    journal = Journal()
+    journal.did(Step((Move("/n", {"p": 1}, {"p": 2}),)), ChangeSource.EDIT)
+    both = (Move("/n", {"p": 2, "q": 1}, {"p": 3, "q": 2}), Move("/other", {"p": 1}, {"p": 2}))
+    journal.did(Step(both), ChangeSource.EDIT)
+    journal.begun_anew("/n", "p")
+    assert journal.state.unsaved == (("/n", "q"), ("/other", "p"))
+    step = journal.take_undo()
+    assert step is not None
+    assert step.moves == (Move("/n", {"q": 1}, {"q": 2}), both[1])
+    assert journal.take_undo() is None and not journal.state.can_undo

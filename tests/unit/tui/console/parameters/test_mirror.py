@@ -5,9 +5,9 @@ from collections import Counter
 
 import pytest
 from bot_console.tui.console.calls import NoAnswer
-from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.console.model import ChangeSource, Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.parameters.mirror import WINDOW, ParameterMirror
-from rcl_interfaces.msg import ParameterDescriptor, ParameterValue
+from rcl_interfaces.msg import Parameter, ParameterDescriptor, ParameterEvent, ParameterValue
 from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters
 
 MANY = 4 * WINDOW
@@ -16,8 +16,8 @@ MANY = 4 * WINDOW
 class StubNode:
     """Takes what a mirror creates."""
 
-    def create_subscription(self, *args):
-        return None
+    def create_subscription(self, kind, topic, callback, qos):
+        self.event = callback
 
     def create_timer(self, period, callback):
         self.look_again = callback
@@ -29,6 +29,7 @@ class Asked:
     def __init__(self):
         self.tasks, self.pending, self.most = [], Counter(), 0
         self.times, self.silent, self.open = Counter(), set(), asyncio.Event()
+        self.value, self.description = 1.5, ""
 
     def run(self, work):
         self.tasks.append(asyncio.ensure_future(work))
@@ -47,20 +48,23 @@ class Asked:
             raise NoAnswer(f"{service} did not answer")
         return self._answer(kind)
 
-    @staticmethod
-    def _answer(kind):
+    def _answer(self, kind):
         answer = kind.Response()
         if kind is ListParameters:
             answer.result.names = ["speed"]
         elif kind is DescribeParameters:
-            answer.descriptors = [ParameterDescriptor(name="speed", type=3)]
+            answer.descriptors = [ParameterDescriptor(name="speed", type=3, description=self.description)]
         elif kind is GetParameters:
-            answer.values = [ParameterValue(type=3, double_value=1.5)]
+            answer.values = [ParameterValue(type=3, double_value=self.value)]
         return answer
 
 
 def graph_of(names):
     return GraphInfo(tuple(NodeInfo(name, services=(Endpoint(f"{name}/list_parameters", ()),)) for name in names))
+
+
+def speed(value):
+    return Parameter(name="speed", value=ParameterValue(type=3, double_value=value))
 
 
 @pytest.fixture
@@ -131,5 +135,47 @@ def test_who_leaves_while_it_waits_is_not_asked(names):
         asked.open.set()
         await finished(asked)
         assert sorted(mirror.trees) == sorted(asked.times) == names[: 2 * WINDOW]
+
+    asyncio.run(scenario())
+
+
+@pytest.mark.parametrize("seen", [True, False], ids=["seen gone", "too quick to be seen gone"])
+def test_the_value_of_a_node_that_was_restarted_is_its_start_value_and_nobody_has_set_it(seen):
+    async def scenario():
+        asked, node, changed, anew = Asked(), StubNode(), [], []
+        asked.open.set()
+
+        def set_by(*change):
+            changed.append(change)
+            return ChangeSource.EDIT
+
+        mirror = ParameterMirror(node, asked, set_by, None, lambda *change: anew.append(change))
+        mirror.follow(graph_of(["/n"]))
+        await finished(asked)
+        node.event(ParameterEvent(node="/n", changed_parameters=[speed(4.0)]))
+        assert mirror.get("/n", "speed").origin.startswith("set here")
+        asked.value, asked.description = 2.5, "in m/s"
+        if seen:
+            mirror.follow(graph_of([]))
+            mirror.follow(graph_of(["/n"]))
+        else:
+            node.event(ParameterEvent(node="/n", new_parameters=[speed(2.5)]))
+        await finished(asked)
+        now = mirror.get("/n", "speed")
+        assert (now.value, now.default, now.origin, now.description) == (2.5, 2.5, "start value", "in m/s")
+        assert changed == [("/n", "speed", 1.5, 4.0)] and anew == [("/n", "speed", 4.0, 2.5)]
+
+    asyncio.run(scenario())
+
+
+def test_a_node_that_comes_back_as_it_was_has_not_begun_anew():
+    async def scenario():
+        asked, anew = Asked(), []
+        asked.open.set()
+        mirror = ParameterMirror(StubNode(), asked, lambda *change: None, None, lambda *change: anew.append(change))
+        for names in (["/n"], [], ["/n"]):
+            mirror.follow(graph_of(names))
+            await finished(asked)
+        assert mirror.get("/n", "speed").value == 1.5 and anew == []
 
     asyncio.run(scenario())
