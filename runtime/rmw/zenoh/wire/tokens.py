@@ -90,3 +90,14 @@ def all_tokens(domain: int) -> str:
 def tokens_of(domain: int, kind: Kind, topic: str) -> str:
     """The key that the tokens of one kind for one topic or service match."""
     return f"{SPACE}/{domain}/*/*/*/{kind}/*/*/*/{mangled(topic)}/**"
+
+
+def tokens_of_kind(domain: int, kind: Kind) -> str:
+    """The key that all tokens of one kind match."""
+    return f"{SPACE}/{domain}/*/*/*/{kind}/**"
+
+
+def topic_part(key: str) -> str | None:
+    """The topic or service of a token as its key has it, mangled; None where there is none. Nothing else is read."""
+    parts = key.split("/", NODE_PARTS + 1)
+    return parts[NODE_PARTS] if len(parts) > NODE_PARTS else None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any, cast
 
 import pytest
+from bot_console.runtime.rmw.zenoh import seen as looking
 from bot_console.runtime.rmw.zenoh.declared import TokenWatch
 from bot_console.runtime.rmw.zenoh.domain.mesh import MeshSession, open_session
 from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session
@@ -35,8 +36,9 @@ def publishers(graph: WholeGraph) -> int:
     return len(graph.tables.publishers.all())
 
 
-@pytest.mark.parametrize("known", [False, True])
-def test_all_is_there_at_once_and_goes_with_its_process(socket_folder, known):
+@pytest.mark.parametrize(("known", "single"), [(False, 48), (True, 48), (True, 1)])
+def test_all_is_there_at_once_and_goes_with_its_process(socket_folder, monkeypatch, known, single):
+    monkeypatch.setattr(looking, "SINGLE", single)
     holder = open_session(0)
     for _ in range(ROUNDS):
         shown = show(holder, MANY)

@@ -1,0 +1,152 @@
+"""Many topics are looked at by one watch for their kind: who looks at one hears what a watch of its own would tell."""
+
+from __future__ import annotations
+
+from typing import Any, cast
+
+import pytest
+from bot_console.runtime.rmw.zenoh import seen as looking
+from bot_console.runtime.rmw.zenoh.declared import TokenSeen, TokenWatch
+from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
+from bot_console.runtime.rmw.zenoh.kind_watch import KindWatch
+from bot_console.runtime.rmw.zenoh.seen import Watches
+from bot_console.runtime.rmw.zenoh.wire.tokens import (
+    Token,
+    TokenNode,
+    all_tokens,
+    entity_token,
+    tokens_of,
+    tokens_of_kind,
+)
+from helpers.processes.mesh import eventually
+
+Heard = list[tuple[str, bool]]
+
+
+def token(topic: str, number: int = 1, kind: Any = "MP") -> str:
+    node = TokenNode("ab", 0, "", "/", "talker")
+    return entity_token(0, node, number, kind, topic, "a/msg/B", "RIHS01_0", "::,10:,:,:,,")
+
+
+class Told:
+    """A session whose tokens the test tells, to each watch by its key."""
+
+    zid, domain = "cd", 0
+
+    def __init__(self) -> None:
+        self.watches: dict[str, TokenWatch] = {}
+
+    def watch_tokens(self, key: str, seen: TokenSeen, *, apart: bool = False) -> TokenWatch:
+        self.watches[key] = TokenWatch(cast("Any", self), lambda session: None, seen)
+        return self.watches[key]
+
+    def forget(self, thing: Any) -> None:
+        self.watches = {key: each for key, each in self.watches.items() if each is not thing}
+
+
+@pytest.fixture
+def session() -> Told:
+    return Told()
+
+
+@pytest.fixture
+def watch(session: Told) -> KindWatch:
+    return KindWatch(cast("Any", session), "MP")
+
+
+@pytest.fixture
+def tell(session: Told, watch: KindWatch) -> Any:
+    return session.watches[tokens_of_kind(0, "MP")].saw
+
+
+def hears(heard: Heard) -> TokenSeen:
+    return lambda key, came: heard.append((key, came))
+
+
+def test_who_looks_hears_what_is_there_comes_and_goes_of_that_topic_alone(watch, tell):
+    there, later, other = token("/a/b"), token("/a/b", 2), token("/a")
+    tell(there, True)
+    tell(other, True)
+    heard: Heard = []
+    watch.look("/a/b", hears(heard))
+    tell(later, True)
+    tell(other, False)
+    tell(there, False)
+    assert heard == [(there, True), (later, True), (there, False)]
+    assert watch.known() == [later]
+
+
+def test_who_looks_no_more_hears_nothing_and_who_looks_again_hears_what_is_there(watch, tell):
+    heard: Heard = []
+    first = watch.look("/t", hears([]))
+    tell(token("/t"), True)
+    again = watch.look("/t", hears(heard))
+    first.undeclare()  # late: somebody else looks already
+    tell(token("/t", 2), True)
+    again.undeclare()
+    tell(token("/t"), False)
+    assert heard == [(token("/t"), True), (token("/t", 2), True)]
+
+
+def test_nothing_is_kept_of_what_has_gone_and_nobody_looks_at(watch, tell):
+    look = watch.look("/looked_at", hears([]))
+    for came in (True, False):
+        tell(token("/t"), came)
+        tell(token("/looked_at"), came)
+    tell("@ros2_lv/0/ab/0/1/MP", True)  # no token of the format
+    assert list(watch._rows) == ["%looked_at"]
+    look.undeclare()
+    assert not watch._rows
+
+
+def test_few_are_watched_singly_and_more_by_their_kind(session, monkeypatch):
+    monkeypatch.setattr(looking, "SINGLE", 2)
+    watches = Watches(cast("Any", session))
+    heard: list[Token] = []
+
+    def listener(token: Token, came: bool) -> None:
+        heard.append(token)
+
+    for each in range(4):
+        watches.listen("MP", f"/t{each}", listener)
+    watches.listen("SS", "/t0", listener)
+    singly = [tokens_of(0, "MP", "/t0"), tokens_of(0, "MP", "/t1"), tokens_of(0, "SS", "/t0")]
+    assert set(session.watches) == {*singly, tokens_of_kind(0, "MP")}
+    session.watches[tokens_of_kind(0, "MP")].saw(token("/t3"), True)
+    session.watches[singly[0]].saw(token("/t0"), True)
+    assert [each.topic for each in heard] == ["/t3", "/t0"]
+    assert sorted(watches.known() or []) == [token("/t0"), token("/t3")]
+    watches.forget("MP", "/t3", listener)
+    session.watches[tokens_of_kind(0, "MP")].saw(token("/t3", 2), True)
+    assert len(heard) == 2
+    assert token("/t3", 2) in (watches.known() or [])  # its kind is still watched
+    watches.forget("MP", "/t0", listener)
+    assert watches.known() is None
+    watches.listen("MP", "/t4", listener)
+    assert tokens_of(0, "MP", "/t4") in session.watches  # there is room for one more
+
+
+def test_in_a_mesh_all_listeners_hear_of_what_is_there_comes_and_goes(socket_folder, monkeypatch):
+    monkeypatch.setattr(looking, "SINGLE", 1)
+    holder, watcher = open_session(0), open_session(0)
+    topics = [f"/t{each}" for each in range(4)]
+    names = {each: token(each).replace("/ab/", f"/{holder.zid}/") for each in topics}
+    shown = [holder.declare_token(names[each]) for each in topics[:3]]
+    assert eventually(lambda: watcher.linked() == {holder.zid})
+    assert eventually(lambda: len(watcher.collect_tokens(all_tokens(0), 1.0)[0]) == 3)
+    watches = Watches(watcher)
+    there: set[str] = set()
+
+    def listener(token: Token, came: bool) -> None:
+        (there.add if came else there.discard)(token.topic)
+
+    for each in topics:
+        watches.listen("MP", each, listener)
+    assert eventually(lambda: there == {*topics[:3]})
+    shown.append(holder.declare_token(names["/t3"]))
+    assert eventually(lambda: there == {*topics})
+    shown[1].undeclare()
+    assert eventually(lambda: there == {"/t0", "/t2", "/t3"})
+    holder.close()
+    assert eventually(lambda: not there)
+    watcher.close()
