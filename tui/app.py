@@ -196,7 +196,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
             for pane in self.panes():
                 if pane.children:  # none at the end, when the screen is taken apart
                     pane.tick()
-            self.desk.look()
+            self.crew.beat()
 
     def pull(self) -> None:
         """Take the newest snapshot and let the visible panes draw what is new."""

@@ -62,6 +62,11 @@ class Crew:
         """What stands between the panes and the keys, from above."""
         return StreamPanel(), self.desk.field(), self.status
 
+    def beat(self) -> None:
+        """Ten times a second: take in what the line of a stream prints, show the figures that have waited."""
+        self.desk.look()
+        self.status.beat()
+
     def arrange(self) -> None:
         """Arrange the panes by key, where there is room for that."""
         if self._stage.arranging.begin():

@@ -1,4 +1,4 @@
-"""One line that says how robot and console are; it is drawn anew only when its text changes."""
+"""One line that says how robot and console are; what has changed is told at once, speeds at most twice a second."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from bot_console.tui.console.model import ConsoleSnapshot, LinkInfo, ProcessStat
 from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.format import counted, figure, harmless, profile_text
 from bot_console.tui.safety.stop_words import stop_text
-from bot_console.tui.widgets.words import Words
+from bot_console.tui.widgets.live_words import LiveWords
 
 
-class StatusBar(Words):
+class StatusBar(LiveWords):
     """The command chain, the all-stop, the profile, processes that have ended, errors."""
 
     DEFAULT_CSS = """
@@ -26,7 +26,7 @@ class StatusBar(Words):
     def show(self, snapshot: ConsoleSnapshot, held_back: int = 0) -> None:
         """Say how things are."""
         self._acknowledged = min(self._acknowledged, errors_of(snapshot))  # a log that was emptied counts anew
-        self.say(status_text(snapshot, held_back, self._acknowledged, self.alarms))
+        self.say_live(status_text(snapshot, held_back, self._acknowledged, self.alarms))
         self.set_class(snapshot.drive.stopped or bool(snapshot.link.silent_s), "stopped")
 
     def acknowledge(self, snapshot: ConsoleSnapshot) -> None:

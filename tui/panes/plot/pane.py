@@ -53,6 +53,12 @@ class PlotPane(PlotQuestions):
         self._journal: JournalState | None = None
         self._graph: object = None
         self._parameters: object = None
+        self._beats = False
+        """Whether there are beats; without them each snapshot is drawn."""
+        self._wanted = self._undrawn = False
+        """Whether something else than samples is to be drawn, and whether there are samples that were not drawn."""
+        self._moment: object = None
+        """When it was drawn, as far as moments differ in the picture."""
 
     def compose(self) -> ComposeResult:
         """The picture, the legend, a prompt."""
@@ -73,12 +79,15 @@ class PlotPane(PlotQuestions):
             if not self._touched:
                 self._add_defaults()
             self._take_expected(snapshot)
+            self._wanted = True
         if snapshot.journal is not self._journal:
             self._journal = snapshot.journal
             changes = self.console.changes()
             self._timeline.marks_of(changes)
             self._responses.read(changes)
-        self.tick(force=True)
+            self._wanted = True
+        if self._wanted or not self._beats:
+            self.take_in(force=True)
 
     def _add_defaults(self) -> None:
         known = self.console.plottable()
@@ -117,12 +126,19 @@ class PlotPane(PlotQuestions):
                 else:
                     self._expected[wanted] = answer.text
 
-    def tick(self, force: bool = False) -> None:
-        """Fetch new samples and draw, if there are any and the pane is seen."""
+    def tick(self) -> None:
+        """Fetch new samples, and draw when the newest lies beyond what a dot holds, or no other comes after it."""
+        self._beats = True
+        self.take_in(force=self._wanted)
+
+    def take_in(self, *, force: bool = False) -> None:
+        """Fetch new samples and draw what can be told from what is seen, if the pane is seen."""
         if not self.display or not self.is_mounted:
             return
         changed = self._timeline.take_in()
-        if changed or force:
+        self._undrawn = self._undrawn or changed
+        rests = self._undrawn and not changed
+        if force or rests or self._timeline.moment(self._across()) != self._moment:
             self.draw()
 
     def draw(self) -> None:
@@ -130,6 +146,8 @@ class PlotPane(PlotQuestions):
         picture, legend = self.query_one("#plot-picture", Picture), self.query_one("#plot-legend", Picture)
         curves = self._timeline.curves
         width, height = picture.size
+        self._wanted = self._undrawn = False
+        self._moment = self._timeline.moment(width)
         form = self._form
         if form == "framed" and self.size.height < LEAST_FRAME + len(curves):
             form = "strips"

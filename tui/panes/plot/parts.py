@@ -28,6 +28,9 @@ COLOURS = 6
 PACE = 0.5
 """Seconds for which the window stands still, where that is no more than a share of its width."""
 
+LATEST = 0.3
+"""Seconds after which the newest value is told, though it lies in the same dot as the one before."""
+
 STEPS = 20
 """The window moves in at least so many steps through its own width."""
 
@@ -203,6 +206,13 @@ class Timeline:
         """The time of the newest sample of a topic; with parameters alone, now."""
         streams = [end for each in self.curves if not each.steps and (end := each.end) is not None]
         return max(streams) if streams else self._console.plot_time()
+
+    def moment(self, across: int) -> object:
+        """What a picture of so many cells tells of now; while it stays the same only the newest dots may differ."""
+        if not self.curves:
+            return None
+        dot = min(self.window / max(1, 2 * across), LATEST)
+        return self.axes(across).end, math.floor(self.newest() / dot)
 
     def axes(self, across: int) -> Axes:
         """The window; it moves in steps of some cells, so that between two steps only the newest cells are drawn."""

@@ -31,8 +31,8 @@ class PlotQuestions(Pane):
         """Draw what there is."""
         raise NotImplementedError
 
-    def tick(self, force: bool = False) -> None:
-        """Fetch new samples, and draw."""
+    def take_in(self, *, force: bool = False) -> None:
+        """Fetch new samples, and draw what they change; with `force` in any case."""
         raise NotImplementedError
 
     @property
@@ -72,7 +72,7 @@ class PlotQuestions(Pane):
             self._chosen = len(self.paths) - 1
         else:
             self.notify(answer.text, title="Not plotted", severity="warning", markup=False)
-        self.tick(force=True)
+        self.take_in(force=True)
         return answer.ok
 
     def action_remove_all(self) -> None:

@@ -10,9 +10,9 @@ from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.robot.robot_model import Pose, TurtleField, WorldInfo
 from bot_console.tui.format import clock_text, figure
 from bot_console.tui.panes.pane import Pane
+from bot_console.tui.widgets.live_words import LiveWords
 from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.prompt.line import Prompt
-from bot_console.tui.widgets.words import Words
 from textual.app import ComposeResult
 
 if TYPE_CHECKING:
@@ -34,6 +34,8 @@ class WorldMap(Picture):
         self._world = WorldInfo()
         self._drawing: WorldDrawing | None = None
         self._field_drawing: FieldDrawing | None = None
+        self._told: object = None
+        """What the lines tell; None where they show something else."""
         self._age = -1
         self._place = 0
         self.zoom = 1.0
@@ -71,21 +73,26 @@ class WorldMap(Picture):
         if width < 4 or height < 2:
             return
         if self.field:
+            self._told = None
             from bot_console.tui.panes.world.field import FieldDrawing
 
             self._field_drawing = self._field_drawing or FieldDrawing()
             self.set_lines(self._field_drawing.rows(self.field, width, height))
             return
         if self._world == WorldInfo():
+            self._told = None
             self.set_lines(())
             return
         # NumPy is imported after the first frame: it is a third of the start-up time.
-        from bot_console.tui.panes.world.view import WorldDrawing, following, scale_text
+        from bot_console.tui.panes.world.view import WorldDrawing, following, scale_text, told_of
 
         self._drawing = self._drawing or WorldDrawing()
         window = following(self._world, width, height, self.zoom)
-        self.set_lines(self._drawing.rows(self._world, window, width, height))
-        self.scale = scale_text(window, width)
+        told = told_of(self._world, window, width, height)
+        if told != self._told:
+            self._told = told
+            self.set_lines(self._drawing.rows(self._world, window, width, height))
+            self.scale = scale_text(window, width)
 
 
 class WorldPane(Pane):
@@ -113,7 +120,7 @@ class WorldPane(Pane):
     def compose(self) -> ComposeResult:
         """The map and a line of facts."""
         yield WorldMap()
-        yield Words(id="world-facts")
+        yield LiveWords(id="world-facts")
         yield Prompt(id="world-prompt")
 
     def focus_target(self) -> None:
@@ -127,14 +134,19 @@ class WorldPane(Pane):
             self._facts()
         if snapshot.world is not self._world:
             self._world = snapshot.world
-            self._draw()
+            self._draw(live=True)
 
-    def _draw(self) -> None:
+    def tick(self) -> None:
+        """Show the figures that have waited."""
+        if self.display:
+            self.query_one(LiveWords).beat()
+
+    def _draw(self, live: bool = False) -> None:
         world = self._world or WorldInfo()
         if self._then is not None:
             world = replace(world, pose=self._then, hits=())
         self.query_one(WorldMap).show(world)
-        self._facts()
+        self._facts(live)
 
     def time_moved(self, stamp: int | None) -> None:
         """Show where the robot was at another moment."""
@@ -148,7 +160,7 @@ class WorldPane(Pane):
         self.query_one(WorldMap).draw()
         self._facts()
 
-    def _facts(self) -> None:
+    def _facts(self, live: bool = False) -> None:
         snapshot, world = self._snapshot, self._snapshot.world
         drawn = self.query_one(WorldMap)
         more = f"  n: next of {len(drawn.places)} places" if len(drawn.places) > 1 else ""
@@ -167,7 +179,8 @@ class WorldPane(Pane):
             if stamp is not None:
                 known = f"{where}  " if self._then else "where the robot was then is not known  "
                 text = f"◆ {clock_text(stamp)}  {known}{drawn.scale}{more}"
-        self.query_one("#world-facts", Words).say(text)
+        facts = self.query_one(LiveWords)
+        (facts.say_live if live else facts.say_now)(text)
 
     def action_next_place(self) -> None:
         """The robot's place, or a field of turtles."""

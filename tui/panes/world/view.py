@@ -63,9 +63,7 @@ class WorldDrawing:
                 canvas.points(*_dots(np.asarray(points, float), window, width, height))
         layers = [hits.codes(), trail.codes(), walls.codes()]
         rows = layered(layers, ("warn", "accent", ""), width, height)
-        for place, letter, style in _letters(world):
-            x, y = _dots(np.array([place]), window, width, height)
-            column, row = int(x[0]) // 2, int(y[0]) // 4
+        for (column, row), letter, style in _letters(world, window, width, height):
             if 0 <= row < height and 0 <= column < width:
                 rows[row] = _written(rows[row], column, letter, style)
         return [tuple(row) for row in rows]
@@ -118,13 +116,25 @@ def _written(pieces: list[Piece], column: int, letter: str, style: str) -> list[
     return [each for each in result if each[0]]
 
 
-def _letters(world: WorldInfo) -> list[tuple[tuple[float, float], str, str]]:
-    letters: list[tuple[tuple[float, float], str, str]] = []
+def told_of(world: WorldInfo, window: Window, width: int, height: int) -> object:
+    """What a drawing tells; worlds of which it tells the same look the same, though the robot has moved a little."""
+    return world.map, world.hits, world.trail, window, width, height, _letters(world, window, width, height)
+
+
+def _letters(world: WorldInfo, window: Window, width: int, height: int) -> list[tuple[tuple[int, int], str, str]]:
+    """Letters with column and row of their cells."""
+    letters: list[tuple[tuple[int, int], str, str]] = []
     if world.goal is not None:
-        letters.append((world.goal, "✚", "good"))
+        letters.append((_cell(*world.goal, window, width, height), "✚", "good"))
     if world.pose is not None:
-        letters.append(((world.pose.x, world.pose.y), arrow(world.pose.heading), "robot"))
+        pose = world.pose
+        letters.append((_cell(pose.x, pose.y, window, width, height), arrow(pose.heading), "robot"))
     return letters
+
+
+def _cell(x: float, y: float, window: Window, width: int, height: int) -> tuple[int, int]:
+    column, row = _dots(np.array([[x, y]]), window, width, height)
+    return int(column[0]) // 2, int(row[0]) // 4
 
 
 def arrow(heading: float) -> str:

@@ -1,0 +1,53 @@
+"""A line of figures that change faster than a person reads them."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from bot_console.tui.widgets.words import Words
+
+FIGURE = re.compile(r" *[-+]?\d+(?:\.\d+)?")
+
+EVERY = 5
+"""Beats of the app for which figures stand before others take their place: half a second."""
+
+
+class LiveWords(Words):
+    """Says other words at once, other figures at most twice a second, and the newest ones in any case."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self._live: str = ""
+        self._newest: str = ""
+        self._wait = 0
+        self._beats = False
+        """Whether there are beats; without them, nothing would ever show what waits."""
+
+    def say_live(self, text: str) -> None:
+        """Show a text whose figures may wait."""
+        self._newest = text
+        if not (self._wait and _words(text) == _words(self._live)):
+            self._say_newest()
+
+    def beat(self) -> None:
+        """Ten times a second: show what has waited."""
+        self._beats = True
+        self._wait = max(0, self._wait - 1)
+        if not self._wait:
+            self._say_newest()
+
+    def say_now(self, text: str) -> None:
+        """Show a text that somebody has just asked for."""
+        self._newest = text
+        self._say_newest()
+
+    def _say_newest(self) -> None:
+        if self._newest != self._live:
+            self._live = self._newest
+            self._wait = EVERY if self._beats else 0
+            self.say(self._live)
+
+
+def _words(text: str) -> str:
+    return FIGURE.sub("#", text)
