@@ -10,12 +10,15 @@ from typing import Any, NamedTuple
 
 import rclpy
 from bot_console.runtime.rmw.names import full_name
+from rclpy._rclpy_pybind11 import NodeNameNonExistentError
 from rclpy.clock import Clock, ClockType
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 
 HIDDEN = "_"
+LOOK = 0.5
+"""Seconds without an answer after which it is looked whether there can be one, again and again."""
 
 
 class NodeName(NamedTuple):
@@ -98,16 +101,41 @@ def spin_until(node: Node, done: Callable[[], bool], timeout: float | None = Non
         executor.shutdown(timeout_sec=0)
 
 
+class NoAnswer(RuntimeError):
+    """A request will not be answered: the text names who does not, and why."""
+
+
 def call(node: Node, kind: Any, service: str, request: Any) -> Any:
-    """Call a service and wait for the answer, for as long as it takes, as upstream does."""
+    """Call a service and wait for the answer, as `answer` does."""
     client = node.create_client(kind, service)
     try:
         spin_until(node, client.service_is_ready)
-        future = client.call_async(request)
-        spin_until(node, future.done)
-        return future.result()
+        return answer(node, client, client.call_async(request))
     finally:
         node.destroy_client(client)
+
+
+def answer(node: Node, client: Any, future: Any) -> Any:
+    """Wait for the answer to a request, for as long as it takes, as upstream does.
+
+    Raises `NoAnswer` where the server's process is stopped, which upstream waits for for good.
+    """
+    service = client.service_name
+    while not spin_until(node, future.done, LOOK):
+        for pid, nodes in node.context.bus.stopped().items():
+            for name in nodes:
+                if _serves(node, name, service):
+                    raise NoAnswer(f"{name} does not answer: its process {pid} is stopped")
+    return future.result()
+
+
+def _serves(node: Node, name: str, service: str) -> bool:
+    """Whether a node, of a full name, is there and offers a service."""
+    namespace, _, base = name.rpartition("/")
+    try:
+        return service in dict(node.get_service_names_and_types_by_node(base, namespace or "/"))
+    except NodeNameNonExistentError:
+        return False
 
 
 def wait_for_node(node: Node, name: str, *, include_hidden: bool, timeout: float) -> bool:

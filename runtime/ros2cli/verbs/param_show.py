@@ -13,7 +13,7 @@ from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters
 from rclpy.node import Node
 from rclpy.parameter import parameter_value_to_python
 from ros2cli.command import Result
-from ros2cli.direct_node import DirectNode, NodeName, absolute, call, node_names, wait_for_node
+from ros2cli.direct_node import DirectNode, NoAnswer, NodeName, absolute, call, node_names, wait_for_node
 
 NOT_FOUND = "Node not found"
 TYPE_WORDS = {NOT_SET: "not set", **{code: each.shown for code, each in BY_CODE.items()}}
@@ -110,7 +110,12 @@ def list_(arguments: argparse.Namespace) -> Result:
                 continue
             if not arguments.node_name:
                 print(f"{each.full_name}:")
-            _print_names(node, each, arguments, pattern)
+            try:
+                _print_names(node, each, arguments, pattern)
+            except NoAnswer as error:
+                if arguments.node_name:
+                    raise
+                warn(str(error))
     return None
 
 

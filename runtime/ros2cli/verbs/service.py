@@ -11,7 +11,7 @@ from rclpy.clock import Clock, ClockType
 from rclpy.duration import Duration
 from rclpy.node import Node
 from ros2cli.command import Command, Result, Verb
-from ros2cli.direct_node import DirectNode, add_strategy_arguments, node_names, spin_until
+from ros2cli.direct_node import DirectNode, add_strategy_arguments, answer, node_names, spin_until
 from ros2cli.endpoints import hidden
 from ros2cli.told_types import full_type_name, typed_class
 from ros2cli.verbs import service_echo
@@ -153,8 +153,7 @@ def _requests(node: Node, kind: Any, values: Any, arguments: argparse.Namespace)
     while True:
         print(f"requester: making request: {request!r}\n")
         future = client.call_async(request)
-        spin_until(node, future.done)
-        print(f"response:\n{future.result()!r}\n")
+        print(f"response:\n{answer(node, client, future)!r}\n")
         if arguments.rate is None:
             return None
         clock.sleep_for(Duration(seconds=1.0 / arguments.rate))

@@ -1,0 +1,59 @@
+"""A verb that asks a frozen process through a router ends, and names who does not answer."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from bot_console.runtime.rmw.zenoh.domain.mesh import MeshSession
+from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session
+from bot_console.runtime.rmw.zenoh.settings import Serving
+from helpers.processes.mesh import eventually
+from helpers.processes.two_processes import DOMAIN, two_processes
+from processes.ports import free_port
+
+if os.name == "nt":
+    pytest.skip("needs SIGSTOP", allow_module_level=True)
+
+PATIENCE = 60
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("param", "get", "/other/peer", "speed"),
+        ("service", "call", "/pull", "std_srvs/srv/Trigger"),
+    ],
+    ids=" ".join,
+)
+def test_a_request_to_a_frozen_process_ends_and_names_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...]
+) -> None:
+    with two_processes(tmp_path / "s") as (_, (peer,)):
+        monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", str(tmp_path / "s"))
+        monkeypatch.setenv("ROS_DOMAIN_ID", str(DOMAIN))
+        place = f"tcp/127.0.0.1:{free_port()}"
+        router = MeshSession(DOMAIN, Serving((place,)))
+        router.watch()
+        client = open_network_session(DOMAIN, Way((place,)))
+        client.watch()
+        try:
+            peer.send_signal(signal.SIGSTOP)
+            assert eventually(lambda: list(client.stopped().values()) == [peer.pid])
+            asked = subprocess.run(
+                [sys.executable, "-m", "bot_console.tui", *words],
+                env=dict(os.environ, BOT_CONSOLE_CONNECT=place),
+                capture_output=True,
+                text=True,
+                timeout=PATIENCE,
+                check=False,
+            )
+        finally:
+            client.close()
+            router.close()
+    assert asked.returncode == 1
+    assert asked.stderr.splitlines()[-1] == f"/other/peer does not answer: its process {peer.pid} is stopped"
