@@ -50,6 +50,48 @@ os._exit(0)
 """
 
 
+TAKEN_BACK_WHILE_THE_SESSION_IS_LOCKED = f"""
+import faulthandler, sys, threading, time
+
+faulthandler.dump_traceback_later({PATIENCE}, exit=True)
+
+import zenoh
+from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
+
+own, other = open_session(0), open_session(0)
+seen, came = threading.Event(), threading.Event()
+own.watch_tokens("there", lambda key, there: seen.set())
+other.declare_token("there")
+seen.wait()
+publisher = own.declare_publisher("t", cache=2)
+publisher.inner._token.undeclare()  # which would wait for that lock first, and leave Python's to others meanwhile
+publisher.inner._token = None
+
+
+def replied(reply):  # Zenoh holds the lock of its session meanwhile
+    came.set()
+    while "undeclare" not in (frame.f_code.co_name for frame in frames(taker.ident)):
+        time.sleep(0.001)
+    time.sleep(0.1)  # it is in Zenoh by now, and needs that lock
+
+
+def frames(ident):
+    frame = sys._current_frames().get(ident)
+    while frame:
+        yield frame
+        frame = frame.f_back
+
+
+taker = threading.Thread(target=lambda: (came.wait(), publisher.undeclare()))
+taker.start()
+own._zenoh.liveliness().get("there", zenoh.handlers.Callback(replied, indirect=False))
+taker.join()
+print("taken back", flush=True)
+import os
+os._exit(0)
+"""
+
+
 @pytest.mark.parametrize("misses", [True, False])
 def test_its_token_has_the_name_that_zenoh_would_give_it(socket_folder: object, misses: bool) -> None:
     session = open_session(0)
@@ -74,9 +116,14 @@ def test_its_token_has_the_name_that_zenoh_would_give_it(socket_folder: object, 
         session.close()
 
 
-def test_it_is_taken_back_while_a_sample_comes_in(socket_folder: object) -> None:
+@pytest.mark.parametrize(
+    "program",
+    [TAKEN_BACK_WHILE_A_SAMPLE_COMES_IN, TAKEN_BACK_WHILE_THE_SESSION_IS_LOCKED],
+    ids=["while a sample comes in", "while the session is locked"],
+)
+def test_it_is_taken_back_at_any_moment(socket_folder: object, program: str) -> None:
     done = subprocess.run(
-        [sys.executable, "-c", TAKEN_BACK_WHILE_A_SAMPLE_COMES_IN],
+        [sys.executable, "-c", program],
         env=dict(os.environ),
         check=False,
         capture_output=True,
