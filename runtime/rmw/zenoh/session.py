@@ -211,10 +211,12 @@ class Session(Lifetime):
         """
         import zenoh
 
+        came = zenoh.SampleKind.PUT
+
         def take(sample: zenoh.Sample) -> None:
             if not here.kept:
                 keep()
-            watch.saw(str(sample.key_expr), sample.kind == zenoh.SampleKind.PUT)
+            watch.saw(str(sample.key_expr), sample.kind == came)
 
         def declare(session: zenoh.Session) -> Any:
             tokens = session.liveliness()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Container, Mapping, Sequence
+from functools import lru_cache
 
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
@@ -92,6 +93,7 @@ def _row(token: Token) -> Row:
     return Endpoint(node, token.topic, token.type_name, token.qos, gid, type_hash=token.type_hash)
 
 
+@lru_cache(1024)  # a node has dozens of entities
 def _node(node: TokenNode) -> NodeId:
     """Nodes of this process have small positive numbers; those of others one made of session and number."""
     number = -1 - (hash(node.zid) << 32 | node.number)

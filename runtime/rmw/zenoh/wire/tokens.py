@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Literal, NamedTuple, get_args
 
 from bot_console.runtime.rmw.zenoh.wire.keys import FormatError, dds_type, demangled, mangled, ros_type
@@ -63,22 +64,32 @@ def parse_token(key: str) -> Token:
     parts = key.split("/")
     if len(parts) < NODE_PARTS or parts[0] != SPACE:
         raise FormatError(f"no liveliness token of ROS: {key!r}")
-    zid, kind = parts[2], parts[5]
+    kind = parts[5]
     if kind not in KINDS or (kind != "NN" and len(parts) < ENTITY_PARTS):
         raise FormatError(f"no liveliness token of ROS: {key!r}")
-    _natural(parts[1], key)
-    node = TokenNode(zid, _natural(parts[3], key), demangled(parts[6]), demangled(parts[7]), parts[8])
-    number = _natural(parts[4], key)
+    node = _node(parts[1], parts[2], parts[3], parts[6], parts[7], parts[8])
+    number = _natural(parts[4])
     if kind == "NN":
         return Token(key, "NN", node, number)
     topic, dds, type_hash, qos = parts[9:ENTITY_PARTS]
     known: Kind = kind  # pyright: ignore[reportAssignmentType] -- one of `KINDS`, as was checked
-    return Token(key, known, node, number, demangled(topic), ros_type(dds), type_hash, decode_qos(qos))
+    return Token(key, known, node, number, demangled(topic), *_type(dds, type_hash), decode_qos(qos))
 
 
-def _natural(part: str, key: str) -> int:
+@lru_cache(1024)  # a node has dozens of entities
+def _node(domain: str, zid: str, number: str, enclave: str, namespace: str, name: str) -> TokenNode:
+    _natural(domain)
+    return TokenNode(zid, _natural(number), demangled(enclave), demangled(namespace), name)
+
+
+@lru_cache(1024)  # a graph of thousands of entities has dozens of types
+def _type(dds: str, type_hash: str) -> tuple[str, str]:
+    return ros_type(dds), type_hash
+
+
+def _natural(part: str) -> int:
     if not (part.isascii() and part.isdecimal() and len(part) <= 20):
-        raise FormatError(f"no number: {part!r} in {key!r}")
+        raise FormatError(f"no number in a liveliness token: {part!r}")
     return int(part)
 
 
