@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import sys
+import contextlib
+import os
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -10,6 +11,8 @@ if TYPE_CHECKING:
     from .roles import Warned
 
 NoticeHook = Callable[["Warned", str], None]
+STDERR = 2
+"""The descriptor of the real standard error stream."""
 _hooks: list[NoticeHook] = []
 
 
@@ -35,6 +38,10 @@ def notify(process: Warned, text: str) -> None:
     for hook in tuple(_hooks):
         hook(process, text)
     if not _hooks:
-        stream = process.stderr or sys.__stderr__
-        if stream is not None:
-            stream.write(f"[WARN] [{process.name}]: {text}\n")
+        line = f"[WARN] [{process.name}]: {text}\n"
+        if process.stderr is not None:
+            process.stderr.write(line)
+        else:
+            # Not `sys.__stderr__`, which is the screen while a console runs: the line would stand in its picture.
+            with contextlib.suppress(OSError):
+                os.write(STDERR, line.encode("utf-8", "backslashreplace"))

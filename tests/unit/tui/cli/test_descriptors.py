@@ -31,6 +31,14 @@ def test_lines_are_told_and_only_the_screens_words_go_to_the_screen() -> None:
     assert {label for label, _ in eval(told)} == {"stderr"}
 
 
+def test_a_notice_of_the_runtime_does_not_go_to_the_screen() -> None:
+    imports = "from bot_console.runtime.process import MAIN\nfrom bot_console.runtime.process.notices import notify\n"
+    program = imports + PROGRAM.replace('os.system("echo from a child")', 'notify(MAIN, "a message was dropped")')
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True)
+    assert done.stderr == "<screen><after>"
+    assert "[WARN] [main]: a message was dropped" in done.stdout
+
+
 def test_a_child_that_outlives_the_console_does_not_keep_it() -> None:
     program = PROGRAM.replace('"echo from a child"', '"sleep 30 &"')
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, timeout=25, check=True)
