@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, cast
 from textual.app import App
 
 if TYPE_CHECKING:
+    from bot_console.tui.arrangement.stage import Stage
     from bot_console.tui.crew import Crew
     from bot_console.tui.panes.pane import Pane
 
@@ -17,6 +18,7 @@ class PaneWishes(App[None]):
     """An app whose panes may ask for what another part of it does."""
 
     crew: Crew
+    stage: Stage
 
     def action_pane(self, name: str) -> None:
         """Show a pane."""
@@ -34,6 +36,11 @@ class PaneWishes(App[None]):
         """Run a line that a pane names."""
         event.stop()
         self.crew.desk.runner.run(event.line)
+
+    def on_pane_keys_changed(self, event: Pane.KeysChanged) -> None:
+        """Say what the keys of the pane do now."""
+        event.stop()
+        self.stage.show_keys()
 
     def on_pane_pane_wanted(self, event: Pane.PaneWanted) -> None:
         """Show another pane at what one names."""

@@ -62,11 +62,13 @@ class Arranging:
         """Whether there is room to arrange anything; says so where there is none."""
         if self.tree is not None:
             return True
-        columns, lines = self._screen.cells()
-        self._screen.tell(
-            f"Layout '{self.arrangement.name}' needs more than {columns}x{lines}; V then o opens another."
-        )
+        self._screen.tell(f"Layout '{self.arrangement.name}' {self._needs()}; :layout NAME shows another.")
         return False
+
+    def _needs(self) -> str:
+        """What a layout that is not seen needs, and what there is."""
+        least, there = self.arrangement.least(), self._screen.cells()
+        return f"needs {least[0]}x{least[1]}, this terminal has {there[0]}x{there[1]}"
 
     @property
     def tree(self) -> Tree | None:
@@ -136,8 +138,7 @@ class Arranging:
         self.arrangement.load(name)
         tree = self.tree
         if tree is None:
-            columns, lines = self._screen.cells()
-            self._screen.tell(f"'{name}' needs more than {columns}x{lines}; one pane at a time is shown.")
+            self._screen.tell(f"'{name}' {self._needs()}; one pane at a time is shown.")
         self._screen.lay_out()
 
     def name_question(self) -> Line:

@@ -11,7 +11,7 @@ from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.layout.tree import Tree, panes
 from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.screens.door import screen_for
-from bot_console.tui.widgets.key_bar import KeyBar
+from bot_console.tui.widgets.key_bar import NO_OTHERS, KeyBar
 from bot_console.tui.widgets.pane_area import PaneArea
 from bot_console.tui.widgets.tabs import Tabs
 from textual.app import App
@@ -200,7 +200,8 @@ class Stage:
         if self._app.screen_stack:
             screen, pane = self._app.screen_stack[0], self.current()
             scopes, typing = pane.scopes if pane else (self._focused,), isinstance(screen.focused, Input)
-            screen.query_one(KeyBar).show(scopes, typing, self._primary(), self._extent.width)
+            words = pane.key_words if pane else NO_OTHERS
+            screen.query_one(KeyBar).show(scopes, typing, self._primary(), self._extent.width, words)
 
     def _shown(self) -> Tree:
         tree = self._tree() if self._wanted == OVERVIEW else None

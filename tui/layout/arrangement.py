@@ -11,6 +11,8 @@ from bot_console.tui.layout.tree import Tree
 
 CHROME = 3
 """Lines that are not the panes': tabs, status, keys."""
+MOST = 1000
+"""Columns and lines of which no terminal has more."""
 REMEMBERED = 50
 """Changes that can be taken back."""
 
@@ -83,6 +85,11 @@ class Arrangement:
             roomy = width >= WIDE[0] and height >= WIDE[1]
             tree = layout.wide if layout.wide is not None and roomy else layout.tree
         return tree if fits(boxes(tree, Box(0, 0, width, height - CHROME))) else None
+
+    def least(self) -> tuple[int, int]:
+        """Columns and lines from which on it is shown."""
+        columns = next((each for each in range(1, MOST) if self.tree(each, MOST) is not None), MOST)
+        return columns, next((each for each in range(1, MOST) if self.tree(columns, each) is not None), MOST)
 
     def _layout(self) -> Layout:
         """The layout by the files as they were read last: this is asked for with each snapshot."""

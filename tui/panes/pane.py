@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
@@ -78,6 +78,9 @@ class Pane(Container):
             self.pane = pane
             self.name = name
 
+    class KeysChanged(Message):
+        """The `key_words` are others."""
+
     class AlarmsHold(Message):
         """Alarms of these names hold now, and no others."""
 
@@ -112,6 +115,11 @@ class Pane(Container):
     def scopes(self) -> tuple[str, ...]:
         """The scopes of the key table that act in the pane, its own first."""
         return (self.id or "", *self.SCOPES)
+
+    @property
+    def key_words(self) -> Mapping[str, str]:
+        """What keys do now, by their ids in the key table, where that is not what the table says; empty: nothing."""
+        return {}
 
     @property
     def host(self) -> App[object]:

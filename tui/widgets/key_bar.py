@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from types import MappingProxyType
 from typing import TypeAlias
 
 from bot_console.tui.keymap import TABLE
@@ -14,6 +15,7 @@ from textual.events import Click
 from textual.widgets import Static
 
 GAP = "  "
+NO_OTHERS: Mapping[str, str] = MappingProxyType({})
 FILTER = "slash"
 """The key of the pane that gives way last."""
 
@@ -30,24 +32,27 @@ class KeyBar(Static):
         super().__init__("", markup=False)
         self._shown: object = None
         self._keys: list[Shown] = []
-        self._asked: tuple[Sequence[str], bool, str, int] | None = None
+        self._asked: tuple[Sequence[str], bool, str, int, Mapping[str, str]] | None = None
 
-    def show(self, scopes: Sequence[str], typing: bool, colour: str, columns: int) -> None:
+    def show(
+        self, scopes: Sequence[str], typing: bool, colour: str, columns: int, words: Mapping[str, str] = NO_OTHERS
+    ) -> None:
         """Show the keys of scopes of the key table; while typing, those of a text field.
 
-        `columns` is how wide the bar is where it has not been laid out yet.
+        `columns` is how wide the bar is where it has not been laid out yet; `words` are said of keys, by their ids,
+        in place of those of the table, and a key whose word is empty is left out.
         """
-        self._asked = (scopes, typing, colour, columns)
+        self._asked = (scopes, typing, colour, columns, words)
         width = (self.size.width or columns) - 2
-        now = (scopes, typing, colour, width)
+        now = (scopes, typing, colour, width, words)
         if now == self._shown or width < 1:
             return
         self._shown = now
         if typing:
             own, everywhere = [("enter", "take it", "enter"), ("esc", "give up", "escape")], []
         else:
-            own = [key for scope in scopes for key in _named(TABLE.get(scope, ()))]
-            everywhere = list(_named(TABLE["app"]))
+            own = [key for scope in scopes for key in _named(TABLE.get(scope, ()), words)]
+            everywhere = list(_named(TABLE["app"], words))
         while own and _line([*own, *everywhere], colour).cell_len > width:
             own.pop(next((at for at in reversed(range(len(own))) if own[at][2] != FILTER), 0))
         while everywhere and _line([*own, *everywhere], colour).cell_len > width:
@@ -69,10 +74,11 @@ class KeyBar(Static):
                 self.app.simulate_key(key[2])  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic, and its type is not told
 
 
-def _named(keys: Iterable[Key]) -> Iterable[Shown]:
-    return (
-        (key.shown or key_text(key, 1), key.short or key.text, key.keys.split(",")[0]) for key in keys if key.footer
-    )
+def _named(keys: Iterable[Key], words: Mapping[str, str]) -> Iterable[Shown]:
+    for key in keys:
+        word = words.get(key.id, key.short or key.text)
+        if key.footer and word:
+            yield key.shown or key_text(key, 1), word, key.keys.split(",")[0]
 
 
 def _line(keys: Iterable[Shown], colour: str) -> Text:

@@ -108,3 +108,14 @@ def test_what_cannot_be_shown_says_why() -> None:
 
     run(empty(), nothing)
     run(system(), wrong)
+
+
+def test_where_no_image_comes_the_pane_says_what_to_do_until_one_does() -> None:
+    async def play(session: Session) -> None:
+        await session.press("I")
+        assert "8 then o opens a launch file" in session.text()
+        session.console.change(graph=system()[0].current.graph)
+        await session.settle()
+        assert "/front/image" in session.text() and "launch file" not in session.text()
+
+    run(empty(), play)

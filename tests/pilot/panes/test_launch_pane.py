@@ -54,7 +54,7 @@ def test_one_process_is_started_stopped_and_restarted_and_killing_is_asked_about
 def test_on_a_group_the_keys_mean_all_of_it() -> None:
     async def play(session: Session) -> None:
         await session.press("8", "x")
-        assert "Stop 5 processes?" in session.text()
+        assert "Stop 5 processes of robot_system.launch.py?" in session.text()
         await session.press("y")
         assert len(session.launcher.asked) == 5
         assert ("stop", "telemetry_publisher@3") not in session.launcher.asked

@@ -227,3 +227,22 @@ def test_an_empty_system_says_so() -> None:
         assert "No topics yet" in session.text()
 
     run(empty(), play)
+
+
+def test_the_key_bar_names_what_keys_do_with_topics_services_and_actions() -> None:
+    async def play(session: Session) -> None:
+        def bar() -> str:
+            return session.lines()[-1]
+
+        await session.press("9")
+        assert all(each in bar() for each in ("enter Open", "P Publish", "p Plot", "m Services", "space Freeze"))
+        for do, following in (("Call", "Actions"), ("Send a goal", "Topics")):
+            await session.press("m")
+            assert f"enter {do}" in bar() and f"m {following}" in bar()
+            assert not any(each in bar() for each in ("Publish", "Plot", "Freeze", "Open"))
+        await session.press("m")
+        assert "P Publish" in bar() and "m Services" in bar()
+        await session.press("m", "4")
+        assert "enter Call" not in bar(), "words of one pane are none of another"
+
+    run(live(), play, (140, 40))

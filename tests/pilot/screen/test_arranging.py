@@ -94,7 +94,7 @@ def test_a_layout_is_saved_under_a_name_and_opened_again() -> None:
 def test_a_layout_without_room_shows_one_pane_and_says_so() -> None:
     async def play(session: Session) -> None:
         await session.press("V")
-        assert len(session.app.screen_stack) == 1 and "needs more" in session.text()
+        assert len(session.app.screen_stack) == 1 and "needs 100x30" in session.text()
 
     run(live(), play, (70, 22))
 

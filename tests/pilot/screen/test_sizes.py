@@ -75,13 +75,16 @@ def test_a_resize_lays_everything_out_anew() -> None:
 
 def test_a_layout_that_has_no_room_is_told_and_the_pane_stays() -> None:
     async def play(session: Session) -> None:
-        words = "Layout 'overview' needs more than 80x24"
+        words = "Layout 'overview' needs 100x30, this terminal has 80x24"
         await session.press("2")
         assert words not in session.text()
         await session.press("0")
         assert [str(each._notification.message) for each in session.app.screen.query(Toast)] == [
-            words + "; V then o opens another."
+            words + "; :layout NAME shows another."
         ]
         assert [each.id for each in session.app.visible_panes()] == ["logs"]
+        for size, seen in (((99, 30), 1), ((100, 29), 1), ((100, 30), 4)):
+            await session.pilot.resize_terminal(*size)
+            assert len(session.app.visible_panes()) == seen, "what the note says is what is needed"
 
     run(live(), play, (80, 24))

@@ -18,7 +18,7 @@ from bot_console.tui.console.launch.process_output import Add, ProcessOutput
 from bot_console.tui.console.launch.restart import Recipe, recipe
 from bot_console.tui.console.launch.run import LaunchRun, Listener
 from bot_console.tui.console.launch.timeline import LaunchTimeline
-from bot_console.tui.console.launch.title import title_of, unused
+from bot_console.tui.console.launch.title import line_of, title_of, unused
 from bot_console.tui.console.launch.vitals import HANGS, FindVitals, Usage, Vitals
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo, ProcessState, Severity
 
@@ -156,8 +156,7 @@ class RosLauncher(AskedForProcesses):
                 return outcome
             self._files.append(path)
             self._problem = ""
-            words = "".join(f" {name}:={value}" for name, value in given.items())
-            self._tell(f"launch {path}{words}")
+            self._tell(line_of(path, given))
             shown = {each.title for each in self._runs} | {each.run.title for each in self._held.values()}
             run = LaunchRun(unused(title_of(path, given), shown), self._listener)
             run.path = path

@@ -16,6 +16,14 @@ def title_of(path: str, arguments: Mapping[str, str]) -> str:
     return Path(arguments.get("program", name)).name if name == PROGRAM else name
 
 
+def line_of(path: str, arguments: Mapping[str, str]) -> str:
+    """What was asked for, as a person would ask for it again: a launch file with its arguments, or a program."""
+    if Path(path).name == PROGRAM and "program" in arguments:
+        words = (arguments.get(each, "") for each in ("package", "program", "words"))
+        return " ".join(["run", *(each for each in words if each)])
+    return " ".join(["launch", path, *(f"{name}:={value}" for name, value in arguments.items())])
+
+
 def unused(title: str, used: Collection[str]) -> str:
     """A title, with a number where another launch that is shown has it."""
     return next(each for number in count(1) if (each := title if number == 1 else f"{title} ({number})") not in used)

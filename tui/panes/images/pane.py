@@ -10,6 +10,7 @@ from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, GraphInfo
 from bot_console.tui.console.sights.model import COMPRESSED, IMAGE
 from bot_console.tui.console.sights.model import Picture as Seen
+from bot_console.tui.format import cut
 from bot_console.tui.panes.images import drawing
 from bot_console.tui.panes.images.pace import Pace
 from bot_console.tui.panes.pane import Pane
@@ -21,6 +22,7 @@ from textual.app import ComposeResult
 from textual.events import Click
 
 NOTHING = "No topic of sensor_msgs/msg/Image or CompressedImage is published."
+NEXT = "Start a camera's node: 8 then o opens a launch file."
 
 
 class ImageView(Picture, can_focus=True):
@@ -78,7 +80,15 @@ class ImagesPane(Pane):
         self._graph, self._problem = snapshot.graph, snapshot.problem
         if not self._topic:
             self._topic = next(iter(self._topics()), "")
+            self._say_next()
         self._look()
+
+    def _say_next(self) -> None:
+        """Say what to do where there is nothing to see; cleared by the first topic."""
+        width, height = self._view.size
+        empty = not self._topic and not self._problem and height
+        lines = [()] * ((height - 1) // 2) + [((cut(NEXT, width).center(width), "dim"),)]
+        self._view.set_lines(lines if empty else ())
 
     def _topics(self) -> list[str]:
         return [each.name for each in self._graph.topics if IMAGE in each.types or COMPRESSED in each.types]
@@ -114,7 +124,7 @@ class ImagesPane(Pane):
             self._ask_for(self._topic, size.width, size.height * 2)
         now, seen = self.clock(), self.console.sights.picture()
         held = (self._frozen or self._slow) and not self._once
-        if seen.topic == self._topic and not held and (self._once or self._pace.due(now)):
+        if self._topic and seen.topic == self._topic and not held and (self._once or self._pace.due(now)):
             self._draw(seen, now)
         self._say()
 
@@ -162,6 +172,8 @@ class ImagesPane(Pane):
         """Another size: the picture is wanted for that."""
         event.stop()
         self._shown = self._drawn = None
+        if not self._topic:
+            self._say_next()
         if self.display:
             self._look()
 

@@ -198,7 +198,8 @@ class LaunchPane(ListPane):
         chosen = [each for each in chosen if not row_is_pointless(verb, each)] if row.process is None else chosen
         if verb == "kill" or (row.process is None and verb != "start"):
             names = "\n".join(each.label for each in chosen) or "nothing runs"
-            question = f"{verb.capitalize()} {counted(len(chosen), 'process').replace('processs', 'processes')}?"
+            of = f" of {harmless(row.group[-1])}" if row.process is None and row.group else ""
+            question = f"{verb.capitalize()} {counted(len(chosen), 'process').replace('processs', 'processes')}{of}?"
             then = partial(self._do, verb, chosen)
             self.ask(Confirmation(question, lambda _: then(), partial(self._ended, verb, chosen), reasons=names))
         else:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any
 
@@ -74,6 +74,15 @@ class TopicsPane(ListPane):
         yield Prompt(id="topics-prompt")
 
     @property
+    def key_words(self) -> Mapping[str, str]:
+        """What Enter does, and no key that is for topics alone where services or actions are listed."""
+        if self._kind is Kind.TOPICS:
+            return {}
+        for_topics = dict.fromkeys(("topics.fill", "topics.plot", "topics.freeze"), "")
+        do = "Call" if self._kind is Kind.SERVICES else "Send a goal"
+        return {**for_topics, "topics.open": do, "topics.kind": _next(self._kind).value.capitalize()}
+
+    @property
     def _list(self) -> TopicRows:
         return self.query_one(TopicRows)
 
@@ -130,6 +139,7 @@ class TopicsPane(ListPane):
         """Put the cursor on a topic."""
         if self._kind is not Kind.TOPICS:
             self._kind, self.border_title = Kind.TOPICS, self.TITLE
+            self.post_message(self.KeysChanged())
         self.set_filter("")
         names = [each.name for each in self._list.rows]
         if name in names:
@@ -277,6 +287,7 @@ class TopicsPane(ListPane):
             self._close()
         self._kind = _next(self._kind)
         self.border_title = self._kind.value.capitalize()
+        self.post_message(self.KeysChanged())
         self._list.set_reactive(RowList.cursor, 0)
         self._arrange()
         self._look(self.clock())
