@@ -234,8 +234,8 @@ class Session(Lifetime):
         """The tokens that are there now, from those who answer within `timeout` (s), and of a busy machine twice that.
 
         With it whether all have answered. Answers go to a channel, not to a callback: Zenoh gives them while it holds
-        its session's lock, and would wait there for the interpreter, which another thread may keep while it waits for
-        that lock in turn (`KeepingPublisher.undeclare`).
+        its session's lock, as it does with nothing else that it calls back with, and would wait there for the
+        interpreter. Whoever keeps that while it waits for the lock in turn stops all for good (`KeepingPublisher`).
         """
         import zenoh
 
