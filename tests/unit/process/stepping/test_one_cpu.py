@@ -27,8 +27,11 @@ def test_a_turn_is_one_switch_of_the_system() -> None:
     import resource
 
     def switches() -> int:
-        usage = resource.getrusage(resource.RUSAGE_SELF)
-        return usage.ru_nvcsw + usage.ru_nivcsw
+        """How often a thread has waited; what else runs on the machine takes the processor away as often as it likes.
+
+        Threads that interrupted one another, or ran side by side, would wait for the interpreter in every turn.
+        """
+        return resource.getrusage(resource.RUSAGE_SELF).ru_nvcsw
 
     def run() -> None:
         while True:
@@ -40,8 +43,8 @@ def test_a_turn_is_one_switch_of_the_system() -> None:
         clock.run_for(0.1)
         before = switches()
         clock.run_for(2.0)
-        # Two turns in each ms; what else goes on on the machine interrupts some of them.
-        assert switches() - before < 1.5 * 4000
+        # Two turns in each ms; who loses the processor within one lets another wait for it.
+        assert switches() - before < 1.4 * 4000
 
 
 def test_numpy_starts_no_threads_for_other_processors_and_the_environment_stays() -> None:
