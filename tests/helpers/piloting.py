@@ -16,7 +16,9 @@ from bot_console.tui.panes.steering.pane import SteeringPane
 from fakes.command_line import FakeCommandLine
 from fakes.console import FakeConsole
 from fakes.launcher import FakeLauncher
-from rest import at_rest
+from rest import at_rest, rest_undrawn
+from textual import events
+from textual.keys import _character_to_key
 from textual.pilot import Pilot
 from textual.widget import Widget
 
@@ -33,14 +35,17 @@ class Session:
     launcher: FakeLauncher
 
     async def press(self, *keys: str) -> None:
-        """Press keys, and let the app draw what came of each."""
+        """Press keys, each when all has happened that the one before brought about; then let the app draw."""
         for key in keys:
             await self.pilot.press(key)
-            await self.settle()
+            self._pull()
+            await rest_undrawn()
+        await self.pilot.pause()
 
     async def type(self, text: str) -> None:
-        """Type a text into the field that has the keyboard."""
-        await self.pilot.press(*(NAMES.get(letter, letter) for letter in text))
+        """Type a text into the field that has the keyboard, faster than anything is drawn."""
+        for letter in text:
+            self.app.post_message(events.Key(_character_to_key(letter), letter))
         await self.settle()
 
     async def click(self, text: str, *, times: int = 1, last: bool = False) -> None:
@@ -59,9 +64,12 @@ class Session:
 
     async def settle(self) -> None:
         """Let everything happen that is about to."""
+        self._pull()
+        await self.pilot.pause()
+
+    def _pull(self) -> None:
         if len(self.app.screen_stack) == 1:
             self.app.pull()
-        await self.pilot.pause()
 
     def pane(self, kind: type[P]) -> P:
         """The pane, or the widget, of that class."""
@@ -74,18 +82,6 @@ class Session:
     def text(self) -> str:
         """What is on the screen, as one text."""
         return "\n".join(self.lines())
-
-
-NAMES = {
-    " ": "space",
-    "/": "slash",
-    ":": "colon",
-    ".": "full_stop",
-    "_": "underscore",
-    "-": "minus",
-    "!": "exclamation_mark",
-    ",": "comma",
-}
 
 
 class Clock:

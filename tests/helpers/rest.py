@@ -3,6 +3,8 @@
 Textual's pilot takes a process for idle that used next to no processor time for 20 ms: that is 80 ms for each key, and
 beside others a process uses none because it gets none, with keys still on their way. Before that it sends a message to
 every widget and waits until all have answered, which a rested event loop makes needless.
+
+A frame is drawn when a test pauses to look: none in the middle of keys, and none that the next one replaces.
 """
 
 from __future__ import annotations
@@ -13,6 +15,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 from unittest.mock import patch
+from weakref import WeakKeyDictionary
 
 from bot_console.tui.terminal.output import SparingApp
 from textual import _wait
@@ -20,6 +23,7 @@ from textual import app as app_module
 from textual import pilot as pilot_module
 from textual._context import active_app
 from textual.css.stylesheet import Stylesheet
+from textual.screen import Screen
 
 LOOKS = 100_000
 """Turns of the event loop after which what never rests is left alone."""
@@ -29,18 +33,27 @@ SOON = 0.02
 
 async def rest(min_sleep: float = 0.02, max_sleep: float = 1) -> None:
     """Wait until nothing is left to run or to draw; where other threads may be at work, until they use no time."""
+    await _at_rest(min_sleep, max_sleep, draws=True)
+
+
+async def rest_undrawn(min_sleep: float = 0.02, max_sleep: float = 1) -> None:
+    """As `rest`, but what is to be drawn is left to a frame that comes later."""
+    await _at_rest(min_sleep, max_sleep, draws=False)
+
+
+async def _at_rest(min_sleep: float, max_sleep: float, *, draws: bool) -> None:
     loop: Any = asyncio.get_running_loop()
     end = loop.time() + SOON
-    await _drained(loop)
+    await _drained(loop, draws=draws)
     if threading.active_count() > 1:
         await _wait.wait_for_idle(min_sleep, max_sleep)
-        await _drained(loop)
+        await _drained(loop, draws=draws)
     while due := [each.when() for each in loop._scheduled if not each.cancelled() and each.when() < end]:
         await asyncio.sleep(max(0.0, min(due) - loop.time()))
-        await _drained(loop)
+        await _drained(loop, draws=draws)
 
 
-async def _drained(loop: Any) -> None:
+async def _drained(loop: Any, *, draws: bool) -> None:
     app = active_app.get(None)
     for _ in range(LOOKS):
         await asyncio.sleep(0)
@@ -48,7 +61,7 @@ async def _drained(loop: Any) -> None:
             continue
         if app is not None and app.screen_stack and app.screen.is_running:
             app.screen._on_timer_update()  # what would be drawn when the next frame is due
-            if not loop._ready:
+            if draws and not loop._ready:
                 _draw(app)
         if not loop._ready:
             return
@@ -72,7 +85,8 @@ def at_rest() -> Iterator[None]:
     with (
         patch.object(Stylesheet, "_parse_rules", _parsed_once),
         patch.object(SparingApp, "may_draw", lambda app: False),
-        patch.object(app_module, "wait_for_idle", rest),
+        patch.object(Screen, "_compositor_refresh", _held),
+        patch.object(app_module, "wait_for_idle", rest_undrawn),
         patch.object(pilot_module, "wait_for_idle", rest),
         patch.object(pilot_module.Pilot, "_wait_for_screen", _screen_at_rest),
     ):
@@ -80,16 +94,40 @@ def at_rest() -> Iterator[None]:
 
 
 async def _screen_at_rest(pilot: pilot_module.Pilot[Any], timeout: float = 30) -> bool:
-    await _drained(asyncio.get_running_loop())
+    await _drained(asyncio.get_running_loop(), draws=False)
     return True
 
 
+_compositor_refresh = Screen._compositor_refresh
+
+
+def _held(screen: Any) -> None:
+    """What lies over the panes waits for its frame as the panes do."""
+    app = screen.app
+    if isinstance(app, SparingApp) and screen is app.screen and not app.may_draw():
+        screen._compositor.update_widgets(screen._dirty_widgets)
+        screen._dirty_widgets.clear()
+    else:
+        _compositor_refresh(screen)
+
+
 _parsed: dict[object, Any] = {}
+_colours: WeakKeyDictionary[Stylesheet, tuple[dict[str, str], int]] = WeakKeyDictionary()
+_numbers: dict[object, int] = {}
 _parse_rules = Stylesheet._parse_rules
 
 
 def _parsed_once(sheet: Stylesheet, css: str, *where: Any, **how: Any) -> Any:
-    asked = (css, *where, *how.items(), *sorted(sheet._variables.items()))
+    asked = (css, *where, *how.items(), _number_of_colours(sheet))
     if asked not in _parsed:
         _parsed[asked] = _parse_rules(sheet, css, *where, **how)
     return _parsed[asked]
+
+
+def _number_of_colours(sheet: Stylesheet) -> int:
+    """The same for sheets with the same variables; there are hundreds, and two hundred texts are read with them."""
+    known = _colours.get(sheet)
+    if known is None or known[0] is not sheet._variables:
+        number = _numbers.setdefault(tuple(sorted(sheet._variables.items())), len(_numbers))
+        known = _colours[sheet] = sheet._variables, number
+    return known[1]

@@ -12,7 +12,7 @@ from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.screens.confirm import ConfirmScreen
 from bot_console.tui.screens.picker import PickerScreen
 from bot_console.tui.widgets.prompt.line import Prompt
-from piloting import NAMES, Session, run
+from piloting import Session, run
 from samples import live
 from textual import events
 from textual.keys import _character_to_key
@@ -35,7 +35,7 @@ async def at_once(session: Session, text: str) -> None:
     """Type without waiting for anything in between, as a fast hand or a busy machine does."""
     for letter in text:
         special = {"\r": "enter", "\x1b": "escape", "\x10": "ctrl+p"}.get(letter)
-        key = special or NAMES.get(letter) or _character_to_key(letter)
+        key = special or _character_to_key(letter)
         session.app.post_message(events.Key(key, None if special else letter))
     for _ in range(3):
         await session.settle()

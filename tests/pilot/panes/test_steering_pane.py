@@ -45,27 +45,31 @@ def test_keys_rest_until_armed() -> None:
     run(live(), play, (100, 30))
 
 
-@pytest.mark.parametrize(
-    ("keys", "expected"),
-    [
-        (["w", "w"], (0.1, 0.0)),
-        (["up", "up"], (0.1, 0.0)),
-        (["s"], (-0.05, 0.0)),
-        (["a"], (0.0, 0.05)),
-        (["left"], (0.0, 0.05)),
-        (["d"], (0.0, -0.05)),
-        (["W"], (0.5, 0.0)),
-        (["W", "W", "W"], (1.0, 0.0)),
-        (["W", "S", "S"], (-0.5, 0.0)),
-        (["W", "A", "x"], (0.0, 0.5)),
-        (["W", "A", "c"], (0.5, 0.0)),
-        (["w", "s"], (0.0, 0.0)),
-    ],
-)
-def test_the_keys_of_rqt_robot_steering(keys: list[str], expected: tuple[float, float]) -> None:
+DRIVEN: list[tuple[list[str], tuple[float, float]]] = [
+    (["w", "w"], (0.1, 0.0)),
+    (["up", "up"], (0.1, 0.0)),
+    (["s"], (-0.05, 0.0)),
+    (["a"], (0.0, 0.05)),
+    (["left"], (0.0, 0.05)),
+    (["d"], (0.0, -0.05)),
+    (["W"], (0.5, 0.0)),
+    (["W", "W", "W"], (1.0, 0.0)),
+    (["W", "S", "S"], (-0.5, 0.0)),
+    (["W", "A", "x"], (0.0, 0.5)),
+    (["W", "A", "c"], (0.5, 0.0)),
+    (["w", "s"], (0.0, 0.0)),
+]
+
+
+def test_the_keys_of_rqt_robot_steering() -> None:
     async def play(session: Session) -> None:
-        await session.press("6", "enter", *keys)
-        assert commands(session)[-1] == pytest.approx(expected)
+        await session.press("6")
+        for keys, expected in DRIVEN:
+            session.console.asked.clear()
+            await session.press("enter", *keys)
+            assert commands(session)[-1] == pytest.approx(expected), keys
+            await session.press("escape")
+            assert not steering(session).state.armed
 
     run(live(), play)
 
