@@ -14,6 +14,7 @@ from codecs import getincrementaldecoder
 from functools import partial
 from typing import Any
 
+from bot_console.tui.keys.pasted import Pasted
 from textual._parser import ParseError
 from textual._xterm_parser import XTermParser
 
@@ -69,6 +70,7 @@ def ends_at_once(driver: Any) -> None:
 def take_keys(driver: Any, ending: Ending) -> None:
     """Hand on what is typed until the end, or that of the terminal. Bytes that are no text are shown as such."""
     parser: Any = XTermParser(driver._debug)
+    pasted = Pasted()
     decode = getincrementaldecoder("utf-8")("replace").decode
     while not ending.is_set():
         if ending.readable(driver.fileno, LOOK):
@@ -76,7 +78,7 @@ def take_keys(driver: Any, ending: Ending) -> None:
             if not typed:  # the terminal is gone, and would be readable for good
                 break
             if text := decode(typed):
-                _hand_on(driver, parser.feed(text))
+                _hand_on(driver, parser.feed(pasted.without_escapes(text)))
         _hand_on(driver, parser.tick())
     with contextlib.suppress(EOFError, ParseError):
         for _ in parser.feed(""):
