@@ -81,10 +81,20 @@ class Terminal:
         return "\n".join(self.screen.lines()) if self.screen else ""
 
     def cpu(self) -> float:
-        """Processor time (s) that the program has used."""
-        with open(f"/proc/{self.pid}/stat", "rb") as file:
-            fields = file.read().rpartition(b")")[2].split()
-        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+        """Processor time (s) that the program has used, and the processes that it has started and that live."""
+        used: dict[int, int] = {}
+        parents: dict[int, int] = {}
+        for each in filter(str.isdigit, os.listdir("/proc")):
+            try:
+                with open(f"/proc/{each}/stat", "rb") as file:
+                    fields = file.read().rpartition(b")")[2].split()
+            except OSError:  # it has ended meanwhile
+                continue
+            parents[int(each)], used[int(each)] = int(fields[1]), int(fields[11]) + int(fields[12])
+        family = [self.pid]
+        for one in family:
+            family += [each for each, parent in parents.items() if parent == one]
+        return sum(used.get(each, 0) for each in family) / os.sysconf("SC_CLK_TCK")
 
     def threads(self) -> dict[int, float]:
         """Processor time (s) of each thread that lives, to the nanosecond; the one that draws has the program's id."""
