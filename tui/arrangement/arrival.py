@@ -11,6 +11,7 @@ from bot_console.tui.arrangement.early_keys import panes_needed
 from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.screens.door import prepare
+from bot_console.tui.terminal.composing.seen import mount_unseen
 from bot_console.tui.widgets.coming_pane import ComingPane
 from bot_console.tui.widgets.key_bar import KeyBar
 from bot_console.tui.widgets.pane_area import PaneArea
@@ -23,11 +24,15 @@ if TYPE_CHECKING:
     from bot_console.tui.crew import Crew
     from bot_console.tui.keys.keyboard import Keyboard, Typed
     from bot_console.tui.panes.pane import Pane
+    from bot_console.tui.terminal.gate import AnswerGate
 
 COMING_STATUS = "coming-status"
 """The id of what stands in the place of the status bar."""
 SOON = 0.005
 """Seconds after which is looked again whether a key has been dealt with."""
+REST = 0.02
+LONGEST_REST = 3.0
+"""Seconds for which panes that nobody sees wait at a time, and at most in all, while keys are pressed."""
 ORDERED = sorted(PANES, key=lambda entry: entry.place)
 """The panes as they stand on the screen, from the upper left."""
 
@@ -49,7 +54,11 @@ class ArrivingApp(App[None]):
 
     crew: Crew
     stage: Stage
+    gate: AnswerGate
     _keyboard: Keyboard
+    _only_unseen = False
+    """Whether all that is seen stands, and only what is not seen is still to come."""
+    _rests = 0
 
     def take_up(self, system: System) -> None:
         """Act on a system from now on."""
@@ -80,6 +89,10 @@ class ArrivingApp(App[None]):
         if self._keyboard.is_busy:
             self.set_timer(SOON, self.bring_next)
             return
+        if self._is_resting():
+            self._rests += 1
+            self.set_timer(REST, self.bring_next)
+            return
         try:
             await self._steps.popleft()()
         except MountError:
@@ -90,6 +103,15 @@ class ArrivingApp(App[None]):
             self.call_later(self.bring_next)
         else:
             self._there()
+
+    def _is_resting(self) -> bool:
+        """Whether what nobody sees is not to be in the way of a key that comes next."""
+        return (
+            self._only_unseen
+            and self.gate.is_eager
+            and self._keyboard.next is None
+            and self._rests * REST < LONGEST_REST
+        )
 
     async def _bring_system(self, reach: Callable[[], System]) -> None:
         self.take_up(reach())
@@ -103,8 +125,11 @@ class ArrivingApp(App[None]):
         seen = [each for each in ORDERED if each.id in places]
         self._steps += [partial(self._import_pane, each) for each in seen]
         hidden = deque(each for each in ORDERED if each not in seen)
-        self._steps += [partial(self._bring_seen, seen), *[partial(self._bring_hidden, hidden)] * len(hidden)]
-        self._steps.append(self._complete)
+        self._steps += [
+            partial(self._bring_seen, seen),
+            *[partial(self._choose_hidden, hidden)] * len(hidden),
+            self._complete,
+        ]
 
     async def _import_pane(self, entry: PaneEntry) -> None:
         """Import what a pane is made of; what is wrong with it is told where the pane is made."""
@@ -121,16 +146,21 @@ class ArrivingApp(App[None]):
             each.display = False
         self.panes_changed()
         await coming.remove()
+        self._only_unseen = True
         await self._keyboard.hold(self._may_act)
 
-    async def _bring_hidden(self, hidden: deque[PaneEntry]) -> None:
+    async def _choose_hidden(self, hidden: deque[PaneEntry]) -> None:
         """Bring one of the panes that are not seen: first one that a key waits for."""
         wanted = self._awaited()
         entry = next((each for each in hidden if each.id in wanted), hidden[0])
         hidden.remove(entry)
+        self._steps.extendleft((partial(self._bring_hidden, entry), partial(self._import_pane, entry)))
+
+    async def _bring_hidden(self, entry: PaneEntry) -> None:
         area = self.screen_stack[0].query_one(PaneArea)
         behind = {each.id for each in ORDERED[ORDERED.index(entry) + 1 :]}
-        await area.mount(self._made(entry), before=next((each for each in area.children if each.id in behind), None))
+        before = next((each for each in area.children if each.id in behind), None)
+        await mount_unseen(area, self._made(entry), before)
         self.stage.look_again()
         await self._keyboard.hold(self._may_act)
 

@@ -50,9 +50,14 @@ class AnswerGate:
         # Held back only where it has ever answered: many terminals and recorders never do.
         if self._answers and len(self._asked) >= self._allowed:
             return self._asked[0][1] - now
-        if now - self._pressed < EAGER:
+        if self.is_eager:
             return 0.0
         return max(0.0, self._drawn + PACE - now)
+
+    @property
+    def is_eager(self) -> bool:
+        """Whether a key was pressed a moment ago."""
+        return self._clock() - self._pressed < EAGER
 
     def asked(self, size: int) -> None:
         """A question was written, and so many bytes before it."""

@@ -6,6 +6,7 @@ does it.
 
 from __future__ import annotations
 
+from bot_console.tui.terminal.composing.seen import SeenScreen
 from bot_console.tui.terminal.output import SUPPORTED, HoldingScreen, SparingApp
 from bot_console.tui.terminal.styling.styled_once import StyledOnceApp, StyledOnceScreen
 from textual._context import active_message_pump
@@ -51,7 +52,7 @@ class GuardedApp(SparingApp, StyledOnceApp):
         self._close_messages_no_wait()
 
 
-class GuardedScreen(HoldingScreen, StyledOnceScreen):
+class GuardedScreen(HoldingScreen, SeenScreen, StyledOnceScreen):
     """A screen that goes on drawing when one of its widgets cannot be drawn."""
 
     async def _dispatch_message(self, message: Message) -> None:

@@ -8,12 +8,15 @@ from typing import cast
 
 import pytest
 from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.arrangement import arrival
 from bot_console.tui.arrangement.arrival import ORDERED, System
 from bot_console.tui.opening import Opening
 from bot_console.tui.pane_table import PaneEntry
 from bot_console.tui.panes.broken import BrokenPane
 from bot_console.tui.panes.plot.pane import PlotPane
 from bot_console.tui.screens.picker import PickerScreen
+from bot_console.tui.terminal.composing.seen import mount_unseen
+from bot_console.tui.terminal.gate import AnswerGate
 from bot_console.tui.widgets.coming_pane import ComingPane
 from bot_console.tui.widgets.command_line import CommandField
 from bot_console.tui.widgets.row_list import RowList
@@ -29,8 +32,11 @@ SIZE = (120, 40)
 NAMES = {"!": "exclamation_mark", ":": "colon", "?": "question_mark"}
 
 
-def arrive(typed: str, play: Callable[[Session], Awaitable[None]]) -> None:
-    """Run an app that is given its system late, with letters typed at the very moment when it is asked for."""
+def arrive(typed: str, play: Callable[[Session], Awaitable[None]], panes: int = len(ORDERED)) -> None:
+    """Run an app that is given its system late, with letters typed at the very moment when it is asked for.
+
+    What is played begins when so many panes are there.
+    """
 
     async def main() -> None:
         console, launcher = live()
@@ -44,7 +50,7 @@ def arrive(typed: str, play: Callable[[Session], Awaitable[None]]) -> None:
         app = BotConsoleApp(reach=reach, refresh_hz=0)
         with at_rest():
             async with app.run_test(size=SIZE, notifications=True) as pilot:
-                while not app.current_pane or not app.query("#images"):
+                while not app.current_pane or len(app.query("Pane")) < panes:
                     await pilot.pause()
                 session = Session(app, pilot, console, launcher)
                 await session.settle()
@@ -171,6 +177,53 @@ def test_a_key_waits_for_no_pane_but_those_that_it_is_for(
             assert session.app.current_pane is not None and session.app.current_pane.display
 
     arrive(key, play)
+
+
+def eager(monkeypatch: pytest.MonkeyPatch, asked: Callable[[], bool]) -> list[int]:
+    """Let something say whether a key was just pressed; gives how many panes have come unseen, at each question."""
+    came: list[int] = []
+
+    def is_eager(gate: AnswerGate) -> bool:
+        came.append(came[-1] if came else 0)
+        return asked()
+
+    async def mount(parent: Widget, widget: Widget, before: Widget | None) -> None:
+        came.append((came[-1] if came else 0) + 1)
+        await mount_unseen(parent, widget, before)
+
+    monkeypatch.setattr(AnswerGate, "is_eager", property(is_eager))
+    monkeypatch.setattr(arrival, "mount_unseen", mount)
+    return came
+
+
+def test_panes_that_nobody_sees_come_when_no_key_is_pressed(monkeypatch: pytest.MonkeyPatch) -> None:
+    pressed = iter([True] * 5)
+    came = eager(monkeypatch, lambda: next(pressed, False))
+
+    async def play(session: Session) -> None:
+        assert came[:5] == [0] * 5 and len(session.app.panes()) == len(ORDERED)
+
+    arrive("?", play)
+
+
+def test_they_come_though_keys_are_pressed_all_the_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(arrival, "LONGEST_REST", 0.1)
+    eager(monkeypatch, lambda: True)
+
+    async def play(session: Session) -> None:
+        assert len(session.app.panes()) == len(ORDERED)
+
+    arrive("?", play)
+
+
+def test_a_pane_that_a_key_is_for_comes_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(arrival, "LONGEST_REST", float("inf"))
+    came = eager(monkeypatch, lambda: True)
+
+    async def play(session: Session) -> None:
+        assert session.app.current_pane is not None and session.app.current_pane.id == "images" and max(came) == 1
+
+    arrive("I", play, sum(entry.overview == 1 for entry in ORDERED) + 1)
 
 
 def app_of(node: Widget | BotConsoleApp) -> BotConsoleApp:

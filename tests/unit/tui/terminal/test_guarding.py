@@ -15,14 +15,14 @@ PATIENCE = 60.0
 
 
 def test_it_goes_as_soon_as_the_terminal_is_right_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    started: list[subprocess.Popen[bytes]] = []
+    started: list[subprocess.Popen[Any]] = []
+    popen = subprocess.Popen
 
-    def start(*words: Any, **how: Any) -> subprocess.Popen[bytes]:
+    def start(*words: Any, **how: Any) -> subprocess.Popen[Any]:
         started.append(popen(*words, **how))
         return started[-1]
 
-    popen = subprocess.Popen
-    monkeypatch.setattr(guarding.subprocess, "Popen", start)
+    monkeypatch.setattr(subprocess, "Popen", start)
     master, slave = pty.openpty()
     try:
         with guarding.guarded(slave) as watch:

@@ -1,0 +1,48 @@
+"""What is not seen costs no drawing: Textual lays out and composes all of a screen for whatever changes anywhere in it.
+
+A pane that comes unseen, or one in which something changes while it is hidden, would hold up keys by as much as a
+change of all that is on the screen. It hangs on private parts of Textual, as `output` does.
+"""
+
+from __future__ import annotations
+
+from typing import Any, cast
+
+from bot_console.tui.terminal.output import SUPPORTED
+from textual import messages
+from textual.screen import Screen
+from textual.widget import Widget
+
+
+class SeenScreen(Screen[Any]):
+    """A screen that is laid out and drawn for what is displayed; when it is displayed, it is laid out anew anyway."""
+
+    def on_layout(self, message: messages.Layout) -> None:
+        """Take no notice of what is hidden, unless that is what has just happened to it."""
+        widget = message.widget
+        hidden = widget.styles.display == "none" and widget not in self._compositor.widgets
+        if hidden or _is_within_hidden(widget):
+            message.stop()
+            message.prevent_default()
+
+    def on_update(self, message: messages.Update) -> None:
+        """Draw nothing that is hidden."""
+        if _is_within_hidden(message.widget):
+            message.stop()
+            message.prevent_default()
+
+
+def _is_within_hidden(widget: Widget) -> bool:
+    return any(isinstance(each, Widget) and each.styles.display == "none" for each in widget.ancestors)
+
+
+async def mount_unseen(parent: Widget, widget: Widget, before: Widget | None) -> None:
+    """Mount a widget that is not displayed, and wait until it is; what is displayed is not laid out anew for it."""
+    if not SUPPORTED:
+        await parent.mount(widget, before=before)
+        return
+    private = cast(Any, parent)
+    if parent.is_attached and not (private._closing or private._pruning):
+        place = None if before is None else parent.children.index(before)
+        for each in private.app._register(parent, widget, before=place):  # none where the app is ending
+            await each._mounted_event.wait()
