@@ -15,6 +15,7 @@ from textual.binding import BindingType
 from textual.containers import VerticalScroll
 from textual.events import Click
 from textual.screen import ModalScreen
+from textual.widget import Widget
 from textual.widgets import Static
 
 
@@ -32,7 +33,7 @@ class Overlay(ModalScreen[None], Boxed):  # pyright: ignore[reportIncompatibleMe
         super().__init__()
         self._heading = title
 
-    def content(self) -> Iterable[RenderableType]:
+    def content(self) -> Iterable[RenderableType | Widget]:
         """What stands in the box, from above."""
         raise NotImplementedError
 
@@ -48,4 +49,4 @@ class Overlay(ModalScreen[None], Boxed):  # pyright: ignore[reportIncompatibleMe
             box.border_title = Text(harmless(self._heading))
             box.border_subtitle = "esc closes"
             for each in self.content():
-                yield Static(each)
+                yield each if isinstance(each, Widget) else Static(each)

@@ -1,0 +1,89 @@
+"""Keys and what they do, one below the other, drawn as far as they are seen.
+
+Rich works out all of a table before a line of it can be shown, which was a third of what the help took to appear.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from bot_console.tui.keys.key import Key, key_text
+from bot_console.tui.terminal.styling.style_sheet import StyledByPart
+from rich.cells import cell_len
+from rich.segment import Segment
+from rich.style import Style
+from textual.geometry import Size
+from textual.strip import Strip
+
+KEY = "pressed_key"
+"""Under which name a line carries its key."""
+GAP = 2
+NARROWEST = 12
+"""Cells between a key and what it does, and those that keys take at least."""
+
+BOLD = Style(bold=True)
+
+
+class Line(NamedTuple):
+    """A line: what stands in its two columns, and the key that a click on it presses."""
+
+    key: str
+    text: str
+    pressed: str
+
+
+class KeyTable(StyledByPart):
+    """Two columns: keys, and what they do in as many lines as that takes."""
+
+    DEFAULT_CSS = """
+    KeyTable { height: auto; }
+    """
+
+    def __init__(self, keys: Sequence[Key]) -> None:
+        super().__init__()
+        self._rows = [(key_text(key), key.text, key.keys.split(",")[0]) for key in keys]
+        self._column = max([NARROWEST, *(cell_len(key) for key, _, _ in self._rows)])
+        self._width = -1
+        self._lines: list[Line] = []
+
+    def get_content_height(self, container: Size, viewport: Size, width: int) -> int:
+        """As many lines as there are at a width."""
+        return len(self._at(width))
+
+    def render_line(self, y: int) -> Strip:
+        """A line; in nothing's place there is nothing."""
+        width, style = self.size.width, self.own_style
+        lines = self._at(width)
+        if y >= len(lines):
+            return Strip.blank(width, style)
+        line = lines[y]
+        style += Style(meta={KEY: line.pressed})
+        segments = [
+            Segment(" " * (self._column - cell_len(line.key)), style),
+            Segment(line.key, style + BOLD),
+            Segment(" " * GAP + line.text, style),
+        ]
+        return Strip(segments).adjust_cell_length(width, style)
+
+    def _at(self, width: int) -> Sequence[Line]:
+        if width != self._width:
+            self._width = width
+            self._lines = [
+                Line(key if number == 0 else "", part, pressed)
+                for key, text, pressed in self._rows
+                for number, part in enumerate(wrapped(text, max(1, width - self._column - GAP)))
+            ]
+        return self._lines
+
+
+def wrapped(text: str, width: int) -> Sequence[str]:
+    """A text in lines of at most so many cells, broken between words; a longer word is a line of its own."""
+    lines = [""]
+    for word in text.split(" "):
+        longer = f"{lines[-1]} {word}" if lines[-1] else word
+        if lines[-1] and cell_len(longer) > width:
+            lines.append(word)
+        else:
+            lines[-1] = longer
+    return lines
