@@ -232,6 +232,26 @@ def test_many_nodes_are_folded_by_themselves() -> None:
     run(live(), play, (120, 40))
 
 
+def test_topics_that_alone_make_it_too_large_are_left_out_until_they_are_asked_for() -> None:
+    nodes = tuple(
+        NodeInfo(f"/s{at % 5}/n{at}", (Endpoint(f"/t{at}", ("a/msg/B",)),), (Endpoint(f"/t{at - 1}", ("a/msg/B",)),))
+        for at in range(200)
+    )
+
+    async def play(session: Session) -> None:
+        session.console.change(graph=GraphInfo(nodes))
+        await session.press("3")
+        boxes = {f"namespace:/s{number}" for number in range(5)}
+        assert items(session) == boxes
+        assert "nodes only" in session.text()
+        await session.press("m")
+        await session.app.workers.wait_for_complete()
+        await session.settle()
+        assert items(session) > boxes and "nodes only" not in session.text()
+
+    run(live(), play, (120, 40))
+
+
 def test_the_focus_goes_back_and_forth() -> None:
     async def play(session: Session) -> None:
         await session.press("3")

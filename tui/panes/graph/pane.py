@@ -136,6 +136,9 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         nodes = [each.name for each in info.nodes if not each.hidden]
         folded = self._folds if self._folds is not None else outermost(nodes) if len(nodes) > MANY else frozenset[str]()
         self._view = replace(self._view, folded=folded, focus=self._journey.now)
+        if self._mode is None and len(nodes) > MANY and self._fits_without_topics(info):
+            self._tell()
+            return
         modes = (self._mode,) if self._mode else (Mode.ALL, Mode.ACTIVE)
         sizes: list[tuple[float, Mode, bool]] = []
         for mode, short in product(modes, (False, True)):
@@ -149,6 +152,11 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             _, mode, short = next((each for each in whole if each[0] <= TOO_LARGE), whole[-1])
             self._try(info, mode, short)
         self._tell()
+
+    def _fits_without_topics(self, info: GraphInfo) -> bool:
+        """Draw nodes only, where that can nearly be seen at once and with all topics it could not; whether it did."""
+        every, few = (len(shown(info, replace(self._view, mode=each)).graph.items) for each in (Mode.ALL, Mode.NODES))
+        return every > LARGE >= few and self._try(info, Mode.NODES, False) <= TOO_LARGE
 
     def _try(self, info: GraphInfo, mode: Mode, short: bool) -> float:
         """Draw it so; how many times larger than the pane it is then."""
