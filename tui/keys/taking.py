@@ -74,7 +74,10 @@ def take_keys(driver: Any, ending: Ending) -> None:
     decode = getincrementaldecoder("utf-8")("replace").decode
     while not ending.is_set():
         if ending.readable(driver.fileno, LOOK):
-            typed = os.read(driver.fileno, AT_ONCE)
+            try:
+                typed = os.read(driver.fileno, AT_ONCE)
+            except BlockingIOError:  # somebody has made the terminal not to block, and has taken what there was
+                continue
             if not typed:  # the terminal is gone, and would be readable for good
                 break
             if text := decode(typed):

@@ -4,21 +4,27 @@ from __future__ import annotations
 
 import asyncio
 import io
+from dataclasses import replace
 from pathlib import Path
+from unittest.mock import patch
 
 import pytest
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.files import crash
+from bot_console.tui.pane_table import PANES
 from bot_console.tui.panes.broken import BrokenPane
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.panes.steering.pane import SteeringPane
 from bot_console.tui.screens.help import HelpScreen
+from bot_console.tui.widgets.pane_area import PaneArea
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.status_bar import StatusBar
+from bot_console.tui.widgets.tabs import Tabs
 from piloting import Session, run
 from rich.console import Console
 from samples import live
+from textual.widget import Widget
 
 
 @pytest.fixture(autouse=True)
@@ -129,3 +135,21 @@ def test_where_nothing_can_be_written_nothing_is_kept(monkeypatch: pytest.Monkey
     monkeypatch.setattr(crash, "state_folder", lambda: Path("/dev/null/x"))
     monkeypatch.setattr(crash.tempfile, "gettempdir", lambda: "/dev/null/y")
     assert crash.keep(ValueError("x")) == "" and crash.reason(ValueError("a\nb")) == "ValueError: a b"
+
+
+def test_panes_of_others_that_come_while_the_app_ends_do_no_harm() -> None:
+    async def play(session: Session) -> None:
+        app = session.app
+        area, tabs = app.screen_stack[0].query_one(PaneArea), app.screen_stack[0].query_one(Tabs)
+        mount = area.mount
+
+        async def mounted_at_the_end(*panes: Widget) -> None:
+            await mount(*panes)
+            await tabs.remove()
+            app._running = False
+
+        with patch.object(area, "mount", mounted_at_the_end):
+            await app.faults.add([replace(PANES[0], id="theirs")])
+        app._running = True
+
+    run(live(), play)

@@ -5,9 +5,14 @@ from __future__ import annotations
 import contextlib
 import os
 import pty
+import select
+import tty
 
 from bot_console.tui.terminal.gone import LastingFile
 from textual.drivers._writer_thread import MAX_QUEUED_WRITES, WriterThread
+
+PATIENCE = 60.0
+"""Seconds after which a test gives up; nothing is measured by it."""
 
 
 def test_the_writer_outlives_its_terminal() -> None:
@@ -33,4 +38,23 @@ def test_what_is_written_arrives() -> None:
         lasting.flush()
         assert lasting.isatty() and lasting.fileno() == near
         assert os.read(far, 20) == b"two words"
+    os.close(far)
+
+
+def test_a_terminal_that_somebody_has_made_not_to_block_gets_all_of_it() -> None:
+    far, near = pty.openpty()
+    tty.setraw(near)
+    os.set_blocking(near, False)
+    text = "".join(f"{number:6d}" for number in range(50_000))
+    with os.fdopen(near, "w") as file:
+        lasting = LastingFile(file)
+        writer = WriterThread(lasting)
+        writer.start()
+        writer.write(text)
+        read = b""
+        while len(read) < len(text):
+            assert select.select([far], [], [], PATIENCE)[0], "nothing more comes"
+            read += os.read(far, 65536)
+        writer.stop()
+    assert read == text.encode() and not lasting.gone
     os.close(far)
