@@ -30,12 +30,8 @@ PATIENCE = 60
     ],
     ids=" ".join,
 )
-def test_a_request_to_a_frozen_process_ends_and_names_it(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, words: tuple[str, ...]
-) -> None:
+def test_a_request_to_a_frozen_process_ends_and_names_it(tmp_path: Path, words: tuple[str, ...]) -> None:
     with two_processes(tmp_path / "s") as (_, (peer,)):
-        monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", str(tmp_path / "s"))
-        monkeypatch.setenv("ROS_DOMAIN_ID", str(DOMAIN))
         place = f"tcp/127.0.0.1:{free_port()}"
         router = MeshSession(DOMAIN, Serving((place,)))
         router.watch()
