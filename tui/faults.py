@@ -88,7 +88,6 @@ class Faults:
         panes = self._app.screen_stack[0].query_one("#panes", Container)
         if panes.is_attached:  # not where a signal has ended the app meanwhile
             await panes.mount(*made)
-        if self._app.is_running:  # else the screen is being taken apart
             self._changed()
 
     def made(self, entry: PaneEntry) -> Pane:
@@ -104,5 +103,4 @@ class Faults:
         await old.remove()
         await container.mount(new, before=place if place < len(container.children) else None)
         self._ending.discard(old)
-        if self._app.is_running:
-            self._changed()
+        self._changed()

@@ -131,7 +131,8 @@ class Stage:
     def changed(self) -> None:
         """A pane stands where another was, or one has come."""
         self.look_again()
-        self.lay_out()
+        if self._app.is_running:  # else the screen is being taken apart
+            self.lay_out()
 
     def go(self, name: str) -> None:
         """Show a pane alone, or the layout."""
