@@ -104,6 +104,17 @@ def pytest_collection_finish() -> None:
     gc.set_threshold(50_000, 20, 50)
 
 
+@pytest.fixture
+def notices() -> Iterator[list[str]]:
+    """What the runtime has told about its programs, in the order in which it was told."""
+    from bot_console.runtime.process import on_notice
+
+    told: list[str] = []
+    forget = on_notice(lambda process, text: told.append(text))
+    yield told
+    forget()
+
+
 def pytest_xdist_auto_num_workers() -> int:
     """One more than there are processors for `-n auto`: the tests of the screen wait for it to come to rest."""
     return (os.cpu_count() or 1) + 1

@@ -8,7 +8,7 @@ import threading
 import time
 
 import pytest
-from bot_console.runtime.process import NodeProcess, current, on_notice, real, stepped
+from bot_console.runtime.process import NodeProcess, current, real, stepped
 from bot_console.runtime.process.node.thread_state import local
 from ticking import ticker
 
@@ -16,14 +16,6 @@ STALL = 0.02
 BURN = "import time\nwhile time.process_time() < 0.3: pass"
 
 pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems tell too little")
-
-
-@pytest.fixture
-def notices():
-    told = []
-    forget = on_notice(lambda process, text: told.append(text))
-    yield told
-    forget()
 
 
 def test_a_long_computation_releases_nobody():

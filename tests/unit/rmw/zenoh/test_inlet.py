@@ -3,7 +3,6 @@
 from types import SimpleNamespace
 
 import pytest
-from bot_console.runtime.process import on_notice
 from bot_console.runtime.rmw.endpoints import Endpoint, NodeId, SubscriptionEndpoint, Tap, own, queue_for
 from bot_console.runtime.rmw.zenoh.inlet import Inlet
 from bot_console.runtime.rmw.zenoh.wire.attachment import pack
@@ -13,14 +12,6 @@ from std_msgs.msg import String
 
 GID = bytes(range(16))
 QOS = QoSProfile(depth=10)
-
-
-@pytest.fixture
-def notices():
-    said = []
-    forget = on_notice(lambda process, text: said.append(text))
-    yield said
-    forget()
 
 
 @pytest.fixture

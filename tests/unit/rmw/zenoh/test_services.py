@@ -2,8 +2,6 @@
 
 from types import SimpleNamespace
 
-import pytest
-from bot_console.runtime.process import on_notice
 from bot_console.runtime.rmw.endpoints import ClientEndpoint, NodeId, ServiceEndpoint
 from bot_console.runtime.rmw.zenoh.services import Asking, Served
 from bot_console.runtime.rmw.zenoh.wire.attachment import pack
@@ -25,14 +23,6 @@ class Request:
 
     def drop(self):
         self.dropped = True
-
-
-@pytest.fixture
-def notices():
-    said = []
-    forget = on_notice(lambda process, text: said.append(text))
-    yield said
-    forget()
 
 
 def spoilt(payload):
