@@ -27,7 +27,7 @@ from bot_console.tui.terminal.leaving import Leaving
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Asker
 from bot_console.tui.widgets.status_bar import StatusBar
-from bot_console.tui.widgets.stream_panel import StreamPanel
+from bot_console.tui.widgets.streams.panels import StreamPanels
 from textual.app import App
 from textual.widget import Widget
 
@@ -60,7 +60,7 @@ class Crew:
 
     def widgets(self) -> Sequence[Widget]:
         """What stands between the panes and the keys, from above."""
-        return StreamPanel(), self.desk.field(), self.status
+        return StreamPanels(), self.desk.field(), self.status
 
     def beat(self) -> None:
         """Ten times a second: take in what the line of a stream prints, show the figures that have waited."""

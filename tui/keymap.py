@@ -64,7 +64,7 @@ TABLE: dict[str, tuple[Key, ...]] = {
         Key("app.acknowledge", "ctrl+e", "acknowledge", "Acknowledge the errors: count only those that come"),
         Key("app.theme", "ctrl+y", "theme", "Next theme: dark, light, high contrast, the terminal's own colours"),
         Key("app.glyphs", "ctrl+g", "glyphs", "Plain letters in place of lines and braille, and back"),
-        Key("app.end_stream", "ctrl+o", "end_stream", "End the ros2 line that runs below the panes"),
+        Key("app.end_stream", "ctrl+o", "end_stream", "End a ros2 line that runs below the panes"),
         Key("app.sleep", "ctrl+z", "sleep", "To the shell: the robot is held; fg brings the console back"),
         Key("app.redraw", "ctrl+l", "redraw", "Draw the screen anew"),
     ),

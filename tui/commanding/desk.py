@@ -8,6 +8,7 @@ from typing import Any
 
 from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.commanding.completing import Completion
+from bot_console.tui.commanding.ending_streams import which_stream
 from bot_console.tui.commanding.palette import Command, all_commands, options_for
 from bot_console.tui.commanding.runner import LineRunner
 from bot_console.tui.console.protocol import CommandLine, Console, Stream
@@ -19,7 +20,7 @@ from bot_console.tui.safety.stopping import Stopping
 from bot_console.tui.screens.door import screen_for
 from bot_console.tui.widgets.command_line import CommandField
 from bot_console.tui.widgets.prompt.question import Choice
-from bot_console.tui.widgets.stream_panel import StreamPanel
+from bot_console.tui.widgets.streams.panels import StreamPanels
 from textual.app import App
 
 
@@ -58,7 +59,7 @@ class Desk:
         """Show what has come for the command line and for the line below the panes; called now and then."""
         # Both lie on the screen itself: to search all below it at every beat takes a tenth of the thread that draws.
         for each in self._app.screen_stack[0].children:
-            if isinstance(each, (StreamPanel, CommandField)):
+            if isinstance(each, (StreamPanels, CommandField)):
                 each.look()
 
     def palette(self) -> None:
@@ -100,11 +101,22 @@ class Desk:
 
     def show_stream(self, line: str, stream: Stream) -> None:
         """Show a line that goes on below the panes."""
-        self._app.screen_stack[0].query_one(StreamPanel).begin(line, stream)
+        self._streams().begin(line, stream)
+
+    def stream_problem(self, words: Sequence[str]) -> str:
+        """Why a line of `ros2`, without that word, has no room below the panes; empty when it has."""
+        return self._streams().problem(words)
 
     def end_stream(self) -> None:
-        """End the line below the panes."""
-        self._app.screen_stack[0].query_one(StreamPanel).end()
+        """End the line below the panes; of several, the one that is chosen."""
+        streams = self._streams()
+        if len(streams.panels) > 1:
+            self._app.push_screen(screen_for(which_stream(streams)))
+        for each in streams.panels[:1] if len(streams.panels) == 1 else ():
+            streams.end(each)
+
+    def _streams(self) -> StreamPanels:
+        return self._app.screen_stack[0].query_one(StreamPanels)
 
     def load_layout(self, name: str) -> None:
         """Show a layout."""

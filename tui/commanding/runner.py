@@ -47,6 +47,10 @@ class Host(Protocol):
         """Show a line that goes on below the panes."""
         ...
 
+    def stream_problem(self, words: Sequence[str]) -> str:
+        """Why a line of `ros2`, without that word, has no room below the panes; empty when it has."""
+        ...
+
     def load_layout(self, name: str) -> None:
         """Show a layout; raises `LookupError` for one that is not there."""
         ...
@@ -85,7 +89,7 @@ class LineRunner:
         verb = words[1] if words[0] == "ros2" and len(words) > 1 else words[0]
         known = [*VERBS, *RQT_PANES, "ros2", *self._lines.commands()]
         if verb in known or is_rqt(words):
-            return ""
+            return self._host.stream_problem(words[words[0] == "ros2" :])
         like = get_close_matches(verb, known, 1, 0.6)
         mend = f"did you mean {like[0]}?" if like else "help lists the commands, ^p finds an action by its words"
         return f"there is no command {verb}; {mend}"

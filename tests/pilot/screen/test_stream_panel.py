@@ -1,4 +1,4 @@
-"""A line that goes on stands below the panes, takes no keyboard, and ends by its key."""
+"""Lines that go on stand below the panes, take no keyboard, and end by their key, each alone."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import pytest
 from bot_console.tui.console.protocol import Stream
-from bot_console.tui.widgets.stream_panel import StreamPanel
+from bot_console.tui.widgets.streams.panels import StreamPanels, room
 from fakes.command_line import FakeCommandLine
 from piloting import Session, run
 from samples import live
@@ -41,12 +41,12 @@ def streams(monkeypatch: pytest.MonkeyPatch) -> list[Printing]:
     return begun
 
 
-async def begin(session: Session) -> StreamPanel:
+async def begin(session: Session, line: str = "ros2 topic hz /odom") -> StreamPanels:
     """Type a line that goes on."""
     await session.press(":")
-    await session.type("ros2 topic hz /odom")
+    await session.type(line)
     await session.press("enter")
-    return session.pane(StreamPanel)
+    return session.pane(StreamPanels)
 
 
 @pytest.mark.parametrize("size", [(80, 24), (120, 40)])
@@ -71,17 +71,102 @@ def test_it_shows_the_last_lines_and_leaves_the_keyboard_where_it_was(
     run(live(), play, size)
 
 
-def test_another_line_takes_its_place_and_an_end_is_told(streams: list[Printing]) -> None:
+SIZES = [(80, 24), (120, 40)]
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_three_go_on_at_once_and_each_ends_alone(streams: list[Printing], size: tuple[int, int]) -> None:
+    async def play(session: Session) -> None:
+        focused = session.app.focused
+        panels = session.pane(StreamPanels)
+        for topic in ("/odom", "/scan", "/cmd_vel"):
+            await begin(session, f"ros2 topic hz {topic}")
+        for number, each in enumerate(streams):
+            each.told = [f"rate of number {number}"]
+        panels.look()
+        await session.settle()
+        for number in range(3):
+            assert f"rate of number {number}" in session.text()
+        assert "1 topic hz /odom" in session.text() and "3 topic hz /cmd_vel" in session.text()
+        assert session.app.focused is focused
+        await session.press("ctrl+o", "2", "enter")
+        assert [each.stopped for each in streams] == [False, True, False]
+        await session.settle()
+        assert "rate of number 1" not in session.text() and "2 topic hz /cmd_vel" in session.text()
+        await session.press("ctrl+o")
+        await session.type("all")
+        await session.press("enter")
+        assert all(each.stopped for each in streams) and not panels.panels
+        assert session.app.focused is focused
+
+    run(live(), play, size)
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_as_many_as_have_room_hide_neither_status_nor_keys(streams: list[Printing], size: tuple[int, int]) -> None:
+    async def play(session: Session) -> None:
+        below = session.text().splitlines()[-2:]
+        panels = session.pane(StreamPanels)
+        while len(streams) < room(session.app.size):
+            await begin(session)
+        text = session.text().splitlines()
+        assert [line[:8] for line in text[-2:]] == [line[:8] for line in below]
+        assert sum("topic hz" in line for line in text) >= 1
+        panes = session.app.query_one("#panes").region
+        assert panes.height >= (size[1] - 3) // 2
+        assert panels.region.bottom == size[1] - 2 and panels.region.y == panes.bottom
+        last = panels.panels[-1].region
+        assert last.bottom == panels.region.bottom and last.height >= 5
+
+    run(live(), play, size)
+
+
+def test_one_too_many_is_refused_before_it_begins_and_one_that_has_ended_makes_way(streams: list[Printing]) -> None:
+    async def play(session: Session) -> None:
+        has = room(session.app.size)
+        panels = session.pane(StreamPanels)
+        while len(streams) < has:
+            await begin(session)
+        await begin(session)
+        assert len(streams) == has and f"no room: {has} run below the panes already; ^o ends one" in session.text()
+        await session.press("escape")
+        streams[1].ended = True
+        panels.look()
+        await begin(session, "topic hz /new")
+        assert len(streams) == has + 1 and len(panels.panels) == has
+        assert panels.panels[-1].line == "topic hz /new" and streams[1].stopped and not streams[0].stopped
+
+    run(live(), play, (80, 24))
+
+
+def test_a_smaller_terminal_shows_the_newest_and_tells_of_the_others(streams: list[Printing]) -> None:
+    async def play(session: Session) -> None:
+        panels = session.pane(StreamPanels)
+        while len(streams) < 4:
+            await begin(session)
+        await session.pilot.resize_terminal(60, 20)
+        panels.look()
+        await session.settle()
+        assert "2 more not seen" in session.text() and "3 topic hz" in session.text()
+        assert "1 topic hz" not in session.text() and not any(each.stopped for each in streams)
+
+    run(live(), play, (80, 24))
+
+
+def test_the_end_is_told_and_a_click_on_the_title_closes(streams: list[Printing]) -> None:
     async def play(session: Session) -> None:
         await begin(session)
-        panel = await begin(session)
-        assert [each.stopped for each in streams] == [True, False]
+        panels = await begin(session)
         streams[1].ended = True
-        panel.look()
+        panels.look()
         await session.settle()
-        assert "has ended" in session.text()
+        assert "runs · ^o" in session.text() and "has ended · ^o" in session.text()
+        await session.pilot.click(panels.panels[0], offset=(5, 2))
+        assert len(panels.panels) == 2
+        await session.pilot.click(panels.panels[0], offset=(5, 0))
+        assert [each.stopped for each in streams] == [True, False] and len(panels.panels) == 1
         await session.press("ctrl+o")
-        assert not panel.is_open
+        assert not panels.panels
 
     run(live(), play, (120, 40))
 

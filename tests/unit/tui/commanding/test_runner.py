@@ -32,6 +32,9 @@ class Screen:
     def layouts(self) -> Sequence[str]:
         return ("overview", "tuning")
 
+    def stream_problem(self, words: Sequence[str]) -> str:
+        return "no room" if [*words] == ["topic", "hz", "/full"] else ""
+
     def show_bag(self, folder: str) -> None:
         self.told.append(f"shown: {folder}")
 
@@ -57,6 +60,8 @@ def runner() -> tuple[LineRunner, Any, FakeCommandLine]:
         ("set /robot_navigator speed 1", "/robot_navigator has no parameter speed"),
         ("set /robot_navigator max_speed fast", "'fast' is no number"),
         ("bag open", "write it as: bag open FOLDER"),
+        ("ros2 topic hz /full", "no room"),
+        ("topic hz /full", "no room"),
         ("bag info x", "write it as: bag open FOLDER"),
         ("bag open /no/such/bag", "there is no bag /no/such/bag"),
         ("layout none", "there is no layout none; there are"),

@@ -1,0 +1,1 @@
+"""Command lines that go on below the panes."""

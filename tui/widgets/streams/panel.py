@@ -1,0 +1,76 @@
+"""A command line that goes on: its last lines, and no keyboard of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import ClassVar
+
+from bot_console.tui.console.protocol import Stream
+from bot_console.tui.format import harmless
+from rich.text import Text
+from textual.events import Click
+from textual.message import Message
+from textual.widgets import Static
+
+BORDER = 2
+"""Rows that the border takes."""
+
+
+class StreamPanel(Static):
+    """Shows the newest lines of one stream."""
+
+    DEFAULT_CSS = """
+    StreamPanel { height: 1fr; width: 1fr; border: round $border; border-title-color: $text-muted;
+                  border-subtitle-color: $text-muted; background: $surface; text-wrap: nowrap;
+                  text-overflow: ellipsis; }
+    """
+    can_focus: ClassVar[bool] = False  # pyright: ignore[reportIncompatibleVariableOverride] -- as Textual's widgets do
+
+    class Closed(Message):
+        """Its title was clicked."""
+
+        def __init__(self, panel: StreamPanel) -> None:
+            super().__init__()
+            self.panel = panel
+
+    def __init__(self, line: str, stream: Stream) -> None:
+        super().__init__("", markup=False)
+        self.line = line
+        self._stream = stream
+        self._shown: Sequence[str] = ()
+        self._rows = 0
+
+    @property
+    def state(self) -> str:
+        """Whether more can come, in words."""
+        return "has ended" if self._stream.ended else "runs"
+
+    @property
+    def has_ended(self) -> bool:
+        """Whether nothing more comes."""
+        return self._stream.ended
+
+    def call(self, number: int, key: str) -> None:
+        """Write line and state over it; `number` tells it from others, 0 where there are none."""
+        named = self.line.removeprefix("ros2 ") if number else self.line
+        title = f"{number} {named}" if number else f"{named} · {self.state} · {key} closes"
+        self.border_title = Text(harmless(title))  # Textual reads a str as markup; a bracket in a line is none
+        # Beside others there is no room for both above.
+        self.border_subtitle = f"{self.state} · {key} closes one" if number else ""
+
+    def look(self, rows: int) -> None:
+        """Show what has come, as far as these rows have room for it."""
+        lines = self._stream.lines()
+        if lines is not self._shown or rows != self._rows:
+            self._shown, self._rows = lines, rows
+            self.update(Text("\n".join(harmless(each) for each in lines[-max(1, rows - BORDER) :])))
+
+    def stop(self) -> None:
+        """End the line."""
+        self._stream.stop()
+
+    def on_click(self, event: Click) -> None:
+        """A click on its title closes it."""
+        event.stop()
+        if event.y == 0:
+            self.post_message(self.Closed(self))

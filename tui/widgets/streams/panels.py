@@ -1,0 +1,125 @@
+"""The command lines that go on, side by side below the panes, as many as the terminal has room for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import ClassVar
+
+from bot_console.tui import keymap
+from bot_console.tui.console.lines import goes_on
+from bot_console.tui.console.protocol import Stream
+from bot_console.tui.keys.key import key_text
+from bot_console.tui.widgets.streams.panel import StreamPanel
+from textual.containers import Container
+from textual.geometry import Size
+
+NARROWEST = 30
+"""Columns that a line needs beside others: what `topic echo` prints is narrow and long."""
+TALLEST, LOWEST = 8, 5
+"""Rows of a panel, its border counted."""
+NOT_PANES = 3
+"""Rows of the terminal that are tabs, status line and key bar; of the rest the panes keep half."""
+MOST = 6
+"""Lines that may go on, in a terminal of any size."""
+
+
+def _across(size: Size) -> int:
+    return max(1, size.width // NARROWEST)
+
+
+def _down(size: Size) -> int:
+    return max(LOWEST, (size.height - NOT_PANES) // 2)
+
+
+def room(size: Size) -> int:
+    """How many lines have room in a terminal."""
+    return min(MOST, _across(size) * (_down(size) // LOWEST))
+
+
+class StreamPanels(Container):
+    """Holds the panels of the lines, the oldest first; hidden while there is none."""
+
+    DEFAULT_CSS = """
+    StreamPanels { display: none; layout: grid; height: 8; grid-gutter: 0; }
+    StreamPanels.open { display: block; layout: grid; }
+    """
+    can_focus: ClassVar[bool] = False  # pyright: ignore[reportIncompatibleVariableOverride] -- as Textual's widgets do
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._panels: list[StreamPanel] = []
+        self._key = key_text(next(each for each in keymap.TABLE["app"] if each.action == "end_stream"))
+        self._laid_out: tuple[object, ...] = ()
+        self._rows = TALLEST
+
+    @property
+    def panels(self) -> Sequence[StreamPanel]:
+        """The lines that are shown, the oldest first."""
+        return self._panels
+
+    @property
+    def _terminal(self) -> Size:
+        return self.app.size  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic, its type not told
+
+    def problem(self, words: Sequence[str]) -> str:
+        """Why a line of `ros2`, without that word, cannot be begun; empty when it can."""
+        if not goes_on(words) or any(each.has_ended for each in self._panels):
+            return ""
+        has = room(self._terminal)
+        if len(self._panels) < has:
+            return ""
+        larger = "" if has >= MOST else ", a larger terminal has more room"
+        return f"no room: {len(self._panels)} run below the panes already; {self._key} ends one{larger}"
+
+    def begin(self, line: str, stream: Stream) -> None:
+        """Show a stream; without room for it, the oldest that has ended makes way."""
+        if len(self._panels) >= room(self._terminal):
+            ended = [each for each in self._panels if each.has_ended]
+            for each in ended[:1]:
+                self.end(each)
+        panel = StreamPanel(line, stream)
+        self._panels.append(panel)
+        self.mount(panel)
+        self.look()
+
+    def end(self, panel: StreamPanel) -> None:
+        """End a stream, and take its panel away."""
+        if panel in self._panels:
+            self._panels.remove(panel)
+            panel.stop()
+            panel.remove()
+            self.look()
+
+    def look(self) -> None:
+        """Show what has come, and lay out anew where the terminal or the lines are others."""
+        now = (self._terminal, *((each, each.state) for each in self._panels))
+        if now != self._laid_out:
+            self._laid_out = now
+            self._lay_out(self._terminal)
+        for each in self._panels:
+            each.look(self._rows)
+
+    def _lay_out(self, size: Size) -> None:
+        self.set_class(bool(self._panels), "open")
+        # In a terminal that was made smaller the newest are seen; the others go on.
+        seen = self._panels[-room(size) :]
+        for number, each in enumerate(self._panels, 1):
+            each.display = each in seen
+            each.call(number if len(self._panels) > 1 else 0, self._key)
+            each.styles.column_span = 1
+        if not seen:
+            return
+        rows = math.ceil(len(seen) / _across(size))
+        columns = math.ceil(len(seen) / rows)
+        self._rows = min(TALLEST, _down(size) // rows)
+        self.styles.height = rows * self._rows
+        self.styles.grid_size_columns, self.styles.grid_size_rows = columns, rows
+        seen[-1].styles.column_span = 1 + rows * columns - len(seen)
+        if len(seen) < len(self._panels):
+            seen[-1].border_subtitle = f"{len(self._panels) - len(seen)} more not seen · {self._key} closes one"
+
+    def on_stream_panel_closed(self, event: StreamPanel.Closed) -> None:
+        """The title of a panel was clicked."""
+        event.stop()
+        self.end(event.panel)
