@@ -126,13 +126,14 @@ def main() -> None:
     """Run as the words of the command say."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--ends", type=int, default=500)
+    parser.add_argument("--kind", choices=KINDS, action="append", help="only of this kind; may be given several times")
     options = parser.parse_args()
     folder, base = Path(tempfile.mkdtemp(prefix="ends")), Path(tempfile.mkdtemp(prefix="bcs"))
     os.environ |= {"BOT_CONSOLE_SOCKET_DIR": str(base), "XDG_STATE_HOME": str(folder), "XDG_CONFIG_HOME": str(folder)}
     os.environ["TMPDIR"] = str(base)
     counts: Counter[str] = Counter()
     failed: list[str] = []
-    kinds = list(KINDS)
+    kinds = options.kind or list(KINDS)
     try:
         for number in range(options.ends):
             kind = kinds[number % len(kinds)]

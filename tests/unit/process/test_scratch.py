@@ -54,3 +54,60 @@ def test_a_folder_of_somebody_else_is_not_used(tmp_path: Path) -> None:
     assert file.exists() and list(theirs.iterdir()) == []
     process.communicate("\n")
     assert not file.exists()
+
+
+TWO_LAUNCHES = """
+import threading
+from bot_console.runtime.process import scratch as module
+both, clean = threading.Barrier(2), module.clean
+def clean_beside_the_other(base):
+    try:
+        both.wait(0.5)  # neither has made its folder yet, unless one waits for the other
+    except threading.BrokenBarrierError:
+        pass
+    clean(base)
+module.clean = clean_beside_the_other
+launches = [threading.Thread(target=module.scratch_file, args=("launch_params_", "a: 1")) for _ in range(2)]
+for each in launches:
+    each.start()
+for each in launches:
+    each.join()
+print(len(list(module.scratch().parent.glob("*/launch_params_*"))), len(list(module.scratch().parent.iterdir())))
+"""
+
+
+def test_launches_that_begin_at_once_have_one_folder(tmp_path: Path) -> None:
+    done = run(TWO_LAUNCHES, tmp_path)
+    assert done.stdout.split() == ["2", "1"], done.stderr
+    assert list((tmp_path / f"bot-console-{os.geteuid()}" / "files").iterdir()) == []
+
+
+WRITES_AT_THE_END = """
+import atexit
+from bot_console.runtime.process import scratch as module
+def write():
+    try:
+        module.scratch_file("launch_params_", "a: 1")
+    except OSError as error:
+        print(error, flush=True)
+atexit.register(write)  # comes after the folder's removal, as a thread may that is still starting something
+def write_into_the_old_one(folder):
+    try:
+        (old / "launch_params_1").write_text("a: 1")
+    except OSError:
+        print("the folder is gone", flush=True)
+    delete(folder)
+old, delete = module.scratch(), module._delete
+module._delete = write_into_the_old_one
+"""
+
+
+def test_what_is_written_at_the_end_leaves_nothing(tmp_path: Path) -> None:
+    done = run(WRITES_AT_THE_END, tmp_path)
+    assert done.stdout == "the folder is gone\nthe process is ending\n", done.stderr
+    assert list((tmp_path / f"bot-console-{os.geteuid()}" / "files").iterdir()) == []
+
+
+def run(program: str, base: Path) -> subprocess.CompletedProcess[str]:
+    environment = {**os.environ, "TMPDIR": str(base)}
+    return subprocess.run([sys.executable, "-c", program], env=environment, text=True, capture_output=True, check=True)
