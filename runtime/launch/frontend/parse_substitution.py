@@ -9,6 +9,9 @@ from launch.frontend.expose import substitution_parse_methods
 
 NAME = re.compile(r"[a-zA-Z0-9_\-]+")
 
+# From this depth on, a stack that runs out is blamed on the text; the usual stack takes about 200.
+MANY_IN_ONE_ANOTHER = 20
+
 
 class UnexpectedCharacters(ValueError):
     """A character that cannot stand where it does."""
@@ -36,9 +39,12 @@ def parse_substitution(string_value: str) -> list[Any]:
 
     if not string_value:
         return [TextSubstitution(text="")]
+    reader = _Reader(string_value)
     try:
-        return _Reader(string_value).pieces("")
+        return reader.pieces("")
     except RecursionError:
+        if reader.deepest < MANY_IN_ONE_ANOTHER:
+            raise  # it was the callers who had left no stack: a launch file that includes itself, as an example
         raise ValueError(f"{string_value[:40]!r}... has too many substitutions in one another") from None
 
 
@@ -78,6 +84,9 @@ class _Reader:
     def __init__(self, text: str) -> None:
         self._text = text
         self._at = 0
+        self._depth = 0
+        self.deepest = 0
+        """How many substitutions have been read in one another, so far."""
 
     def pieces(self, ends: str, quote: str = "") -> list[Any]:
         """Texts and substitutions up to one of the characters, or to the end; `quote` is the one around them."""
@@ -106,10 +115,13 @@ class _Reader:
             raise self._unexpected("the name of a substitution")
         self._at = name.end()
         arguments: list[Any] = []
+        self._depth += 1
+        self.deepest = max(self.deepest, self._depth)
         while not self._take(")"):
             if not self._take(" "):
                 raise self._unexpected("a space or ')'")
             arguments.append(self._quoted_argument() if not quote else self._plain_argument(quote))
+        self._depth -= 1
         try:
             return _substitution(name[0], arguments)
         except Exception as error:  # a substitution's own words, under the heading that upstream gives them

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import inspect
 import io
 import re
+import sys
 from typing import Any
 
 import pytest
@@ -464,3 +466,14 @@ def test_an_exit_in_a_launch_file_is_the_programs_exit(run_file: Launch) -> None
 def test_substitutions_in_one_another_without_end_are_refused() -> None:
     with pytest.raises(ValueError, match="has too many substitutions in one another"):
         parse_substitution("$(var " * 5000)
+
+
+def test_a_text_is_not_blamed_for_a_stack_that_its_callers_have_used_up() -> None:
+    text = "$(var " * 15 + "name" + ")" * 15
+
+    def below(frames: int) -> Any:
+        return parse_substitution(text) if frames <= 0 else below(frames - 1)
+
+    assert parse_substitution(text)
+    with pytest.raises(RecursionError):
+        below(sys.getrecursionlimit() - len(inspect.stack(0)) - 30)
