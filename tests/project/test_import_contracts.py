@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 
 PLANTED = {
-    "tui/console/model.py": "import rclpy",
+    "tui/console/model/snapshot.py": "import rclpy",
     "tui/panes/logs/pane.py": "import bot_console.runtime.importer",
     "tui/console/node.py": "import bot_console.runtime.importer",
     "runtime/run.py": "import bot_console.tui.format",

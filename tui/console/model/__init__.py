@@ -1,0 +1,42 @@
+"""Frozen snapshots of a ROS system, as the panes see it.
+
+Standard library only. Times are integer nanoseconds, distances m, angles rad, speeds m/s and rad/s. A part that has
+not changed since the last snapshot is the same object, so a pane redraws by comparing identity.
+"""
+
+from bot_console.tui.console.model.changes import Change, ChangeSource, JournalState, SetOutcome
+from bot_console.tui.console.model.graph import Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.console.model.launch import LaunchArgument, LaunchEvent, LaunchInfo, ProcessInfo, ProcessState
+from bot_console.tui.console.model.logs import LogFilter, LogRecord, LogState, Severity
+from bot_console.tui.console.model.parameters import Kind, ParameterInfo, ParameterTree, Range, Value
+from bot_console.tui.console.model.profiles import Profile, ProfileDifference
+from bot_console.tui.console.model.snapshot import Capabilities, ConsoleSnapshot, LinkInfo
+
+__all__ = [
+    "Capabilities",
+    "Change",
+    "ChangeSource",
+    "ConsoleSnapshot",
+    "Endpoint",
+    "GraphInfo",
+    "JournalState",
+    "Kind",
+    "LaunchArgument",
+    "LaunchEvent",
+    "LaunchInfo",
+    "LinkInfo",
+    "LogFilter",
+    "LogRecord",
+    "LogState",
+    "NodeInfo",
+    "ParameterInfo",
+    "ParameterTree",
+    "ProcessInfo",
+    "ProcessState",
+    "Profile",
+    "ProfileDifference",
+    "Range",
+    "SetOutcome",
+    "Severity",
+    "Value",
+]

@@ -1,0 +1,74 @@
+"""Changes of parameters: who asked for them, what became of them, and the journal of all."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from bot_console.tui.console.model.parameters import Value
+
+
+class ChangeSource(str, Enum):
+    """Who asked for a parameter change."""
+
+    EDIT = "edit"
+    UNDO = "undo"
+    REDO = "redo"
+    PROFILE = "profile"
+    FILE = "file"
+    HISTORY = "history"
+    ROLLBACK = "taken back"
+    OTHER = "elsewhere"
+
+
+@dataclass(frozen=True, slots=True)
+class SetOutcome:
+    """What became of one value that somebody asked a node to take.
+
+    `refused_by` is `console` (it could not even be sent), `descriptor` (range, type, read-only), `callback` (the node's
+    own rule), `node` (no answer, or it has no such parameter) or empty when accepted.
+    """
+
+    node: str
+    name: str
+    value: Value
+    accepted: bool
+    reason: str = ""
+    refused_by: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """A journal entry: a parameter that changed, or a change that was refused."""
+
+    seq: int
+    stamp: int
+    node: str
+    name: str
+    old: Value
+    new: Value
+    source: ChangeSource
+    accepted: bool = True
+    reason: str = ""
+    by: str = ""
+    """What it was a part of: the name of a profile, of a file."""
+    run: int = 0
+    """The run that saw it, by its start (ns since the epoch); 0 is this one."""
+
+
+@dataclass(frozen=True, slots=True)
+class JournalState:
+    """The change journal as a whole, numbered as the log is, and whether undo and redo have something to do.
+
+    Changes of earlier runs are numbered below 0.
+    """
+
+    first: int = 0
+    end: int = 0
+    dropped: int = 0
+    can_undo: bool = False
+    can_redo: bool = False
+    unsaved: tuple[tuple[str, str], ...] = ()
+    """Node and name of each value that was set from this console and is in no file, so that it would be lost."""
+    problem: str = ""
+    """Why changes are not kept for later runs; empty when they are, or when that was not asked for."""

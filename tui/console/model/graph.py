@@ -1,0 +1,45 @@
+"""The ROS graph as the panes see it: nodes, and what they publish, subscribe to, serve and ask."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Endpoint:
+    """A publisher, subscription, service server or client of a node."""
+
+    name: str
+    types: tuple[str, ...]
+    qos: str = ""
+    """A short text such as `reliable volatile 10`; empty when unknown."""
+
+
+@dataclass(frozen=True, slots=True)
+class NodeInfo:
+    """A node of the ROS graph by its fully qualified name."""
+
+    name: str
+    publishers: tuple[Endpoint, ...] = ()
+    subscriptions: tuple[Endpoint, ...] = ()
+    services: tuple[Endpoint, ...] = ()
+    clients: tuple[Endpoint, ...] = ()
+    action_servers: tuple[Endpoint, ...] = ()
+    action_clients: tuple[Endpoint, ...] = ()
+
+    @property
+    def hidden(self) -> bool:
+        """Whether any token of the name starts with an underscore."""
+        return "/_" in self.name
+
+
+@dataclass(frozen=True, slots=True)
+class GraphInfo:
+    """The ROS graph. `unheard`: why messages do not pass; `frozen`: stopped nodes, with pids; `silent`: no answer."""
+
+    nodes: tuple[NodeInfo, ...] = ()
+    topics: tuple[Endpoint, ...] = ()
+    services: tuple[Endpoint, ...] = ()
+    unheard: tuple[str, ...] = ()
+    frozen: tuple[tuple[str, int], ...] = ()
+    silent: tuple[str, ...] = ()

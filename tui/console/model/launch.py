@@ -1,0 +1,71 @@
+"""Launched processes as the panes see them, the timeline of a launch, and what its files can be told."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from bot_console.tui.console.model.logs import Severity
+
+
+class ProcessState(str, Enum):
+    """Life of a launched process."""
+
+    STARTING = "starting"
+    RUNNING = "running"
+    STOPPING = "stopping"
+    EXITED = "exited"
+    CRASHED = "crashed"
+    MISSING = "missing"
+    """Its executable is not here, and the launch goes on without it."""
+    ABANDONED = "abandoned"
+
+
+@dataclass(frozen=True, slots=True)
+class ProcessInfo:
+    """A process that a launch file started. `group` is its path of launch files and groups, outermost first."""
+
+    key: str
+    label: str
+    state: ProcessState
+    pid: int | None = None
+    nodes: tuple[str, ...] = ()
+    group: tuple[str, ...] = ()
+    restarts: int = 0
+    exit_code: int | None = None
+    problem: str = ""
+    cpu: float | None = None
+    """Its share of a processor; 1.0 is one whole."""
+    memory: int | None = None
+    """What it holds in main memory, in MB (10^6 bytes); None where it has none of its own, as a thread has."""
+
+
+@dataclass(frozen=True, slots=True)
+class LaunchEvent:
+    """A line of the launch timeline."""
+
+    seq: int
+    stamp: int
+    text: str
+    severity: Severity = Severity.INFO
+
+
+@dataclass(frozen=True, slots=True)
+class LaunchInfo:
+    """What the launcher knows; `problem` says why a launch file could not be run, `delayed` counts starts put off."""
+
+    files: tuple[str, ...] = ()
+    processes: tuple[ProcessInfo, ...] = ()
+    timeline: tuple[LaunchEvent, ...] = ()
+    problem: str = ""
+    delayed: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class LaunchArgument:
+    """An argument that a launch file declares; `default` None means required."""
+
+    name: str
+    description: str = ""
+    default: str | None = None
+    choices: tuple[str, ...] = ()

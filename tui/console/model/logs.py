@@ -1,0 +1,61 @@
+"""The log as the panes see it: records, which of them to show, and how many there are."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import IntEnum
+from types import MappingProxyType
+
+
+class Severity(IntEnum):
+    """Log severities with the codes of `rcl_interfaces/msg/Log`."""
+
+    UNSET = 0
+    DEBUG = 10
+    INFO = 20
+    WARN = 30
+    ERROR = 40
+    FATAL = 50
+
+
+@dataclass(frozen=True, slots=True)
+class LogRecord:
+    """One log line; `seq` counts from 0 and never repeats."""
+
+    seq: int
+    stamp: int
+    severity: Severity
+    node: str
+    text: str
+    file: str = ""
+    function: str = ""
+    line: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class LogFilter:
+    """Which records to show: those of a least severity that pass the words, and how.
+
+    `words`, as every text of `hidden` and `only`, follows one grammar in every pane: blanks mean AND, `!word` excludes,
+    `re:regex`, `node:name`, `sev:>=warn`, `at:file.py:12`, `time:14:03..14:05`.
+    """
+
+    minimum: Severity = Severity.UNSET
+    words: str = ""
+    hidden: tuple[str, ...] = ()
+    """What passes one of these is not shown."""
+    only: tuple[str, ...] = ()
+    """What passes none of these is not shown; empty: all is."""
+    folded: bool = False
+    """Whether a row of equal records is shown as one, its newest."""
+
+
+@dataclass(frozen=True, slots=True)
+class LogState:
+    """The log as a whole: records `first` .. `end` - 1 are kept, `dropped` fell out, counts are per severity."""
+
+    first: int = 0
+    end: int = 0
+    dropped: int = 0
+    counts: Mapping[Severity, int] = field(default_factory=lambda: MappingProxyType({}))

@@ -1,0 +1,85 @@
+"""Parameters of nodes as the panes see them: their types, what their descriptors say, and the tree of each node."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import TypeAlias
+
+from bot_console.tui.console.parameters.unit import unit_of
+
+Value: TypeAlias = "bool | int | float | str | tuple[bool | int | float | str | bytes, ...] | None"
+"""A parameter's value; arrays are tuples, None is NOT_SET."""
+
+
+class Kind(IntEnum):
+    """Parameter types with the codes of `rcl_interfaces/msg/ParameterType`."""
+
+    NOT_SET = 0
+    BOOL = 1
+    INTEGER = 2
+    DOUBLE = 3
+    STRING = 4
+    BYTE_ARRAY = 5
+    BOOL_ARRAY = 6
+    INTEGER_ARRAY = 7
+    DOUBLE_ARRAY = 8
+    STRING_ARRAY = 9
+
+    @property
+    def word(self) -> str:
+        """The type word of `ros2 param` (`double`, `string array` ...)."""
+        return "boolean" if self is Kind.BOOL else self.name.lower().replace("bool_", "boolean_").replace("_", " ")
+
+
+@dataclass(frozen=True, slots=True)
+class Range:
+    """A descriptor's range, both ends included; `step` 0 is continuous."""
+
+    low: float
+    high: float
+    step: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class ParameterInfo:
+    """One parameter of one node: its value and what its descriptor says."""
+
+    node: str
+    name: str
+    kind: Kind
+    value: Value
+    description: str = ""
+    read_only: bool = False
+    dynamic: bool = False
+    range: Range | None = None
+    constraints: str = ""
+    default: Value = None
+    origin: str = ""
+    """Where the value came from, in words; empty when unknown."""
+
+    declared_at: str = ""
+    """`file:line` of the declaration, whose value `default` then is; empty when unknown."""
+
+    @property
+    def unit(self) -> str:
+        """The unit that ends the description in parentheses, such as `m/s`; else empty."""
+        return unit_of(self.description)
+
+    @property
+    def changed(self) -> bool:
+        """Whether the value differs from the default."""
+        return self.value != self.default
+
+
+@dataclass(frozen=True, slots=True)
+class ParameterTree:
+    """The parameters of one node; `problem` says why they cannot be read, empty when they can."""
+
+    node: str
+    parameters: tuple[ParameterInfo, ...] = ()
+    problem: str = ""
+
+    def get(self, name: str) -> ParameterInfo | None:
+        """The parameter of that name, if the node has it."""
+        return next((each for each in self.parameters if each.name == name), None)

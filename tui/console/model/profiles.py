@@ -1,0 +1,43 @@
+"""Profiles as the panes see them, and what each would change."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+from bot_console.tui.console.model.parameters import Value
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """A named parameter file: the values it sets by node and parameter, and the world it was made for."""
+
+    name: str
+    path: str
+    title: str = ""
+    values: Mapping[tuple[str, str], Value] = field(default_factory=lambda: MappingProxyType({}))
+    world: str = ""
+    problem: str = ""
+    launch: str = ""
+    """The launch file that takes the place of the running system; empty for a parameter file."""
+    arguments: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
+    """The arguments of that launch file."""
+
+
+@dataclass(frozen=True, slots=True)
+class ProfileDifference:
+    """What a profile would change; `refusal` says why it would be refused, empty when it would be taken.
+
+    `unsafe` says what it takes from the robot's safety, empty when nothing.
+    """
+
+    node: str
+    name: str
+    now: Value
+    then: Value
+    refusal: str = ""
+    needs_reset: bool = False
+    unsafe: str = ""
+    unknown: bool = False
+    """Whether the node has no such parameter, so that the value is left out."""
