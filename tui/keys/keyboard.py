@@ -11,6 +11,7 @@ from collections.abc import Awaitable, Callable, Sequence
 from functools import partial
 from typing import TypeAlias
 
+from bot_console.tui.keys.escaping import told_apart
 from textual import events
 from textual.app import App
 from textual.dom import DOMNode
@@ -73,7 +74,7 @@ class Keyboard:
             self._be_patient()
 
     async def _next(self) -> None:
-        while self._waiting and not self._under_way and self.passes(self._waiting[0]):
+        while self._waiting and not self._under_way and self.passes(self._first()):
             event = self._waiting.popleft()
             self._count += 1
             self._under_way = number = self._count
@@ -82,6 +83,14 @@ class Keyboard:
             self._follow(number, [*target.ancestors_with_self] * PASSES)
             if self._waiting:
                 self._be_patient()
+
+    def _first(self) -> Typed:
+        """What is to be dealt with next, as what has the keyboard now takes it."""
+        event = self._waiting[0]
+        if isinstance(event, events.Key) and (both := told_apart(event, self._app.screen)):
+            self._waiting.popleft()
+            self._waiting.extendleft(reversed(both))
+        return self._waiting[0]
 
     async def hold(self, passes: Callable[[Typed], bool]) -> None:
         """Deal only with keys that may pass, as long as they are the next ones."""

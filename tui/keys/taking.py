@@ -14,9 +14,9 @@ from codecs import getincrementaldecoder
 from functools import partial
 from typing import Any
 
+from bot_console.tui.keys.escaping import EscapeParser
 from bot_console.tui.keys.pasted import Pasted
 from textual._parser import ParseError
-from textual._xterm_parser import XTermParser
 
 LOOK = 0.1
 """Seconds after which a lone Esc is looked at again: it may have begun a sequence."""
@@ -69,7 +69,7 @@ def ends_at_once(driver: Any) -> None:
 
 def take_keys(driver: Any, ending: Ending) -> None:
     """Hand on what is typed until the end, or that of the terminal. Bytes that are no text are shown as such."""
-    parser: Any = XTermParser(driver._debug)
+    parser: Any = EscapeParser(driver._debug)
     pasted = Pasted()
     decode = getincrementaldecoder("utf-8")("replace").decode
     while not ending.is_set():

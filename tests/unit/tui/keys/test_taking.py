@@ -74,6 +74,17 @@ def test_keys_come_in_their_order(rig: Rig) -> None:
     assert rig.types(b"q!\x1b[A", 3) == ["q", "exclamation_mark", "up"]
 
 
+@pytest.mark.parametrize("key", ["!", "\r", ":", "-", " "])
+def test_esc_and_what_is_typed_right_after_it_are_two_keys(rig: Rig, key: str) -> None:
+    alone = rig.types(key.encode())
+    assert rig.types(f"\x1b{key}".encode(), 2) == ["escape", *alone]
+
+
+def test_a_letter_after_esc_may_have_had_alt_and_keys_of_several_bytes_stay_whole(rig: Rig) -> None:
+    assert rig.types(b"\x1bq\x1b1", 2) == ["alt+q", "alt+1"] and rig.types(b"\x1bQx", 2) == ["alt+shift+q", "x"]
+    assert rig.types(b"\x1b[A\x1bOP\x1b[1;3A\x1b\x7f\x1bb", 5) == ["up", "f1", "alt+up", "ctrl+w", "ctrl+left"]
+
+
 def test_it_ends_at_once_and_can_begin_again(rig: Rig) -> None:
     for letter in "ab":
         assert rig.types(letter.encode()) == [letter]

@@ -1,0 +1,50 @@
+"""Esc and a key typed right after it, which many terminals send with the same bytes as Alt and that key.
+
+Over a slow link both come in one piece, and nobody can tell them apart. Textual takes them for Alt and the key, or
+loses the Esc; as in vi they are Esc and the key here, unless somebody has given a key with Alt something to do. The
+keyboard protocol by which some terminals tell Alt apart is not concerned.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from textual import events
+from textual._xterm_parser import XTermParser
+from textual.screen import Screen
+
+ESC = "\x1b"
+BEGIN = frozenset("[OP]^_X")
+"""What may begin a sequence after an Esc: a key of several bytes, or something that a terminal tells."""
+EDITING = frozenset("bf\t\x7f")
+"""What terminals send after an Esc for keys that move by words or delete one; Textual knows them."""
+ALT = "alt+"
+
+
+class EscapeParser(XTermParser):
+    """Textual's parser (8.2) of what a terminal sends, which takes an Esc before a single key for one."""
+
+    def _sequence_to_key_events(self, sequence: str, alt: bool = False) -> Iterable[events.Key]:
+        pair = len(sequence) == 2 and sequence[0] == ESC and sequence[1] not in BEGIN | EDITING | {ESC}
+        if not (pair or alt):
+            yield from super()._sequence_to_key_events(sequence, alt)
+            return
+        for key in super()._sequence_to_key_events(sequence[-1], alt=True):
+            if not key.key.startswith(ALT):  # with which nothing can be bound
+                yield events.Key("escape", ESC)
+            yield key
+
+
+def told_apart(event: events.Key, screen: Screen[Any]) -> list[events.Key]:
+    """Esc and the key itself, for a letter with an Alt that may have been an Esc and that nothing is bound to.
+
+    Empty for any other key: in the keyboard protocol that tells Alt apart, such a key has no letter.
+    """
+    if not event.key.startswith(ALT) or not event.character or event.key in screen.active_bindings:
+        return []
+    both = [events.Key("escape", ESC), events.Key(event.character, event.character)]
+    for each in both:
+        each.time = event.time
+        each.set_sender(event._sender)
+    return both
