@@ -139,7 +139,7 @@ TABLE: dict[str, tuple[Key, ...]] = {
         Key("steering.no_speed", "x", "zero_axis(0)", "Zero linear velocity"),
         Key("steering.no_turn", "c", "zero_axis(1)", "Zero angular velocity"),
         Key("steering.deadman", "t", "deadman", "Dead-man time: seconds without a key until the robot stops"),
-        Key("steering.robot", "r", "next_robot", "Another robot, where several listen for commands"),
+        Key("steering.robot", "r", "next_robot", "The next topic that takes commands, of this robot or another"),
         Key("steering.limits", "v", "limits", "Limits of speed and turn, typed or the parameters'"),
         Key("steering.hand_back", "h", "hand_back", "Hand back: the robot's own program drives again"),
         Key("steering.disarm", "escape", "disarm", "Disarm: the robot stands, locked, until it is handed back"),

@@ -21,6 +21,8 @@ def stop_text(drive: DriveInfo) -> str:
     if not drive.stop_confirmed:
         return "STOP SENT, NOT CONFIRMED (! sends it again)"
     key = "! releases" if drive.stopped_here else "! holds it too, once more releases"
+    if holder_is_gone(drive) and not drive.stopped_here:
+        key = "! twice releases"  # shorter: that nobody else will is to be seen in 80 columns
     if drive.refused:
         key = "released elsewhere: this console only looks on"
     # The key first: in a narrow terminal the end of the line is not seen.
@@ -29,17 +31,23 @@ def stop_text(drive: DriveInfo) -> str:
 
 def held_by(drive: DriveInfo) -> str:
     """By whom and why the robot is held, as the end of a sentence."""
-    who = "" if drive.stop_holder in ("", "this console") else f" by {harmless(drive.stop_holder)}"
+    holder = drive.stops[0].who if holder_is_gone(drive) else drive.stop_holder
+    who = "" if holder in ("", "this console") else f" by {harmless(holder)}"
     why = f": {harmless(drive.stop_reason)}" if drive.stop_reason not in ("", "ALL STOP") else ""
     more = f", and {counted(len(drive.stops) - 1, 'other stop')}" if len(drive.stops) > 1 else ""
     return f"{who}{why}{more}"
+
+
+def holder_is_gone(drive: DriveInfo) -> bool:
+    """Whether the process that has held the robot longest has ended."""
+    return bool(drive.stops) and drive.stops[0].gone
 
 
 def release_question(
     others: Sequence[RobotStop], then: Callable[[None], object], gone: Callable[[], str]
 ) -> Confirmation:
     """Whether stops that others have made are to be released too; `gone` tells when there are none any more."""
-    lines = [f"  {harmless(each.holder)}: {harmless(each.reason)}" for each in others[:MOST]]
+    lines = [f"  {harmless(each.who)}: {harmless(each.reason)}" for each in others[:MOST]]
     if len(others) > MOST:
         lines.append(f"  and {len(others) - MOST} more")
     reasons = ["These stops are not this console's:", *lines, "", "With no the robot stays held, by you too."]

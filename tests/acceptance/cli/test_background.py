@@ -49,6 +49,11 @@ def test_a_robot_in_the_background(state: Path) -> None:
     assert "bot-console attach" in started.stdout
     told = typed("status")
     assert told.returncode == 0 and "warehouse" in told.stdout and "/simulator" in told.stdout
+    assert typed("stop", "the arm swings").returncode == 0
+    assert re.search(
+        "^held by bot-console stop of .*: the arm swings; bot-console release", typed("status").stdout, re.M
+    )
+    assert typed("release").returncode == 0 and "held by" not in typed("status").stdout
     again = typed("up")
     assert again.returncode == 1 and "runs already" in again.stderr
     apart = typed("--headless", "--duration", "0.5")

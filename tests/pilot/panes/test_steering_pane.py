@@ -280,6 +280,19 @@ def test_without_a_robot_it_cannot_be_armed_and_says_why() -> None:
     run(empty(), play, (100, 30))
 
 
+def test_topics_that_take_commands_are_counted_and_not_robots() -> None:
+    async def play(session: Session) -> None:
+        await session.press("6")
+        drive = session.console.current.drive
+        session.console.change(drive=replace(drive, robot="/", robots=("/", "/cmd_vel_desired")))
+        await session.settle()
+        assert f"enter arms  {drive.topic}  topic 1 of 2, r takes the next" in session.text()
+        await session.press("r")
+        assert ("choose_robot", "/cmd_vel_desired") in session.console.asked
+
+    run(live(), play, (80, 24))
+
+
 def test_what_limits_the_command_is_named() -> None:
     async def play(session: Session) -> None:
         await session.press("6")

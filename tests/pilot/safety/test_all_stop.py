@@ -16,6 +16,21 @@ def held_by(session: Session) -> list[str]:
     return [each.key for each in session.console.current.drive.stops]
 
 
+def test_a_holder_that_has_ended_is_said_to_be_gone_also_in_80_columns() -> None:
+    async def play(session: Session) -> None:
+        session.console.hold([RobotStop("b", "bot-console of ben@lab (pid 12)", "ALL STOP", gone=True)])
+        await session.settle()
+        assert "ALL STOP held (! twice releases) by bot-console of ben@lab (gone)" in session.text()
+        await session.press("6")
+        assert "! twice lets it go: held by bot-console of ben@lab (gone)" in session.text()
+        await session.press(STOP, STOP)
+        assert "bot-console of ben@lab (gone): ALL STOP" in session.text()
+        await session.press("y")
+        assert held_by(session) == []
+
+    run(live(), play, (80, 24))
+
+
 def test_it_holds_and_lets_go() -> None:
     async def play(session: Session) -> None:
         await session.press(STOP)

@@ -194,6 +194,7 @@ def status(words: Sequence[str]) -> int:
         print(f"running in ROS domain {domain()}: {there.told()}")
     if robot:
         print(f"robot in ROS domain {domain()}: {', '.join(robot)}")
+        _tell_holders()
     stopped = frozen()
     for pid in stopped:
         print(f"process {pid} is stopped: what it does for the others stands still; kill -CONT {pid} lets it go on")
@@ -201,6 +202,14 @@ def status(words: Sequence[str]) -> int:
         print(f"nothing runs in ROS domain {domain()}", file=sys.stderr)
         return 1
     return 0
+
+
+def _tell_holders() -> None:
+    from bot_console.tui.cli.verbs.stop import holders
+    from bot_console.tui.format import harmless
+
+    for each in holders():
+        print(f"held by {harmless(each)}; bot-console release --all lets it go")
 
 
 def _no_words(command: str, what: str, words: Sequence[str]) -> None:

@@ -74,6 +74,31 @@ def ask(verb: str, reason: str, *, everybody: bool = False) -> tuple[bool, StopI
     return done, link.info
 
 
+def holders(patience: float = 1.0) -> list[str]:
+    """Who holds the robots that are found, each with a reason; so many seconds are given them to tell."""
+    install()
+    import rclpy
+    from bot_console.tui.console.robot.stop_link import STATUS, StopLink
+
+    rclpy.init(args=[])
+    node = rclpy.create_node("_bot_console_status", enable_rosout=False, start_parameter_services=False)
+    link, deadline = StopLink(node), time.monotonic() + patience
+    while not (link.info.locks and link.heard) and time.monotonic() < deadline:
+        names = node.get_topic_names_and_types()
+        link.follow(name for name, types in names if STATUS in types and node.count_publishers(name))
+        for _ in range(10):
+            rclpy.spin_once(node, timeout_sec=0.01)
+    node.destroy_node()
+    rclpy.try_shutdown()
+    return _said(link.info) if link.info.stopped else []
+
+
+def _said(info: StopInfo) -> list[str]:
+    from bot_console.tui.console.robot.stop_holders import with_gone
+
+    return [f"{each.who}: {each.reason}" for each in with_gone(info.stops)]
+
+
 def _to_release(info: StopInfo, everybody: bool) -> list[RobotStop]:
     """The stops that a release is to let go of: those of this person and of the nodes, or everybody's."""
     return [each for each in info.stops if each.here or each.by_node or everybody]
@@ -81,7 +106,7 @@ def _to_release(info: StopInfo, everybody: bool) -> list[RobotStop]:
 
 def _tell(verb: str, done: bool, info: StopInfo) -> int:
     if done and verb == "release" and info.stopped:
-        others = "; ".join(f"{each.holder}: {each.reason}" for each in info.stops)
+        others = "; ".join(_said(info))
         print(f"still held by {harmless(others)} (`bot-console release --all` releases this, too)", file=sys.stderr)
         return 1
     if done:

@@ -22,6 +22,7 @@ from bot_console.tui.console.robot.command_topics import (
     types_of,
 )
 from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
+from bot_console.tui.console.robot.stop_holders import with_gone
 from bot_console.tui.console.robot.stop_link import STATUS, StopLink
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist, TwistStamped
@@ -310,7 +311,7 @@ class DriveLink:
             stop_holder="this console" if stop.holder == self._stop.holder else stop.holder,
             stop_reason=stop.reason,
             stopped_here=stop.here or self._zeros,
-            stops=stop.stops,
+            stops=with_gone(stop.stops),
             lockable=stop.locks > 0,
             steered_by=stop.steered_by,
         )

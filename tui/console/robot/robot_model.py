@@ -83,7 +83,8 @@ class WorldInfo:
 class RobotStop:
     """One of the stops that hold the robot: the key by which it is released, who made it, and why.
 
-    `here` says that this console made it, `by_node` that no person did but a node of the robot.
+    `here` says that this console made it, `by_node` that no person did but a node of the robot, `gone` that the process
+    which made it has ended.
     """
 
     key: str
@@ -91,6 +92,12 @@ class RobotStop:
     reason: str = ""
     here: bool = False
     by_node: bool = False
+    gone: bool = False
+
+    @property
+    def who(self) -> str:
+        """Its holder; of a process that has ended that it is gone, in the place of its number."""
+        return f"{self.holder.rpartition(' (pid ')[0]} (gone)" if self.gone else self.holder
 
 
 @dataclass(frozen=True, slots=True)

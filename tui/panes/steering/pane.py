@@ -271,7 +271,7 @@ class SteeringPane(Pane):
         """Steer another robot; what was held is let go first."""
         drive = self._snapshot.drive
         if len(drive.robots) < 2:
-            self.notify("No other robot listens for commands.", severity="warning")
+            self.notify("No other topic here takes commands.", severity="warning")
             return
         self._disarm()
         at = drive.robots.index(drive.robot) if drive.robot in drive.robots else -1

@@ -5,7 +5,7 @@ from __future__ import annotations
 from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.format import harmless
 from bot_console.tui.panes.steering.state import Steering, stands_after_steering
-from bot_console.tui.safety.stop_words import held_by
+from bot_console.tui.safety.stop_words import held_by, holder_is_gone
 from bot_console.tui.widgets.picture import Line
 
 BAR = 10
@@ -37,7 +37,8 @@ def lines(state: Steering, drive: DriveInfo, left: float, width: int, height: in
 def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
     topic = harmless(drive.topic) or "no robot listens for commands"
     if len(drive.robots) > 1 and drive.robot in drive.robots:
-        topic += f"  {drive.robots.index(drive.robot) + 1} of {len(drive.robots)}, r steers another"
+        # Of one robot or of several: from a graph nobody can tell where two topics end.
+        topic += f"  topic {drive.robots.index(drive.robot) + 1} of {len(drive.robots)}, r takes the next"
     if drive.stopped and drive.nothing_to_stop:
         return ((" STOP ", "warn"), (f" nothing is here to stop: {topic}", ""))
     if drive.refused:
@@ -50,6 +51,7 @@ def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
         return ((" STANDS ", "warn"), (" enter steers on, ! hands it back to its program", ""))
     if drive.stopped:
         key = "! lets it go" if drive.stopped_here else "! holds it too, once more lets it go"
+        key = "! twice lets it go" if holder_is_gone(drive) and not drive.stopped_here else key
         return ((" ALL STOP ", "error"), (f" {key}: held{held_by(drive)}", ""))
     if state.armed:
         return ((" ● ARMED ", "warn"), (f" keys drive, h hands back  {topic}", "dim"))

@@ -1,0 +1,42 @@
+"""A holder is gone when it was a process of this machine that has ended; of any other nothing is said."""
+
+from __future__ import annotations
+
+import os
+import platform
+import subprocess
+import sys
+
+import pytest
+from bot_console.tui.console.robot.robot_model import RobotStop
+from bot_console.tui.console.robot.stop_holders import with_gone
+from bot_console.tui.console.robot.stop_link import user
+
+
+@pytest.fixture(scope="module")
+def ended() -> int:
+    """The number of a process that has ended."""
+    process = subprocess.Popen([sys.executable, "-c", ""])
+    process.wait()
+    return process.pid
+
+
+def gone(holder: str, *, here: bool = False) -> bool:
+    return with_gone([RobotStop("key", holder, here=here)])[0].gone
+
+
+@pytest.mark.skipif(os.name == "nt", reason="a process cannot be asked there without ending it")
+def test_a_process_that_has_ended_is_gone(ended: int) -> None:
+    assert gone(f"bot-console of {user()} (pid {ended})")
+    stop = with_gone([RobotStop("key", f"bot-console of {user()} (pid {ended})", "because")])[0]
+    assert stop.who == f"bot-console of {user()} (gone)" and stop.reason == "because"
+
+
+def test_of_others_nothing_is_said(ended: int) -> None:
+    assert not gone(f"bot-console of {user()} (pid {os.getpid()})")
+    assert not gone(f"bot-console of {user()} (pid {ended})", here=True)
+    assert not gone(f"bot-console of ben@not-{platform.node()} (pid {ended})")
+    assert not gone(f"bot-console of {user()} (pid {ended}) and more")
+    assert not gone(f"bot-console stop of {user()}")
+    assert not gone("")
+    assert RobotStop("key", "ben (pid 3)").who == "ben (pid 3)"

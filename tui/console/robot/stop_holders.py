@@ -1,0 +1,41 @@
+"""Whether those who hold the robot still live, as far as this machine can tell."""
+
+from __future__ import annotations
+
+import os
+import platform
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+
+from bot_console.tui.console.robot.robot_model import RobotStop
+
+_PROCESS = re.compile(r"@(?P<machine>[^@]*) \(pid (?P<pid>[0-9]{1,9})\)")
+"""At the end of a holder's name, as `stop_link.StopLink` writes it."""
+
+
+def with_gone(stops: Sequence[RobotStop]) -> tuple[RobotStop, ...]:
+    """The stops, those marked whose holder was a process of this machine that has ended.
+
+    Of processes of other machines, and of holders without a process, nothing is known: they are not marked.
+    """
+    return tuple(replace(each, gone=True) if not each.here and _is_gone(each.holder) else each for each in stops)
+
+
+def _is_gone(holder: str) -> bool:
+    found = _PROCESS.search(holder)
+    if not found or found.end() != len(holder) or found["machine"] != platform.node():
+        return False
+    return not _lives(int(found["pid"]))
+
+
+def _lives(pid: int) -> bool:
+    if os.name == "nt":  # a process cannot be asked there without ending it
+        return True
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    except (OSError, OverflowError):  # another user's, or no number that a process can have
+        return True
+    return True
