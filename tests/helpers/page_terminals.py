@@ -19,6 +19,7 @@ from bot_console.tui.pane_table import PaneEntry
 from course.page import make_workspace
 from fakes.launcher import FakeLauncher
 from piloting import Session
+from rest import at_rest
 from systems import Program, System
 from textual.events import Paste
 
@@ -97,7 +98,8 @@ class Terminals:
                 await play(screen)
                 assert app.faults.seen == [], "a pane has ended by a fault"
 
-        asyncio.run(main())
+        with at_rest():
+            asyncio.run(main())
 
 
 @contextmanager

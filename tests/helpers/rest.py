@@ -10,16 +10,20 @@ A frame is drawn when a test pauses to look: none in the middle of keys, and non
 from __future__ import annotations
 
 import asyncio
+import inspect
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import lru_cache
+from types import FunctionType
 from typing import Any
 from unittest.mock import patch
 from weakref import WeakKeyDictionary
 
 from bot_console.tui.terminal.output import SparingApp
-from textual import _wait
+from textual import _callback, _wait
 from textual import app as app_module
+from textual import dom as dom_module
 from textual import pilot as pilot_module
 from textual._context import active_app
 from textual.css.stylesheet import Stylesheet
@@ -81,8 +85,14 @@ def _draw(app: Any) -> None:
 
 @contextmanager
 def at_rest() -> Iterator[None]:
-    """Pilots wait so, meanwhile; and no style sheet is read again that an app of this process has read."""
+    """Pilots wait so, meanwhile; and no style sheet is read again that an app of this process has read.
+
+    Nor is the file of a class looked for again, or a signature made to count what a callback takes: together a fifth of
+    what the start of a console cost.
+    """
     with (
+        patch.object(dom_module, "getfile", _file_of_class),
+        patch.object(_callback, "_count_parameters", _number_of_parameters),
         patch.object(Stylesheet, "_parse_rules", _parsed_once),
         patch.object(SparingApp, "may_draw", lambda app: False),
         patch.object(Screen, "_compositor_refresh", _held),
@@ -109,6 +119,21 @@ def _held(screen: Any) -> None:
         screen._dirty_widgets.clear()
     else:
         _compositor_refresh(screen)
+
+
+_file_of_class = lru_cache(maxsize=None)(inspect.getfile)
+_count_parameters = _callback._count_parameters
+
+
+def _number_of_parameters(call: Callable[..., Any]) -> int:
+    """As many as its signature has; a plain function's code knows without one being made."""
+    plain = getattr(call, "__func__", call)
+    if type(plain) is not FunctionType or hasattr(plain, "__wrapped__") or hasattr(plain, "__signature__"):
+        return _count_parameters(call)
+    code = plain.__code__
+    stars = bool(code.co_flags & inspect.CO_VARARGS) + bool(code.co_flags & inspect.CO_VARKEYWORDS)
+    own = plain is not call and code.co_argcount > 0
+    return code.co_argcount + code.co_kwonlyargcount + stars - own
 
 
 _parsed: dict[object, Any] = {}
