@@ -332,3 +332,7 @@ def test_what_runs_is_saved_as_a_profile_and_can_be_gone_back_to(rig: Rig) -> No
     shown(rig, "speed", 0.5)
     found = {each.name: each.then for each in rig.console.profile_differences("fast") if not each.refusal}
     assert found == {"speed": 1.5}
+    assert rig.console.rename_profile("fast", "faster").ok
+    assert [each.name for each in rig.console.snapshot().profiles if each.own] == ["faster"]
+    assert rig.console.delete_profile("faster").ok and not rig.console.delete_profile("faster").ok
+    assert not any(each.own for each in rig.console.snapshot().profiles)

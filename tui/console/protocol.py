@@ -304,6 +304,14 @@ class Console(ConsoleReading, Protocol):
         """Save all that runs as a profile of the user's, under a name and with a line on what it is for."""
         ...
 
+    def rename_profile(self, name: str, to: str) -> Answer:
+        """Give a profile of the user's another name; refused for others, and where the name is taken."""
+        ...
+
+    def delete_profile(self, name: str) -> Answer:
+        """Delete the file of a profile of the user's; refused for others."""
+        ...
+
     def save_parameters(self, path: str, nodes: Sequence[str] = (), *, only_changed: bool = False) -> Answer:
         """Write a true ROS parameter file; an existing file keeps its comments.
 

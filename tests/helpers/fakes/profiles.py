@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from concurrent.futures import Future
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -56,5 +57,20 @@ class FakeProfiles:
         values = {
             (node, each.name): each.value for node, tree in self.current.parameters.items() for each in tree.parameters
         }
-        self.change(profiles=(*self.current.profiles, Profile(name, f"/home/{name}.yaml", description, values)))
+        saved = Profile(name, f"/home/{name}.yaml", description, values, own=True)
+        self.change(profiles=(*(each for each in self.current.profiles if each.name != name), saved))
         return Answer(True, f"saved to /home/{name}.yaml")
+
+    def rename_profile(self, name: str, to: str) -> Answer:
+        self.asked.append(("rename profile", name, to))
+        profiles = [replace(each, name=to) if each.name == name else each for each in self.current.profiles]
+        self.change(profiles=tuple(profiles))
+        return Answer(True, f"{name} is {to} now")
+
+    def delete_profile(self, name: str) -> Answer:
+        self.asked.append(("delete profile", name))
+        left = tuple(each for each in self.current.profiles if each.name != name or not each.own)
+        if len(left) == len(self.current.profiles):
+            return Answer(False, f"{name} is none of the profiles saved here")
+        self.change(profiles=left)
+        return Answer(True, f"{name} is deleted")

@@ -237,6 +237,17 @@ class LinkedConsole:
             self._node.journal.saved(())
         return answer
 
+    def rename_profile(self, name: str, to: str) -> Answer:
+        """Give a profile another name; what runs on it is called so, too."""
+        answer = self._shelf.rename(name, to)
+        if answer.ok and self._node.setter.profile == name:
+            self._node.setter.profile = to
+        return answer
+
+    def delete_profile(self, name: str) -> Answer:
+        """Delete the file of a profile."""
+        return self._shelf.delete(name)
+
     def save_parameters(self, path: str, nodes: Sequence[str] = (), *, only_changed: bool = False) -> Answer:
         """Write parameters to a file."""
         return self._node.save(path, nodes, only_changed)

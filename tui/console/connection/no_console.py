@@ -254,6 +254,14 @@ class NoConsole:
         """Refused."""
         return self._refusal
 
+    def rename_profile(self, name: str, to: str) -> Answer:
+        """Refused."""
+        return self._refusal
+
+    def delete_profile(self, name: str) -> Answer:
+        """Refused."""
+        return self._refusal
+
     def save_parameters(self, path: str, nodes: Sequence[str] = (), *, only_changed: bool = False) -> Answer:
         """Refused."""
         return self._refusal

@@ -88,6 +88,14 @@ class ReadOnlyConsole(NoConsole):
         """Save what runs as a profile."""
         return self._console.save_profile(name, description)
 
+    def rename_profile(self, name: str, to: str) -> Answer:
+        """Give a profile another name."""
+        return self._console.rename_profile(name, to)
+
+    def delete_profile(self, name: str) -> Answer:
+        """Delete the file of a profile."""
+        return self._console.delete_profile(name)
+
     def save_parameters(self, path: str, nodes: Sequence[str] = (), *, only_changed: bool = False) -> Answer:
         """Write a parameter file."""
         return self._console.save_parameters(path, nodes, only_changed=only_changed)

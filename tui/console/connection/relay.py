@@ -174,6 +174,14 @@ class ConsoleRelay:
         """Save what runs as a profile."""
         return self._now.save_profile(name, description)
 
+    def rename_profile(self, name: str, to: str) -> Answer:
+        """Give a profile another name."""
+        return self._now.rename_profile(name, to)
+
+    def delete_profile(self, name: str) -> Answer:
+        """Delete the file of a profile."""
+        return self._now.delete_profile(name)
+
     def save_parameters(self, path: str, nodes: Sequence[str] = (), *, only_changed: bool = False) -> Answer:
         """Write parameters to a file."""
         return self._now.save_parameters(path, nodes, only_changed=only_changed)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import re
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
@@ -14,10 +13,9 @@ from urllib.parse import urlsplit
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import ParameterTree, Profile
 from bot_console.tui.console.parameters.file.saving import save
+from bot_console.tui.console.parameters.profile_names import profile_name_problem
 from bot_console.tui.console.parameters.profiles import find, load
 from bot_console.tui.files.save_file import NotSaved, typed_path
-
-_NAME = re.compile(r"[\w][\w .+-]*")
 
 
 class Shelf:
@@ -68,9 +66,13 @@ class Shelf:
         found = [*find([*self._folders, *own], mixed=self._mixed)]
         known = {Path(each.path).resolve() for each in found}
         found += [self._load(path) for path in list(self._opened.values()) if path.resolve() not in known]
+        found = [replace(each, own=self._is_own(each)) for each in found]
         profiles = tuple(sorted(found, key=lambda each: each.name))
         if profiles != self.profiles:
             self.profiles = profiles
+
+    def _is_own(self, profile: Profile) -> bool:
+        return self._own is not None and Path(profile.path).parent == self._own
 
     def _load(self, path: Path) -> Profile:
         """An opened file; one that was fetched has the name that its address ends in."""
@@ -129,12 +131,43 @@ class Shelf:
         self.look_again()
         return Answer(True, saved.text(path))
 
+    def rename(self, name: str, to: str) -> Answer:
+        """Give a profile of the user's another name; the answer says what came of it."""
+        path, problem = self._own_file(name)
+        if path is None or (problem := profile_name_problem(to)):
+            return Answer(False, problem)
+        place = path.with_name(f"{to}{path.suffix}")
+        if any(path.with_name(to + ending).exists() for ending in (".yaml", ".yml")):
+            return Answer(False, f"not renamed: there is a profile {to} already")
+        return self._change(path, lambda: path.rename(place), "renamed", f"{name} is {to} now: {place}")
+
+    def delete(self, name: str) -> Answer:
+        """Delete the file of a profile of the user's; the answer says what came of it."""
+        path, problem = self._own_file(name)
+        if path is None:
+            return Answer(False, problem)
+        return self._change(path, path.unlink, "deleted", f"{path} is deleted")
+
+    def _own_file(self, name: str) -> tuple[Path | None, str]:
+        """The file of a profile of the user's; None, and why, where there is none."""
+        found = next((each for each in self.profiles if each.name == name), None)
+        if found is None:
+            return None, f"there is no profile {name}"
+        if not found.own:
+            return None, f"{name} is none of the profiles saved here: {found.path}"
+        return Path(found.path), ""
+
+    def _change(self, path: Path, change: Callable[[], object], what: str, done: str) -> Answer:
+        opened = str(path.resolve())
+        try:
+            change()
+        except OSError as error:
+            return Answer(False, f"not {what}: {path}: {error.strerror}")
+        self._opened.pop(opened, None)
+        self.look_again()
+        return Answer(True, done)
+
 
 def _stamp(path: Path) -> tuple[str, int, int]:
     about = path.stat()
     return str(path), about.st_mtime_ns, about.st_size
-
-
-def profile_name_problem(name: str) -> str:
-    """Why a profile cannot be called so; empty when it can."""
-    return "" if _NAME.fullmatch(name) else f"'{name}' is no name for a profile: letters, digits, blanks, . + - _"

@@ -19,6 +19,7 @@ from bot_console.tui.kept import LAST_FILE
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.pane import answer_of
 from bot_console.tui.panes.profiles.asking import Asking
+from bot_console.tui.panes.profiles.own import OwnProfiles
 from bot_console.tui.panes.profiles.presets import PresetMenu
 from bot_console.tui.panes.profiles.replacement import Replacement
 from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, entries, outcome_text
@@ -42,8 +43,9 @@ class ProfilesPane(ListPane):
         "A profile is a ROS parameter file with the settings for one environment. Below the list stands what it\n"
         "would change, and what would be refused: by descriptors, and by nodes that can be asked without setting.\n"
         "a sets the values live, all or nothing over all nodes; w also resets the simulator into the profile's world.\n"
-        "o opens any parameter file the same way, S saves what runs as a profile. A launch profile takes the place of\n"
-        "the running system, after a question. p shows the presets that nodes keep."
+        "o opens any parameter file the same way, S saves what runs as a profile; m renames and d deletes one that\n"
+        "was saved so. A launch profile takes the place of the running system, after a question. p shows the presets\n"
+        "that nodes keep."
     )
     BINDINGS = keymap.bindings("profiles")
 
@@ -55,6 +57,7 @@ class ProfilesPane(ListPane):
         self._told = ""
         self._held = False
         self._query = Query()
+        self._own = OwnProfiles(self.console, self._later, self.ask, self.tell)
         self._asking = Asking(self.console, self._later, self._compare)
 
     def _later(self, work: Callable[..., object], *given: object) -> None:
@@ -254,13 +257,17 @@ class ProfilesPane(ListPane):
 
     def action_save_profile(self) -> None:
         """Ask for a name, then for what the profile is for, and save."""
-        self.ask(Line("save what runs as profile", self._describe_profile, text=self._snapshot.active_profile))
+        self._own.save(self._snapshot)
 
-    def _describe_profile(self, name: str) -> None:
-        self.host.call_later(self.ask, Line(f"what {name} is for", partial(self._save_profile, name)))
+    def action_rename_profile(self) -> None:
+        """Ask for another name for a profile of the person's."""
+        if (profile := self._list.current) is not None:
+            self._own.rename(profile)
 
-    def _save_profile(self, name: str, description: str) -> None:
-        self.tell(self.console.save_profile(name.strip(), description))
+    def action_delete_profile(self) -> None:
+        """Ask whether a profile of the person's is to be deleted."""
+        if (profile := self._list.current) is not None:
+            self._own.delete(profile)
 
     def action_presets(self) -> None:
         """Show the presets that nodes keep as a service."""

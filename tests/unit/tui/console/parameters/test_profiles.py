@@ -219,3 +219,27 @@ def test_only_what_differs_is_saved_on_request(tmp_path: Path) -> None:
     )
     save(tmp_path / "p.yaml", {"/n": found}, only_changed=True)
     assert (tmp_path / "p.yaml").read_text() == "/n:\n  ros__parameters:\n    other: 2\n"
+
+
+def test_only_the_persons_own_are_renamed_and_deleted(tmp_path: Path) -> None:
+    (tmp_path / "ours").mkdir()
+    (tmp_path / "ours" / "indoor.yaml").write_text("/n:\n  ros__parameters: {speed: 1.0}\n")
+    shelf = Shelf([tmp_path / "ours"], tmp_path / "own")
+    trees = {"/n": tree("/n", {"speed": 3.0})}
+    for name in ("hall", "attic"):
+        assert shelf.save(name, "", trees).ok
+    assert {each.name: each.own for each in shelf.profiles} == {"indoor": False, "hall": True, "attic": True}
+    assert not shelf.delete("indoor").ok and not shelf.rename("indoor", "mine").ok and not shelf.delete("nobody").ok
+    assert (tmp_path / "ours" / "indoor.yaml").is_file()
+    taken = shelf.rename("hall", "attic")
+    assert not taken.ok and "already" in taken.text
+    for bad in ("", "../up", "a/b"):
+        assert not shelf.rename("hall", bad).ok
+    assert shelf.open(str(tmp_path / "own" / "hall.yaml")).ok, "opened by its path as well"
+    assert shelf.rename("hall", "cellar").ok
+    assert [each.name for each in shelf.profiles] == ["attic", "cellar", "indoor"]
+    assert shelf.delete("cellar").ok and not (tmp_path / "own" / "cellar.yaml").exists()
+    assert [each.name for each in shelf.profiles] == ["attic", "indoor"]
+    (tmp_path / "own" / "attic.yaml").unlink()
+    gone = shelf.delete("attic")
+    assert not gone.ok and "not deleted" in gone.text

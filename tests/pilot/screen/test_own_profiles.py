@@ -1,0 +1,102 @@
+"""The person's own profiles are saved over, renamed and deleted after a question; those of others are refused."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from bot_console.tui.console.model import Profile
+from bot_console.tui.screens.confirm import ConfirmScreen
+from piloting import Session, run
+from samples import live
+
+SEEN = 1_700_000_000
+
+
+def with_hall(folder: Path) -> tuple:
+    """A system with a profile of the person's beside those of the robot; it stands last."""
+    console, launcher = live()
+    file = folder / "zz_hall.yaml"
+    file.write_text("/robot_navigator:\n  ros__parameters: {turn_rate: 0.5}\n")
+    os.utime(file, (SEEN, SEEN))
+    hall = Profile("zz_hall", str(file), "For the hall.", {("/robot_navigator", "turn_rate"): 0.5}, own=True)
+    console.change(profiles=(*console.current.profiles, hall))
+    return console, launcher
+
+
+def asked(session: Session) -> list[tuple]:
+    return [each for each in session.console.asked if str(each[0]).endswith(" profile")]
+
+
+def test_a_name_that_is_there_asks_with_file_and_time_and_no_saves_nothing(tmp_path: Path) -> None:
+    async def play(session: Session) -> None:
+        await session.press("7", "S")
+        await session.type("zz_hall")
+        await session.press("enter")
+        assert isinstance(session.app.screen, ConfirmScreen)
+        text = session.text()
+        assert "Save over the profile zz_hall?" in text and "zz_hall.yaml" in text
+        assert "changed 2023-11-1" in text, "when it was changed"
+        await session.press("n")
+        assert asked(session) == []
+        await session.press("S")
+        await session.type("zz_hall")
+        await session.press("enter", "y")
+        assert asked(session) == [("save profile", "zz_hall", "")]
+
+    run(with_hall(tmp_path), play, (120, 40))
+
+
+def test_a_bad_name_is_refused_at_the_first_question() -> None:
+    async def play(session: Session) -> None:
+        await session.press("7", "S")
+        await session.type("../hall")
+        await session.press("enter")
+        assert "is no name for a profile" in session.text() and "what ../hall is for" not in session.text()
+        await session.press("escape", "S")
+        await session.type(" ")
+        await session.press("enter")
+        assert "a profile needs a name" in session.text() and asked(session) == []
+
+    run(live(), play, (120, 40))
+
+
+def test_one_is_renamed_but_not_to_a_name_that_is_taken(tmp_path: Path) -> None:
+    system = with_hall(tmp_path)
+    console = system[0]
+    console.change(profiles=(Profile("attic", "/home/attic.yaml", own=True), *console.current.profiles))
+
+    async def play(session: Session) -> None:
+        await session.press("7", "G", "m")
+        await session.type("attic")
+        await session.press("enter")
+        assert "there is a profile attic already" in session.text() and asked(session) == []
+        await session.press("escape", "m")
+        await session.type("cellar")
+        await session.press("enter")
+        assert asked(session) == [("rename profile", "zz_hall", "cellar")]
+
+    run(system, play, (120, 40))
+
+
+def test_one_is_deleted_after_a_question(tmp_path: Path) -> None:
+    async def play(session: Session) -> None:
+        await session.press("7", "G", "d")
+        text = session.text()
+        assert "Delete the profile zz_hall?" in text and "changed 2023-11-1" in text
+        await session.press("n")
+        assert asked(session) == []
+        await session.press("d", "y")
+        assert asked(session) == [("delete profile", "zz_hall")] and "zz_hall is deleted" in session.text()
+
+    run(with_hall(tmp_path), play, (80, 24))
+
+
+def test_those_that_come_with_the_robot_are_neither() -> None:
+    async def play(session: Session) -> None:
+        await session.press("7", "d")
+        assert len(session.app.screen_stack) == 1 and "is not deleted: only profiles that S has saved" in session.text()
+        await session.press("m")
+        assert "is not renamed: only profiles that S has saved" in session.text() and asked(session) == []
+
+    run(live(), play, (120, 40))

@@ -1,0 +1,12 @@
+"""What a profile may be called. Standard library only."""
+
+from __future__ import annotations
+
+import re
+
+_NAME = re.compile(r"[\w][\w .+-]*")
+
+
+def profile_name_problem(name: str) -> str:
+    """Why a profile cannot be called so; empty when it can."""
+    return "" if _NAME.fullmatch(name) else f"'{name}' is no name for a profile: letters, digits, blanks, . + - _"
