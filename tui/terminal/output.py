@@ -113,6 +113,17 @@ class SparingApp(App[None]):
             self._look_again()
         return False
 
+    def how_it_draws(self) -> str:
+        """What drawing depends on, on one line, for who looks for the reason why nothing is drawn."""
+        driver = self._driver_or_none()
+        writer = getattr(driver, "_writer_thread", None)
+        waiting = writer._queue.qsize() if writer is not None else "no"
+        gone = getattr(getattr(driver, "_file", None), "gone", False)
+        return (
+            f"screens {len(self._screen_stack)}, a frame waits: {self._held}, next one in {self._waiting():.2f} s, "
+            f"open batches {self._batch_count}, writes under way {waiting}, terminal gone: {gone}"
+        )
+
     def _build_driver(self, *args: Any, **kwargs: Any) -> Driver:
         driver: Any = super()._build_driver(*args, **kwargs)
         # Drivers without a terminal, as for tests, have none.

@@ -7,6 +7,7 @@ import fcntl
 import os
 import pty
 import select
+import signal
 import struct
 import subprocess
 import sys
@@ -15,8 +16,13 @@ import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from bot_console.tui.cli.standstill import FILE
+from bot_console.tui.files.folders import state_folder
+
 PATIENCE = 60.0
 """Seconds after which a test gives up; nothing is measured by it."""
+STACKS = 5.0
+"""Seconds that a console may take to write where its threads stand."""
 
 
 class Terminal:
@@ -35,12 +41,14 @@ class Terminal:
         )  # fmt: skip
         self.output = b""
         self.folder = folder
+        self._stacks = state_folder() / FILE
 
     def read_until(self, condition: Callable[[], bool], what: str) -> None:
         """Take the program's output until a condition holds."""
         deadline = time.monotonic() + PATIENCE
         while not condition():
-            assert time.monotonic() < deadline, f"no {what}; the screen ended with {self.output[-800:]!r}"
+            if time.monotonic() >= deadline:
+                raise AssertionError(f"no {what}; the screen ended with {self.output[-800:]!r}\n{self.stacks()}")
             assert self.process.poll() is None or "end" in what, f"ended before {what}: {self.output[-1500:]!r}"
             self._read(0.05)
 
@@ -48,6 +56,19 @@ class Terminal:
         if select.select([self.master], [], [], seconds)[0]:
             with contextlib.suppress(OSError):
                 self.output += os.read(self.master, 65536)
+
+    def stacks(self) -> str:
+        """How a console's screen is and where each of its threads stands, as it writes them when it is asked to."""
+        if self.process.poll() is not None or not self._stacks.exists():
+            return "it keeps no stacks"
+        before = self._stacks.stat().st_size
+        self.process.send_signal(signal.SIGUSR1)
+        deadline = time.monotonic() + STACKS
+        while f"process {self.process.pid}:" not in (text := self._stacks.read_text(errors="replace")[before:]):
+            if time.monotonic() >= deadline:  # the thread that draws stands, and says nothing of the screen
+                break
+            self._read(0.05)
+        return text
 
     def drain(self, seconds: float) -> None:
         """Take the program's output for a while."""

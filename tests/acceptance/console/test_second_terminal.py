@@ -87,3 +87,13 @@ def test_a_second_console_is_asked_for_and_does_not_take_the_robot_along(console
     attached.close()
     assert console.process.poll() is None
     eventually(console, lambda: speed() > 0.1, "the robot that drives on")
+
+
+def test_asked_by_a_signal_it_keeps_where_its_threads_stand_and_goes_on(console: Terminal) -> None:
+    stacks = console.stacks()
+    assert "Current thread" in stacks and "_writer_thread.py" in stacks
+    assert f"process {console.process.pid}: screens 1" in stacks
+    console.output = b""
+    assert typed("stop", "a test").returncode == 0
+    console.read_until(lambda: b"ALL STOP" in console.output, "the lock on the first screen")
+    assert typed("release").returncode == 0

@@ -6,13 +6,15 @@ import signal
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.cli.interpreter import collect_from_now_on, eager_switching
 from bot_console.tui.cli.live.descriptors import own_terminal
 from bot_console.tui.cli.live.ending_signals import ended_by_signals, hangup_as_signal
 from bot_console.tui.cli.look import look_of
+from bot_console.tui.cli.standstill import Standstill, stacks_kept
+from bot_console.tui.files.folders import state_folder
 
 if TYPE_CHECKING:
     from bot_console.tui.arrangement.arrival import System
@@ -29,6 +31,7 @@ class Session:
     def __init__(self, options: Options, connect: Callable[[], Connected] | None = None) -> None:
         """`connect` makes what is shown, all in this process unless it is given; it waits for the first frame."""
         self._has_begun: Callable[[], None] = lambda: None
+        self._standstill: Standstill | None = None
         self._options = options
         self._connect = connect or self._embedded
         self._closed = False
@@ -63,8 +66,23 @@ class Session:
 
     def _reach(self) -> System:
         self._has_begun()
+        if self._standstill is not None:
+            self._follow(self._standstill)
         self.app.tuner = self.connected.tuner
         return self.connected.begin()
+
+    def _follow(self, standstill: Standstill) -> None:
+        standstill.follow()
+        app: Any = self.app  # Textual does not tell the type of its signals
+
+        def left(_: object) -> None:  # an editor, or the shell, has the terminal
+            standstill.rest()
+
+        def back(_: object) -> None:
+            standstill.beat()
+
+        app.app_suspend_signal.subscribe(app, left, immediate=True)
+        app.app_resume_signal.subscribe(app, back, immediate=True)
 
     def _plugins(self) -> Sequence[PaneEntry]:
         return self.connected.plugins()
@@ -76,6 +94,11 @@ class Session:
         if self._is_connected():  # before that nobody reads
             self.console.printed(severity, label, text)
 
+    def _stood(self, line: str) -> None:
+        from bot_console.tui.console.model import Severity
+
+        self._printed(Severity.WARN, "bot-console", line)
+
     def run(self) -> int:
         """Show the console until it is quit; the robot stands still when this returns, however it ended."""
         with (
@@ -83,12 +106,15 @@ class Session:
             ended_by_signals(self._end),
             hangup_as_signal(),
             eager_switching(),
+            stacks_kept(state_folder(), self.app.how_it_draws, self._stood) as self._standstill,
         ):
             self._has_begun = watch.has_begun
             try:
                 self.app.run()
                 watch.has_ended()
             finally:
+                if self._standstill is not None:
+                    self._standstill.rest()
                 self.app.stage.arrangement.remember()
                 self.close()
         return self.app.return_code or 0

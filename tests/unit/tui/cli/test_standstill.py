@@ -1,0 +1,82 @@
+"""Where the threads of a console stand is kept when its screen stands, and when a signal asks for it."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from bot_console.tui.cli import standstill
+from bot_console.tui.cli.standstill import FILE, STANDS_S, Standstill, stacks_kept
+
+PATIENCE = 60.0
+"""Seconds after which a test gives up; nothing is measured by it."""
+
+HERE = "in test_"
+
+
+class Clock:
+    now = 100.0
+
+    def __call__(self) -> float:
+        return self.now
+
+
+@pytest.fixture
+def kept(tmp_path: Path) -> Iterator[tuple[Standstill, Clock, list[str], Path]]:
+    clock, told, path = Clock(), list[str](), tmp_path / FILE
+    with path.open("ab") as file:
+        watch = Standstill(path, file.fileno(), told.append, clock)
+        yield watch, clock, told, path
+        watch.rest()
+
+
+def test_a_signal_has_them_written_with_how_the_screen_is(tmp_path: Path) -> None:
+    before = signal.getsignal(signal.SIGUSR1)
+    with stacks_kept(tmp_path / "new", lambda: "one screen", print):
+        os.kill(os.getpid(), signal.SIGUSR1)
+        text = (tmp_path / "new" / FILE).read_text()
+    assert HERE in text and f"process {os.getpid()}: one screen" in text
+    assert signal.getsignal(signal.SIGUSR1) == before
+
+
+def test_who_does_nothing_for_long_is_found_in_the_file(
+    kept: tuple[Standstill, Clock, list[str], Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    watch, _, _, path = kept
+    monkeypatch.setattr(standstill, "STANDS_S", 0.01)
+    watch.beat()
+    end = time.monotonic() + PATIENCE
+    while HERE not in path.read_text():
+        assert time.monotonic() < end
+
+
+def test_that_it_stood_is_told_when_it_goes_on(kept: tuple[Standstill, Clock, list[str], Path]) -> None:
+    watch, clock, told, path = kept
+    watch.beat()
+    clock.now += STANDS_S - 1
+    watch.beat()
+    assert told == []
+    clock.now += STANDS_S
+    watch.beat()
+    [line] = told
+    assert "stood for 15 s" in line and str(path) in line
+    assert "stood for 15 s" in path.read_text()
+
+
+def test_a_rest_is_no_standstill(kept: tuple[Standstill, Clock, list[str], Path]) -> None:
+    watch, clock, told, _ = kept
+    watch.beat()
+    watch.rest()
+    clock.now += 10 * STANDS_S
+    watch.beat()
+    assert told == []
+
+
+def test_a_place_that_cannot_be_written_is_no_reason_to_have_no_console(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    with stacks_kept(tmp_path / "file", lambda: "", print) as watch:
+        assert watch is None

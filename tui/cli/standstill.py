@@ -1,0 +1,95 @@
+"""Where each thread of a console stands is kept in a file: when its screen stands, and whenever SIGUSR1 asks for it.
+
+The interpreter's `faulthandler` writes the stacks, which needs neither its lock nor a thread that is free: a screen
+that stands says nothing itself, and what it waits for is not known afterwards.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import faulthandler
+import fcntl
+import os
+import signal
+import time
+from collections.abc import Callable, Generator
+from pathlib import Path
+from types import FrameType
+
+FILE = "console-stacks.txt"
+STANDS_S = 15.0
+"""Seconds after which a thread that draws and has done nothing counts as standing."""
+BEAT_S = 1.0
+FIRST = 100
+"""Our descriptors begin here, beyond those that programs close or count."""
+
+
+class Standstill:
+    """Has the stacks written unless it hears of the thread that draws again and again."""
+
+    def __init__(
+        self, path: Path, descriptor: int, tell: Callable[[str], None], clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        """`tell` is given a line when the thread has stood and goes on; `descriptor` is that of the file at `path`."""
+        self._path = path
+        self._descriptor = descriptor
+        self._tell = tell
+        self._clock = clock
+        self._heard: float | None = None
+
+    def beat(self) -> None:
+        """The thread that draws is at work."""
+        now = self._clock()
+        if self._heard is not None and (stood := now - self._heard) >= STANDS_S:
+            self.note(f"the screen has stood for {stood:.0f} s, or the whole process was stopped")
+            self._tell(f"the screen stood for {stood:.0f} s; what its threads did meanwhile is in {self._path}")
+        self._heard = now
+        faulthandler.dump_traceback_later(STANDS_S, file=self._descriptor)
+
+    def rest(self) -> None:
+        """Nothing is drawn for a while, as is right."""
+        self._heard = None
+        faulthandler.cancel_dump_traceback_later()
+
+    def follow(self) -> None:
+        """Beat in the running loop from now on."""
+        self.beat()
+        asyncio.get_running_loop().call_later(BEAT_S, self.follow)
+
+    def note(self, text: str) -> None:
+        """Write a line into the file."""
+        moment = time.strftime("%Y-%m-%d %H:%M:%S")
+        with contextlib.suppress(OSError):
+            os.write(self._descriptor, f"{moment}, process {os.getpid()}: {text}\n\n".encode())
+
+
+@contextlib.contextmanager
+def stacks_kept(folder: Path, state: Callable[[], str], tell: Callable[[str], None]) -> Generator[Standstill | None]:
+    """Keep stacks in a folder when they are wanted; `state` says in a line how the screen is, in the main thread.
+
+    None where the file cannot be written.
+    """
+    path = folder / FILE
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with path.open("ab") as file:
+            descriptor = fcntl.fcntl(file.fileno(), fcntl.F_DUPFD_CLOEXEC, FIRST)
+    except OSError:
+        yield None
+        return
+    standstill = Standstill(path, descriptor, tell)
+
+    def asked(number: int, frame: FrameType | None) -> None:
+        standstill.note(state())
+
+    before = signal.signal(signal.SIGUSR1, asked)
+    faulthandler.register(signal.SIGUSR1, file=descriptor, all_threads=True, chain=True)
+    standstill.beat()
+    try:
+        yield standstill
+    finally:
+        standstill.rest()
+        faulthandler.unregister(signal.SIGUSR1)
+        signal.signal(signal.SIGUSR1, before)
+        os.close(descriptor)
