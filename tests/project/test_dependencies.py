@@ -7,6 +7,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from syntax import statements
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -42,14 +43,22 @@ def imported():
     for path in (path for folder in FOLDERS for path in (ROOT / folder).rglob("*.py")):
         if "generated" in path.parts:
             continue
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        for node in statements(path):
             if isinstance(node, ast.Import):
                 names |= {alias.name.split(".")[0] for alias in node.names}
             elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
                 names.add(node.module.split(".")[0])
-            elif isinstance(node, ast.Call) and called(node.func) == "import_module" and node.args:
-                names |= {str(each.value).split(".")[0] for each in node.args[:1] if isinstance(each, ast.Constant)}
+        names |= by_name(path.read_text(encoding="utf-8"))
     return names
+
+
+def by_name(text):
+    """Top-level names that a source imports by `import_module`."""
+    if "import_module" not in text:
+        return set()
+    calls = [node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Call)]
+    named = (node.args[0] for node in calls if called(node.func) == "import_module" and node.args)
+    return {str(each.value).split(".")[0] for each in named if isinstance(each, ast.Constant)}
 
 
 def called(function):

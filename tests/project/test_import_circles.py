@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.runtime.importer import PACKAGES
+from syntax import statements
 
 ROOT = Path(__file__).parents[2]
 GENERATED = ROOT / "runtime" / "rosidl" / "generated"
@@ -39,27 +40,20 @@ def canonical(name: str) -> str:
     return name.replace("bot_console_robot", "bot_console.nodes", 1) if name.startswith("bot_console_robot") else name
 
 
-class Imports(ast.NodeVisitor):
-    """The names that a module imports: at once, late within functions, or under `if TYPE_CHECKING`."""
-
-    def __init__(self, package: str) -> None:
-        self._package = package
-        self.found: list[tuple[str, str | None]] = []
-
-    def visit_Import(self, node: ast.Import) -> None:
-        self.found += [(each.name, None) for each in node.names]
-
-    def visit_ImportFrom(self, node: ast.ImportFrom) -> None:
-        above = self._package.split(".")[: len(self._package.split(".")) - node.level + 1] if node.level else []
-        base = ".".join([*above, *([node.module] if node.module else [])])
-        self.found += [(base, each.name) for each in node.names]
+def names(path: Path, package: str) -> Iterator[tuple[str, str | None]]:
+    """What a module imports: at once, late within functions, or under `if TYPE_CHECKING`."""
+    for node in statements(path):
+        if isinstance(node, ast.Import):
+            yield from ((each.name, None) for each in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            above = package.split(".")[: len(package.split(".")) - node.level + 1] if node.level else []
+            base = ".".join([*above, *([node.module] if node.module else [])])
+            yield from ((base, each.name) for each in node.names)
 
 
 def imported(name: str, path: Path, known: dict[str, Path]) -> Iterator[str]:
     package = name if path.name == "__init__.py" else name.rpartition(".")[0]
-    visitor = Imports(package)
-    visitor.visit(ast.parse(path.read_text(encoding="utf-8")))
-    for base, attribute in visitor.found:
+    for base, attribute in names(path, package):
         module = canonical(base)
         inner = f"{module}.{attribute}"
         target = inner if attribute and inner in known else module

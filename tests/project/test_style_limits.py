@@ -4,6 +4,7 @@ import ast
 from pathlib import Path
 
 import pytest
+from syntax import statements
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ("tui", "runtime", "nodes", "launch", "tools")
@@ -35,7 +36,7 @@ def test_no_file_is_longer_than_the_limit(folder):
 def test_no_function_is_longer_than_the_limit(folder):
     long = {}
     for path in (path for path in FILES if path.is_relative_to(ROOT / folder)):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        for node in statements(path):
             if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
                 lines = (node.end_lineno or node.lineno) - node.lineno + 1
                 if lines > FUNCTION_LIMIT:

@@ -50,8 +50,9 @@ def program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
     return str(path)
 
 
-@pytest.mark.parametrize("python", ["python3", sys.executable])
-@pytest.mark.parametrize("kind", ["process", "node", "shell"])
+@pytest.mark.parametrize(
+    ("kind", "python"), [("process", "python3"), ("process", sys.executable), ("node", "python3"), ("shell", "python3")]
+)
 def test_a_program_by_its_interpreter(run: Launch, program: str, python: str, kind: str) -> None:
     action: Any = {
         "process": lambda: ExecuteProcess(cmd=[python, program, "a"], output="screen"),

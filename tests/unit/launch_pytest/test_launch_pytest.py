@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from pathlib import Path
 from xml.etree import ElementTree
+
+import pytest
 
 HEAD = """
 import sys
@@ -119,39 +122,51 @@ def test_never():
 """
 
 
-def _run(folder: Path, text: str, *options: str) -> subprocess.CompletedProcess[str]:
-    (folder / "test_it.py").write_text(HEAD + text)
-    words = ["test", "-p", "no:cacheprovider", "-q", *options, "test_it.py"]
-    program = f"import sys; from bot_console.tui.cli.main import main; sys.exit(main({words!r}))"
-    command = [sys.executable, "-c", program]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=120, check=False)
+UNMARKED = "@pytest.mark.launch\ndef test_it(): pass\n"
+FILES = {"beside": BESIDE, "common": COMMON, "bad": BAD, "unmarked": UNMARKED}
 
 
-def test_plain_tests_coroutines_and_generators_run_beside_and_after_a_launch(tmp_path: Path) -> None:
-    done = _run(tmp_path, BESIDE)
+class Done:
+    """One run of all files: what was printed, and the cases of each file with what became of them."""
 
-    assert "7 passed" in done.stdout, done.stdout
+    def __init__(self, folder: Path) -> None:
+        for name, text in FILES.items():
+            (folder / f"test_{name}.py").write_text(HEAD + text)
+        words = ["test", "-p", "no:cacheprovider", "-q", "--junitxml=report.xml", "--continue-on-collection-errors"]
+        program = f"import sys; from bot_console.tui.cli.main import main; sys.exit(main({words!r}))"
+        command = [sys.executable, "-c", program]
+        environment = {**os.environ, "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}  # those for our own tests
+        done = subprocess.run(
+            command, cwd=folder, env=environment, capture_output=True, text=True, timeout=120, check=False
+        )
+        self.code, self.printed = done.returncode, done.stdout
+        self.cases: dict[str, list[tuple[str, list[str]]]] = {name: [] for name in FILES}
+        # Not from what is printed: what a process says in between stands in the same lines.
+        for each in ElementTree.parse(folder / "report.xml").iter("testcase"):
+            where = (each.attrib["classname"] or each.attrib["name"]).removeprefix("test_")
+            self.cases[where].append((each.attrib["name"], [kind.tag for kind in each]))
 
 
-def test_a_fixture_of_a_module_runs_once_and_what_comes_after_it_is_last(tmp_path: Path) -> None:
-    done = _run(tmp_path, COMMON, "--junitxml=report.xml")
-
-    assert "4 passed" in done.stdout, done.stdout
-    # Not from what is printed: what a process says in between stands in the same lines.
-    order = [each.attrib["name"] for each in ElementTree.parse(tmp_path / "report.xml").iter("testcase")]
-    assert order == ["test_one", "test_two", "test_end", "test_two[shutdown_test]"]
+@pytest.fixture(scope="module")
+def done(tmp_path_factory: pytest.TempPathFactory) -> Done:
+    return Done(tmp_path_factory.mktemp("launched"))
 
 
-def test_failures_are_told_with_their_own_assertion(tmp_path: Path) -> None:
-    done = _run(tmp_path, BAD)
+def test_plain_tests_coroutines_and_generators_run_beside_and_after_a_launch(done: Done) -> None:
+    assert [kinds for _, kinds in done.cases["beside"]] == [[]] * 7, done.printed
 
-    assert "3 failed, 1 error" in done.stdout, done.stdout
+
+def test_a_fixture_of_a_module_runs_once_and_what_comes_after_it_is_last(done: Done) -> None:
+    order = ["test_one", "test_two", "test_end", "test_two[shutdown_test]"]
+    assert done.cases["common"] == [(name, []) for name in order], done.printed
+
+
+def test_failures_are_told_with_their_own_assertion(done: Done) -> None:
+    assert sorted(kind for _, kinds in done.cases["bad"] for kind in kinds) == ["error", *["failure"] * 3]
     for text in ("something else", "it has ended", "has to have one yield", "before it was ready: no such thing"):
-        assert text in done.stdout
+        assert text in done.printed
 
 
-def test_the_mark_wants_a_fixture_of_its_own(tmp_path: Path) -> None:
-    done = _run(tmp_path, "@pytest.mark.launch\ndef test_it(): pass\n")
-
-    assert done.returncode != 0
-    assert "pytest.mark.launch takes fixture=" in done.stdout
+def test_the_mark_wants_a_fixture_of_its_own(done: Done) -> None:
+    assert done.code == 1
+    assert "pytest.mark.launch takes fixture=" in done.printed

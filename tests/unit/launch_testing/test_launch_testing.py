@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import unittest
@@ -142,7 +143,8 @@ def test_under_pytest_and_alone(tmp_path: Path, text: str, code: int) -> None:
     for words in (["test", "-q", "-p", "no:cacheprovider", str(path)], ["launch_test", str(path)]):
         ended = subprocess.run(
             [sys.executable, "-c", f"import sys; from bot_console.tui.cli.main import main; sys.exit(main({words!r}))"],
-            cwd=tmp_path, capture_output=True, text=True, check=False,
+            cwd=tmp_path, env={**os.environ, "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"},  # those for our own tests
+            capture_output=True, text=True, check=False,
         )  # fmt: skip
         assert ended.returncode == code, ended.stdout + ended.stderr
     assert ("good bye" in ended.stderr) == bool(code)

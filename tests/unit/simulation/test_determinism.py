@@ -17,7 +17,7 @@ from bot_console_robot.simulation.simulation import Simulation
 from bot_console_robot.simulation.world_file import load_world
 simulation = Simulation(load_world(Path(sys.argv[1])), int(sys.argv[2]))
 scans = hashlib.sha256()
-for i in range(4000):
+for i in range(1500):
     simulation.step()
     if i % 10 == 9:
         scan = simulation.scan()

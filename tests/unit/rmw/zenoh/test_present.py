@@ -19,7 +19,7 @@ from helpers.processes.mesh import eventually
 from helpers.processes.ports import free_port
 
 MANY, TOPICS = 400, 4
-ROUNDS = 12
+ROUNDS = 5
 QOS = "::,10:,:,:,,"
 
 
