@@ -113,6 +113,7 @@ def test_the_console_shows_it_launches_beside_it_and_leaves_it_alone(
     terminal.close()
 
 
+@pytest.mark.soak
 @pytest.mark.parametrize("program", [pytest.param(CROWD, id="crowd")])
 def test_a_robot_of_fifty_nodes_and_a_hundred_topics(robot: subprocess.Popen[bytes], tmp_path: Path) -> None:
     terminal = Terminal([*CONSOLE, "attach", "--ros"], tmp_path)

@@ -14,7 +14,7 @@ if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
 
 ROOT = Path(__file__).resolve().parents[3]
-SOME = "graph or refusal or commands or logs_have or series_is_read or panes_see"
+SOME = "refusal or commands or series_is_read"
 
 
 def on_the_stand_in(folder: Path, *words: str, **variables: str) -> None:

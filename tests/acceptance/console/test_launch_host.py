@@ -121,12 +121,13 @@ bytearray(100_000_000)
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
 def test_who_uses_much_is_named_with_it_and_the_others_go_on(hosted: Hosted) -> None:
-    assert hosted.launch(waiter=WAITS, fills=FILLS, loops=LOOPS, full=FULL).ok
+    assert hosted.launch(waiter=WAITS, fills=FILLS, full=FULL).ok
     waiter = hosted.up("waiter")
     hosted.until(lambda: (hosted.named("fills").memory or 0) >= 300)
-    hosted.until(lambda: (hosted.named("loops").cpu or 0.0) >= 0.2)
     hosted.up("full")
     hosted.until(lambda: hosted.named("full").state is ProcessState.CRASHED)
+    assert hosted.launch(loops=LOOPS).ok
+    hosted.until(lambda: (hosted.named("loops").cpu or 0.0) >= 0.2)
     assert "MemoryError" in hosted.named("full").problem
     assert hosted.named("waiter").memory < 100 and is_running(waiter.pid)
     assert hosted.launcher.kill(hosted.named("loops").key).result(PATIENCE).ok
