@@ -13,10 +13,12 @@ WAYS = [
     pytest.param(FakeRig, id="fake"),
     pytest.param(RosRig, id="embedded"),
     pytest.param(mesh_rig, id="mesh"),
-    pytest.param(network_rig, id="network"),
+    pytest.param(network_rig, id="network", marks=pytest.mark.soak),
     pytest.param(machine_rig, id="ros", marks=pytest.mark.ros),
 ]
-"""The last one is for machines with a ROS 2: `BOT_CONSOLE_TESTS_ON=ros pytest -m ros tests/contract`."""
+"""A network is tried often in `tests/unit/rmw/zenoh` and `acceptance/console/test_network_faults.py`.
+
+The last one is for machines with a ROS 2: `BOT_CONSOLE_TESTS_ON=ros pytest -m ros tests/contract`."""
 
 
 @pytest.fixture(params=WAYS)

@@ -125,7 +125,9 @@ def bench() -> Iterator[Bench]:
         yield made
 
 
-@pytest.mark.parametrize("topic", ["cmd_vel", "cmd_vel_nav", "cmd_vel_teleop"])
+@pytest.mark.parametrize(
+    "topic", ["cmd_vel", *(pytest.param(each, marks=pytest.mark.soak) for each in ("cmd_vel_nav", "cmd_vel_teleop"))]
+)
 def test_a_locked_robot_obeys_no_publisher_until_it_is_released(bench: Bench, topic: str) -> None:
     bench.python(DRIVER, topic)
     assert bench.drives()

@@ -122,8 +122,8 @@ def test_what_starts_much_later_is_not_waited_for(tmp_path):
     "entities",
     [
         ("driver", "lidar"),
-        ("blind",),
-        ("Node(executable='driver.py', namespace='other')",),
+        pytest.param(("blind",), marks=pytest.mark.soak),
+        pytest.param(("Node(executable='driver.py', namespace='other')",), marks=pytest.mark.soak),
         ("Node(executable='driver.py', remappings=[('scan', 'laser'), ('cmd_vel', 'velocity')])",),
     ],
     ids=["somebody gives it", "nobody wants it", "in a namespace", "remapped"],
