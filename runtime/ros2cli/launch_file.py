@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
-from collections.abc import Iterable
+from collections.abc import Generator, Iterable, Sequence
 
 
 class LaunchFileError(RuntimeError):
@@ -30,6 +31,35 @@ def find_launch_file(package: str, name: str | None) -> str:
             f"file '{name}' was found more than once in the share directory of package '{package}': {found}"
         )
     return found[0]
+
+
+def named_launch_file(named: str, words: Sequence[str]) -> tuple[str, list[str]]:
+    """The launch file that a path means, or a package and the first of the words; and the words behind that.
+
+    Raises `LaunchFileError` with what `ros2 launch` says.
+    """
+    if os.path.isfile(named):
+        return named, [*words]
+    with of_package(named):
+        return find_launch_file(named, words[0] if words else None), [*words[1:]]
+
+
+@contextlib.contextmanager
+def of_package(named: str) -> Generator[None]:
+    """What goes wrong with a package's name, as a `LaunchFileError`."""
+    from ament_index_python.packages import PackageNotFoundError
+
+    try:
+        yield
+    except PackageNotFoundError as error:
+        raise LaunchFileError(f"Package '{named}' not found: {error}") from None
+    except ValueError as error:
+        # What upstream's users see for a mistyped path, with what it means in between.
+        kind = "a folder" if os.path.isdir(named) else "no file here"
+        raise LaunchFileError(
+            f"Traceback (most recent call last):\n  {named} is {kind}, so it was read as a package name\n"
+            f"ValueError: {error}"
+        ) from None
 
 
 def parse_launch_arguments(words: Iterable[str]) -> dict[str, str]:

@@ -17,7 +17,7 @@ EXAMPLES = """\
 examples:
   bot-console                              a robot in a room, with its parameters, log and map
   bot-console outdoor                      the same robot in the open
-  bot-console --launch my.launch.py a:=1   any ROS 2 launch file
+  bot-console --launch my.launch.py a:=1   any ROS 2 launch file; also --launch my_package my.launch.py
   bot-console run my_node.py               a node of yours, alone in this terminal
   bot-console run --watch my_node.py       the same, with the console open on it
   bot-console launch my_package x.launch.py
@@ -39,6 +39,9 @@ class Options:
 
     profile: str = "indoor"
     launch: str = ""
+    """The path of a launch file, or with `launch_file` the package that has it."""
+    launch_file: str = ""
+    """The name of a package's launch file."""
     launch_arguments: dict[str, str] = field(default_factory=dict[str, str])
     opening: Opening = field(default_factory=Opening)
     workspace: list[Path] = field(default_factory=list[Path])
@@ -112,7 +115,7 @@ def parse(words: Sequence[str]) -> Options:
     opening, words = rqt_opening(words) if is_rqt(words) else (None, words)
     given = parser.parse_args(words)
     _check_pane(parser, given.pane)
-    profile, pairs = _profile_and_pairs(parser, given)
+    profile, name, pairs = _words(parser, given)
     if given.simulator is not None and not given.launch:
         parser.error("--simulator and --no-simulator go with --launch: the robot system brings its own robot")
     if given.launch is not None and not given.launch.strip():
@@ -128,6 +131,7 @@ def parse(words: Sequence[str]) -> Options:
     return Options(
         profile=profile,
         launch=given.launch or "",
+        launch_file=name,
         launch_arguments=pairs,
         opening=_with_perspective(opening or Opening(given.pane), given),
         workspace=given.workspace or [],
@@ -148,7 +152,8 @@ def _check_pane(parser: argparse.ArgumentParser, pane: str) -> None:
         parser.error(f"there is no pane '{pane}'; panes: {', '.join(sorted(named))}")
 
 
-def _profile_and_pairs(parser: argparse.ArgumentParser, given: argparse.Namespace) -> tuple[str, dict[str, str]]:
+def _words(parser: argparse.ArgumentParser, given: argparse.Namespace) -> tuple[str, str, dict[str, str]]:
+    """The profile, the name of a package's launch file, and the arguments NAME:=VALUE."""
     pairs: dict[str, str] = {}
     profiles: list[str] = [] if given.profile is None else [given.profile]
     for word in given.words:
@@ -158,21 +163,26 @@ def _profile_and_pairs(parser: argparse.ArgumentParser, given: argparse.Namespac
         else:
             profiles.append(word)
     known = profile_names()
+    if given.launch:
+        return "indoor", _launch_file(parser, profiles, given), pairs
     if len(profiles) == 2 and not {*profiles} & {*known}:
         how = "--headless" if given.headless else "--watch"
         parser.error(f"a node of a package runs with `bot-console run {how} {' '.join(profiles)}`")
     if len(profiles) > 1:
         parser.error(f"one profile at a time, not {', '.join(profiles)}")
-    if profiles and given.launch:
-        if profiles[0] not in known:
-            parser.error(
-                f"--launch takes the path of a launch file, and {profiles[0]} is no argument NAME:=VALUE of it; one "
-                "of a package is started by `bot-console launch`, or after : in the console"
-            )
-        parser.error("a launch file brings its own settings: give either a profile or --launch")
     if profiles and profiles[0] not in known:
         parser.error(f"there is no profile and no command '{profiles[0]}'; profiles: {', '.join(known)}")
-    return (profiles[0] if profiles else "indoor"), pairs
+    return (profiles[0] if profiles else "indoor"), "", pairs
+
+
+def _launch_file(parser: argparse.ArgumentParser, words: Sequence[str], given: argparse.Namespace) -> str:
+    """The word behind a package; a path has none, and nothing else goes with either."""
+    if given.profile is not None or (words and words[0] in profile_names()):
+        parser.error("a launch file brings its own settings: give either a profile or --launch")
+    left = [*words] if Path(given.launch).is_file() else words[1:]
+    if left:
+        parser.error(f"malformed launch argument '{left[0]}', expected format '<name>:=<value>'")
+    return words[0] if words else ""
 
 
 def profile_names() -> list[str]:
@@ -193,7 +203,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     add = parser.add_argument
     add("words", nargs="*", metavar="PROFILE | NAME:=VALUE", help=f"a profile ({', '.join(profile_names())})")
-    add("--launch", metavar="FILE", help="open the console on this launch file instead")
+    add("--launch", metavar="FILE", help="open the console on this launch file instead; also: --launch PACKAGE FILE")
     add("--pane", default="overview", help="the pane to begin with")
     add("--workspace", action="append", type=Path, metavar="DIR", help="where packages are; may be repeated")
     add("--headless", action="store_true", help="no screen: logs on stderr, a JSON report on stdout at the end")

@@ -15,6 +15,7 @@ from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.live.own_host import Host, start_host
 from bot_console.tui.cli.live.session import Session
 from bot_console.tui.cli.system.domain import domain, is_in_range, others_take_part, robot_there, take_part, why_alone
+from bot_console.tui.cli.system.named_launch import with_launch_file
 from bot_console.tui.files.folders import state_folder
 from bot_console.tui.settings.settings import read_settings
 
@@ -27,7 +28,8 @@ HOST_LOG = "launch-host.log"
 
 def run(options: Options) -> int:
     """Show the console."""
-    problem = _refusal(options)
+    options, problem = with_launch_file(options)
+    problem = _refusal() or problem
     if problem:
         print(problem, file=sys.stderr)
         return 1
@@ -82,11 +84,9 @@ def _connect(options: Options, alone: str, own: Host | None, start: Callable[[],
     return Connected(options, said, hosted(own, past), past)
 
 
-def _refusal(options: Options) -> str:
+def _refusal() -> str:
     if not sys.stdout.isatty() or not sys.stdin.isatty():
         return "bot-console needs a terminal; without one, use --headless"
-    if options.launch and not Path(options.launch).is_file():
-        return f"there is no launch file {options.launch}"
     return ""
 
 

@@ -10,9 +10,8 @@ import sys
 import threading
 from types import FrameType
 
-from ament_index_python.packages import PackageNotFoundError
 from ros2cli.command import Command, Result
-from ros2cli.launch_file import LaunchFileError, find_launch_file, parse_launch_arguments
+from ros2cli.launch_file import LaunchFileError, named_launch_file, of_package, parse_launch_arguments
 
 
 def _arguments(parser: argparse.ArgumentParser) -> None:
@@ -73,23 +72,17 @@ def _arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _launch(arguments: argparse.Namespace) -> Result:
-    words = list(arguments.launch_arguments)
     if not arguments.package_name:
         return "name a launch file, or a package and one of its launch files"
+    name = arguments.launch_file_name
+    words = [*([name] if name is not None else []), *arguments.launch_arguments]
     try:
-        if os.path.isfile(arguments.package_name):
-            path = arguments.package_name
-            words = [*([arguments.launch_file_name] if arguments.launch_file_name is not None else []), *words]
-        elif arguments.show_args and arguments.launch_file_name is None:
-            return _list_launch_files(arguments.package_name)
-        else:
-            path = find_launch_file(arguments.package_name, arguments.launch_file_name)
-    except PackageNotFoundError as error:
-        return f"Package '{arguments.package_name}' not found: {error}"
+        if arguments.show_args and name is None and not os.path.isfile(arguments.package_name):
+            with of_package(arguments.package_name):
+                return _list_launch_files(arguments.package_name)
+        path, words = named_launch_file(arguments.package_name, words)
     except LaunchFileError as error:
         return str(error)
-    except ValueError as error:
-        return _no_package_name(arguments.package_name, error)
     if arguments.show_all_subprocesses_output:
         os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] = "both"
     try:
@@ -169,14 +162,6 @@ def launch(
 def _late(number: int, frame: FrameType | None) -> None:
     """An interrupt of a launch that is over changes nothing; a second one ends a program that does not end."""
     signal.signal(number, signal.default_int_handler)
-
-
-def _no_package_name(name: str, error: ValueError) -> str:
-    """What upstream's users see for a mistyped path, with what it means in between."""
-    kind = "a folder" if os.path.isdir(name) else "no file here"
-    return (
-        f"Traceback (most recent call last):\n  {name} is {kind}, so it was read as a package name\nValueError: {error}"
-    )
 
 
 COMMAND = Command("launch", "Run a launch file", arguments=_arguments, main=_launch)

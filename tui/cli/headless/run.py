@@ -12,13 +12,13 @@ import signal
 import sys
 import time
 from collections.abc import Generator
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.importer import install
 from bot_console.runtime.process import MAIN, NodeProcess, on_notice, stepped
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.system.domain import domain, robot_there, run_apart, take_part
+from bot_console.tui.cli.system.named_launch import with_launch_file
 from bot_console.tui.cli.system.workspaces import choose
 
 if TYPE_CHECKING:
@@ -37,8 +37,9 @@ SLOW_START = 60.0
 
 def run(options: Options) -> int:
     """Run the system for a while and print the report; 1 when there is nothing to report."""
-    if options.launch and not Path(options.launch).is_file():
-        print(f"there is no launch file {options.launch}", file=sys.stderr)
+    options, problem = with_launch_file(options)
+    if problem:
+        print(problem, file=sys.stderr)
         return 1
     gc.disable()  # what is imported stays: to look it through again and again is a tenth of the start
     install()

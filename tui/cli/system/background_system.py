@@ -23,12 +23,13 @@ def main(words: Sequence[str] | None = None) -> int:
     options = parse(["--headless", *rest])
     install()
     from bot_console.tui.cli.system.domain import take_part
+    from bot_console.tui.cli.system.named_launch import with_launch_file
     from bot_console.tui.cli.system.own_processes import isolate, watch_threads
     from bot_console.tui.cli.system.workspaces import choose
 
     choose(options.workspace)
-    problem = take_part()
-    if problem:
+    options, problem = with_launch_file(options)
+    if problem := problem or take_part():
         print(problem, file=sys.stderr)
         return 1
     isolate()

@@ -17,6 +17,7 @@ from pathlib import Path
 
 from bot_console.tui.cli.system.background_system import SWITCH
 from bot_console.tui.cli.system.domain import domain, frozen, robot_there, take_part
+from bot_console.tui.cli.system.named_launch import with_launch_file
 from bot_console.tui.cli.system.system_log import new_log
 from bot_console.tui.console.launch_host.door import DOOR
 from bot_console.tui.files.folders import OVERRIDE, state_folder
@@ -62,10 +63,9 @@ def up(words: Sequence[str]) -> int:
     if options.fast:
         print("a system in the background runs in real time: leave --fast out", file=sys.stderr)
         return 2
-    problem = take_part()
-    if options.launch and not Path(options.launch).is_file():
-        problem = f"there is no launch file {options.launch}"
-    if problem:
+    alone = take_part()
+    options, problem = with_launch_file(options)
+    if problem := problem or alone:
         print(problem, file=sys.stderr)
         return 1
     there = _known()

@@ -70,10 +70,21 @@ def test_an_empty_name_is_no_launch_file(capsys: pytest.CaptureFixture[str]) -> 
     assert "--launch: give the name of a launch file" in capsys.readouterr().err
 
 
-def test_a_second_word_behind_launch_is_told_what_it_is_not(capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--launch", __file__, "more"], "malformed launch argument 'more', expected format '<name>:=<value>'"),
+        (["--launch", "package", "x.launch.py", "more"], "malformed launch argument 'more', expected"),
+        (["--launch", "package", "outdoor"], "give either a profile or --launch"),
+        (["--launch", "package", "x.launch.py", "--profile", "outdoor"], "give either a profile or --launch"),
+    ],
+)
+def test_words_behind_launch_are_told_what_they_are_not(
+    capsys: pytest.CaptureFixture[str], words: list[str], told: str
+) -> None:
     with pytest.raises(SystemExit):
-        parse(["--launch", "my_package", "both.launch.py"])
-    assert "--launch takes the path of a launch file" in capsys.readouterr().err
+        parse(words)
+    assert told in capsys.readouterr().err
 
 
 def test_an_empty_name_is_no_profile(capsys: pytest.CaptureFixture[str]) -> None:
