@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import chain
+from operator import itemgetter
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, cast
@@ -110,8 +112,9 @@ def differences(profile: Profile, trees: Mapping[str, ParameterTree]) -> Sequenc
     the key is a wildcard the value is simply not for that node.
     """
     found: list[ProfileDifference] = []
+    entries = _by_key(profile)
     for node, tree in trees.items():
-        for name, (key, then) in _given(profile, node).items():
+        for name, (key, then) in _given(entries, node).items():
             parameter = tree.get(name)
             if parameter is None:
                 if not is_wildcard(key):
@@ -128,13 +131,22 @@ def differences(profile: Profile, trees: Mapping[str, ParameterTree]) -> Sequenc
     return found
 
 
-def _given(profile: Profile, node: str) -> dict[str, tuple[str, Value]]:
+_Entry = tuple[int, str, str, Value]
+"""Place in the profile, parameter, key, value."""
+
+
+def _by_key(profile: Profile) -> dict[str, list[_Entry]]:
+    """What stands below each key, so that a key is compared with a node once and not for each of its values."""
+    found: dict[str, list[_Entry]] = {}
+    for place, ((key, name), value) in enumerate(profile.values.items()):
+        found.setdefault(key, []).append((place, name, key, value))
+    return found
+
+
+def _given(entries: Mapping[str, list[_Entry]], node: str) -> dict[str, tuple[str, Value]]:
     """What a node gets of a profile, with the key that says so; of two keys the later one counts, as in ROS."""
-    given: dict[str, tuple[str, Value]] = {}
-    for (key, name), value in profile.values.items():
-        if means(key, node):
-            given[name] = (key, value)
-    return given
+    meant = chain.from_iterable(below for key, below in entries.items() if means(key, node))
+    return {name: (key, value) for _, name, key, value in sorted(meant, key=itemgetter(0))}
 
 
 def cannot_apply(profile: Profile, trees: Mapping[str, ParameterTree]) -> str:

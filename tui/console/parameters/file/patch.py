@@ -146,8 +146,9 @@ def nested(values: Mapping[str, Value]) -> dict[str, Any]:
 
 def compare(before: list[Section], after: list[Section], values: Values) -> None:
     """Raise `ValueError` where a node would not get its values from the new text, or another value has changed."""
+    merged = _merged(after)
     for node, wanted in values.items():
-        given = _given(after, node)
+        given = _given(merged, node)
         for name, value in wanted.items():
             if name not in given:
                 raise ValueError(f"{node} would not get {name}")
@@ -163,12 +164,21 @@ def compare(before: list[Section], after: list[Section], values: Values) -> None
                 raise ValueError(f"line {old.line}: {name} would change, too")
 
 
-def _given(found: list[Section], node: str) -> dict[str, tuple[str, Scalar | Sequence]]:
-    """What a node gets of a file: the key and the place of each value. As in ROS, of two keys the later one counts."""
-    merged: dict[str, dict[str, tuple[str, Scalar | Sequence]]] = {}
+_Places = dict[str, tuple[str, Scalar | Sequence]]
+"""The key and the place of each value, by parameter."""
+
+
+def _merged(found: list[Section]) -> dict[str, _Places]:
+    """What stands below each key of a file, which may have it more than once."""
+    merged: dict[str, _Places] = {}
     for section in found:
         merged.setdefault(section.key, {}).update({name: (section.key, at) for name, at in section.places.items()})
-    given: dict[str, tuple[str, Scalar | Sequence]] = {}
+    return merged
+
+
+def _given(merged: dict[str, _Places], node: str) -> _Places:
+    """What a node gets of a file: the key and the place of each value. As in ROS, of two keys the later one counts."""
+    given: _Places = {}
     for key, places in merged.items():
         if means(key, node):
             given.update(places)

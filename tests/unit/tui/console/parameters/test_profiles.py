@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.runtime.rmw.parameter_precedence import ParameterTable
-from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree, Range, Value
+from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree, Profile, Range, Value
 from bot_console.tui.console.parameters.file.patch import new_text, same
 from bot_console.tui.console.parameters.file.saving import save
 from bot_console.tui.console.parameters.file.text import sections, value_at
@@ -243,3 +243,9 @@ def test_only_the_persons_own_are_renamed_and_deleted(tmp_path: Path) -> None:
     (tmp_path / "own" / "attic.yaml").unlink()
     gone = shelf.delete("attic")
     assert not gone.ok and "not deleted" in gone.text
+
+
+def test_of_keys_that_alternate_the_one_that_comes_last_with_a_name_counts() -> None:
+    values: dict[tuple[str, str], Value] = {("/n", "a"): 1, ("/**", "b"): 2, ("/**", "a"): 3, ("/n", "b"): 4}
+    found = differences(Profile("p", "", values=values), {"/n": tree("/n", {"a": 0, "b": 0})})
+    assert {each.name: each.then for each in found} == {"a": 3, "b": 4}
