@@ -45,8 +45,20 @@ FAULTS = {
 }
 
 
-@pytest.mark.parametrize("kind", FAULTS)
-@pytest.mark.parametrize("size", [(80, 24), (120, 40)])
+BESIDE_OTHERS = ("a drawing",)
+"""What is tried by default in a wide terminal as well: there other panes are drawn in the same frame."""
+
+
+@pytest.mark.parametrize(
+    ("kind", "size"),
+    [
+        *(pytest.param(kind, (80, 24), id=kind) for kind in FAULTS),
+        *(
+            pytest.param(kind, (120, 40), id=f"{kind}, wide", marks=() if kind in BESIDE_OTHERS else pytest.mark.soak)
+            for kind in FAULTS
+        ),
+    ],
+)
 def test_a_fault_ends_the_pane_alone_and_enter_opens_it_again(
     kind: str, size: tuple[int, int], monkeypatch: pytest.MonkeyPatch, state: Path
 ) -> None:

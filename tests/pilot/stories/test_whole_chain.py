@@ -19,11 +19,11 @@ NAVIGATOR = "/robot_navigator"
 
 
 def crowd() -> tuple[FakeConsole, object]:
-    """The live system among 200 nodes of 25 parameters each."""
+    """The live system among 100 nodes of 25 parameters each."""
     console, launcher = live()
     pattern = console.current.parameters["/simulator"].parameters[0]
     trees = dict(console.current.parameters)
-    for number in range(200):
+    for number in range(100):
         node = f"/crowd/n{number:03d}"
         trees[node] = ParameterTree(node, tuple(replace(pattern, node=node, name=f"p{at:02d}") for at in range(25)))
     console.change(parameters=MappingProxyType(dict(sorted(trees.items()))))

@@ -102,7 +102,7 @@ def flood(console, folder, count):
 
 
 def test_two_writers_at_full_rate_lose_and_double_nothing(console, tmp_path):
-    flood(console, tmp_path, 6_000)
+    flood(console, tmp_path, 2_000)
 
 
 @pytest.mark.soak

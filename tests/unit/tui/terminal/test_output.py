@@ -235,7 +235,7 @@ def test_what_changes_just_before_a_held_frame_is_drawn_is_not_lost(over: bool) 
     run(script)
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", [0, 1, *(pytest.param(each, marks=pytest.mark.soak) for each in range(2, 6))])
 def test_whatever_happens_while_frames_are_held_and_drawn(seed: int) -> None:
     draw = random.Random(seed)
 
