@@ -62,6 +62,8 @@ class HostedLauncher(AskedForProcesses):
         self._hangs = ""
         self._told: set[str] = set()
         self._closed = False
+        self._ends = False
+        """Whether this console ends its host."""
         self._gone = threading.Event()
         self._channel = Channel(connection, self._received, self._lost)
         self._channel.start()
@@ -113,6 +115,7 @@ class HostedLauncher(AskedForProcesses):
         with self._lock:
             if self._closed:
                 return
+            self._ends = True
             hangs = bool(self._hangs)
         if self._owner and not hangs:
             ended = self._ask("close")
@@ -144,6 +147,8 @@ class HostedLauncher(AskedForProcesses):
             if not refusal:
                 self._asked[number] = asked
         if refusal:
+            if refusal == GONE and self._owner:  # at a start nobody reads yet when the host ends
+                self._printed(Severity.ERROR, "launch", GONE)
             asked.set_result({"error": refusal})
         else:
             self._channel.send({"id": number, "do": verb, "with": list(words)})
@@ -174,9 +179,13 @@ class HostedLauncher(AskedForProcesses):
             left = list(self._asked.values())
             self._asked.clear()
             why = CLOSED if self._closed else GONE
-        if why == GONE and any(each.state not in ENDED for each in self._info.processes):
+        # One's own host ends by oneself alone; one that ends before it has started anything has left no other trace.
+        own = self._owner and not self._ends
+        if why == GONE and (own or any(each.state not in ENDED for each in self._info.processes)):
             processes = tuple(map(_with_its_host, self._info.processes))
             self._info = replace(self._info, processes=processes, problem=GONE)
+            if own:
+                self._printed(Severity.ERROR, "launch", GONE)
         for each in left:
             each.set_result({"error": why})
 

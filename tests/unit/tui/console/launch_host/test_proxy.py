@@ -1,0 +1,41 @@
+"""A console whose own launch host has ended without being asked to says so, also where nothing had been started."""
+
+from __future__ import annotations
+
+import socket
+import threading
+
+from bot_console.tui.console.launch_host.proxy import GONE, HostedLauncher
+from bot_console.tui.console.model import Severity
+
+PATIENCE = 20.0
+
+
+def test_a_host_that_ends_before_it_has_started_anything_is_told_of() -> None:
+    ours, theirs = socket.socketpair()
+    printed, told = list[tuple[int, str, str]](), threading.Event()
+
+    def take(severity: int, label: str, text: str) -> None:
+        printed.append((severity, label, text))
+        told.set()
+
+    launcher = HostedLauncher(ours, lambda *record: None, take)
+    theirs.close()
+    assert told.wait(PATIENCE)
+    assert printed == [(Severity.ERROR, "launch", GONE)] and launcher.info().problem == GONE
+    answer = launcher.launch("robot.launch.py", {}).result(PATIENCE)
+    assert not answer.ok and answer.text == GONE
+    assert printed[1:] == [(Severity.ERROR, "launch", GONE)], "at a start nobody has read the first line"
+    launcher.close()
+
+
+def test_another_ones_host_may_end() -> None:
+    ours, theirs = socket.socketpair()
+    printed: list[object] = []
+    launcher = HostedLauncher(ours, lambda *record: None, lambda *line: printed.append(line), owner=False)
+    theirs.close()
+    launcher._gone.wait(PATIENCE)
+    for thread in launcher._channel._threads:
+        thread.join(PATIENCE)
+    assert printed == [] and launcher.info().problem == ""
+    launcher.close()
