@@ -329,7 +329,7 @@ def test_signals_after_the_end_do_nothing(run):
 
 def test_many_processes_leave_no_thread(run):
     before = threading.active_count()
-    for number in range(50):
+    for number in range(20):
         process = run(lambda: None, name=str(number)).process
         process.main_state.thread.join(LONG)
     assert threading.active_count() == before
