@@ -1,4 +1,4 @@
-"""Wherever the keyboard is, no key means two things: all scopes that act there are looked at together."""
+"""In what lies over the panes no key means two things: all scopes that act there are looked at together."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from itertools import chain
 
 from bot_console.tui.console.model import Kind
 from bot_console.tui.keymap import TABLE
-from bot_console.tui.pane_table import PANES
 from piloting import Session, run
 from samples import live, with_array
 
@@ -55,15 +54,6 @@ def clashes(session: Session) -> dict[str, set[str]]:
         found.setdefault(key, set()).add(id)
     assert found, "nothing acts here"
     return {key: ids for key, ids in found.items() if len(ids) > 1}
-
-
-def test_in_a_pane_no_key_means_two_things() -> None:
-    async def play(session: Session) -> None:
-        for each in PANES:
-            await session.press(each.digit)
-            assert clashes(session) == {}, each.id
-
-    run(live(), play)
 
 
 def test_in_what_lies_over_the_panes_no_key_means_two_things() -> None:

@@ -65,8 +65,7 @@ def test_growing_takes_from_the_neighbour() -> None:
         after = seen(session)
         assert after["parameters"].width > before["parameters"].width
         assert after["logs"].height < before["logs"].height
-        for _ in range(40):
-            await session.press("right_square_bracket")
+        await session.press(*["right_square_bracket"] * 40)
         assert seen(session)["world"].width >= 20, "no pane becomes too small to be used"
 
     run(live(), play, SIZE)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator
+from functools import cache
 
 import pytest
 from bot_console.tui.console.logs.search import matching
@@ -38,13 +39,20 @@ CLOCK = {
 }
 
 
-@pytest.mark.parametrize("written", CLOCK)
-def test_a_time_of_day_is_the_one_that_is_shown(written: str) -> None:
+@cache
+def two_days() -> tuple[list[int], list[str], LogStore]:
+    """Lines 10 s apart: their stamps, the times of day that are shown, and a store that holds them."""
     stamps = [NOW + step * 10 * SECOND + SECOND // 4 for step in range(-8640, 8640)]
     store = LogStore(len(stamps) * 2)
     for each in stamps:
         store.add(each, Severity.INFO, "n", "x")
-    wanted = [number for number, each in enumerate(stamps) if CLOCK[written](clock_text(each))]
+    return stamps, [clock_text(each) for each in stamps], store
+
+
+@pytest.mark.parametrize("written", CLOCK)
+def test_a_time_of_day_is_the_one_that_is_shown(written: str) -> None:
+    stamps, shown, store = two_days()
+    wanted = [number for number, each in enumerate(shown) if CLOCK[written](each)]
     assert matching(store, LogFilter(words=f"time:{written}")) == wanted and wanted
     span = parse_span(written, NOW)
     assert [number for number, each in enumerate(stamps) if span.holds(each)] == wanted
