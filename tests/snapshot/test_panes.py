@@ -98,7 +98,10 @@ def test_in_use(keys: list[str], snap_compare: Any) -> None:
     assert snap_compare(app_of(live), terminal_size=(100, 30), run_before=use)
 
 
-@pytest.mark.parametrize("size", [(80, 24), (120, 40)], ids=["small", "medium"])
+@pytest.mark.parametrize(
+    "size",
+    [pytest.param((80, 24), id="small"), pytest.param((120, 40), id="medium", marks=pytest.mark.soak)],
+)
 def test_steering_armed(size: tuple[int, int], snap_compare: Any) -> None:
     async def steer(pilot: Any) -> None:
         pilot.app.query_one(SteeringPane).clock = Clock()

@@ -84,12 +84,12 @@ def test_a_second_time_adds_nothing(name: str, home: Path):
     ("line", "found"),
     [
         ("ros2 topi", ["topic"]),
-        ("ros2 param l", ["list", "load"]),
+        pytest.param("ros2 param l", ["list", "load"], marks=pytest.mark.soak),
         ("bot-console setup ", ["bash", "fish", "zsh"]),
         ("ros2 interface show std_msgs/msg/Strin", ["std_msgs/msg/String"]),
-        ("ros2 run bot_console_robot sim", ["simulator_node"]),
-        ("ros2 launch bot_console_robot robot_", ["robot_system.launch.py"]),
-        ("ros2 node list --co", ["--count-nodes"]),
+        pytest.param("ros2 run bot_console_robot sim", ["simulator_node"], marks=pytest.mark.soak),
+        pytest.param("ros2 launch bot_console_robot robot_", ["robot_system.launch.py"], marks=pytest.mark.soak),
+        pytest.param("ros2 node list --co", ["--count-nodes"], marks=pytest.mark.soak),
     ],
 )
 def test_bash_completes(home: Path, line: str, found: list[str]):
