@@ -16,6 +16,7 @@ import time
 from collections.abc import Callable, Generator
 from pathlib import Path
 from types import FrameType
+from typing import Any
 
 FILE = "console-stacks.txt"
 STANDS_S = 15.0
@@ -56,6 +57,19 @@ class Standstill:
         """Beat in the running loop from now on."""
         self.beat()
         asyncio.get_running_loop().call_later(BEAT_S, self.follow)
+
+    def accompany(self, app: Any) -> None:
+        """Beat in the running loop of an app (of Textual, which does not tell the types of its signals) from now on."""
+        self.follow()
+
+        def left(_: object) -> None:  # an editor, or the shell, has the terminal
+            self.rest()
+
+        def back(_: object) -> None:
+            self.beat()
+
+        app.app_suspend_signal.subscribe(app, left, immediate=True)
+        app.app_resume_signal.subscribe(app, back, immediate=True)
 
     def note(self, text: str) -> None:
         """Write a line into the file."""

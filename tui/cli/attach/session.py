@@ -13,10 +13,12 @@ from bot_console.tui.cli.live.descriptors import own_terminal
 from bot_console.tui.cli.live.ending_signals import ended_by_signals, hangup_as_signal
 from bot_console.tui.cli.live.for_panes import for_panes
 from bot_console.tui.cli.look import look_of
+from bot_console.tui.cli.standstill import Standstill, stacks_kept
 from bot_console.tui.cli.system.plugins import find_plugins
 from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import Severity
 from bot_console.tui.console.protocol import CommandLine, Launcher
+from bot_console.tui.files.folders import state_folder
 
 READY = 20.0
 
@@ -41,6 +43,7 @@ class AttachedSession:
         self._first_frame = on_first_frame
         self._on_close = on_close
         self._has_begun: Callable[[], None] = lambda: None
+        self._standstill: Standstill | None = None
         look = look_of(options)
         self.app = BotConsoleApp(
             *for_panes(console, launcher, command_line, read_only=options.read_only),
@@ -57,12 +60,15 @@ class AttachedSession:
             ended_by_signals(self._end),
             hangup_as_signal(),
             eager_switching(),
+            stacks_kept(state_folder(), self.app.how_it_draws, self._stood) as self._standstill,
         ):
             self._has_begun = watch.has_begun
             try:
                 self.app.run()
                 watch.has_ended()
             finally:
+                if self._standstill is not None:
+                    self._standstill.rest()
                 self.app.stage.arrangement.remember()
                 self._on_close()
                 self._console.close()
@@ -70,10 +76,15 @@ class AttachedSession:
 
     def _on_first_frame(self) -> None:
         self._has_begun()
+        if self._standstill is not None:
+            self._standstill.accompany(self.app)
         self._first_frame()
         collect_from_now_on()
         self._console.start()
         threading.Thread(target=self._tell, name="start", daemon=True).start()
+
+    def _stood(self, line: str) -> None:
+        self._console.printed(Severity.WARN, "bot-console", line)
 
     def _tell(self) -> None:
         if self._console.wait_ready(READY):

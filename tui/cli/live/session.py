@@ -6,7 +6,7 @@ import signal
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.cli.interpreter import collect_from_now_on, eager_switching
@@ -67,22 +67,9 @@ class Session:
     def _reach(self) -> System:
         self._has_begun()
         if self._standstill is not None:
-            self._follow(self._standstill)
+            self._standstill.accompany(self.app)
         self.app.tuner = self.connected.tuner
         return self.connected.begin()
-
-    def _follow(self, standstill: Standstill) -> None:
-        standstill.follow()
-        app: Any = self.app  # Textual does not tell the type of its signals
-
-        def left(_: object) -> None:  # an editor, or the shell, has the terminal
-            standstill.rest()
-
-        def back(_: object) -> None:
-            standstill.beat()
-
-        app.app_suspend_signal.subscribe(app, left, immediate=True)
-        app.app_resume_signal.subscribe(app, back, immediate=True)
 
     def _plugins(self) -> Sequence[PaneEntry]:
         return self.connected.plugins()
