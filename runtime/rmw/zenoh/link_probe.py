@@ -5,6 +5,7 @@ The link itself would notice a cut cable only after its lease, which is the othe
 
 from __future__ import annotations
 
+import contextlib
 import threading
 import time
 from collections.abc import Callable
@@ -12,11 +13,18 @@ from dataclasses import dataclass, replace
 
 PERIOD = 0.4
 """Seconds from one question to the next."""
-LONGEST = 0.9
-"""Seconds that an answer is waited for before the question is asked again; a later answer counts for the next."""
+SILENCE = 5.0
+"""Seconds without any answer after which the first is not believed: after ten Zenoh gives a link up, and ends all
+questions as if they were answered."""
+PATIENCE = 10.0
+"""Seconds for which an answer is waited for; on a link that is full it comes late, and is one all the same."""
+SOON, LATER = 0.001, 0.02
+"""Seconds from one look for answers to the next: while one may come at once, and afterwards."""
 
-Ask = Callable[[float], bool]
-"""Asks once and gives whether an answer came within so many seconds."""
+Answer = Callable[[], "bool | None"]
+"""Whether a question has been answered; None as long as that may still come."""
+Ask = Callable[[float], Answer]
+"""Asks once, for an answer within so many seconds."""
 
 
 @dataclass(frozen=True)
@@ -32,13 +40,18 @@ class LinkState:
 
 
 class LinkProbe:
-    """Asks in a thread of its own until `end`."""
+    """Asks in a thread of its own until `end`; the next question does not wait for the answer to the last."""
 
     def __init__(self, ask: Ask, to: str, clock: Callable[[], float] = time.monotonic) -> None:
         self._ask = ask
         self._clock = clock
-        self._silent = False
-        self.state = LinkState(to, clock())  # it has just been opened
+        self._open: list[tuple[float, Answer]] = []
+        """Questions without an answer so far, and when they were asked; the oldest first."""
+        now = clock()
+        self._asked = now - PERIOD
+        self._came = self._believed = now
+        """When the last answer came, and from when on a question was asked whose answer is believed."""
+        self.state = LinkState(to, now)  # it has just been opened
         self._ended = threading.Event()
         self._thread = threading.Thread(target=self._run, name="link-probe", daemon=True)
         self._thread.start()
@@ -48,17 +61,32 @@ class LinkProbe:
         self._ended.set()
 
     def _run(self) -> None:
-        while not self._ended.wait(PERIOD):
-            self.look()
+        pause = PERIOD
+        while not self._ended.wait(pause):
+            pause = self.look()
 
-    def look(self) -> None:
-        """Ask once. The first answer after silence may be none: Zenoh ends a question too when it gives a link up."""
-        began = self._clock()
-        try:
-            answered = self._ask(LONGEST)
-        except RuntimeError:  # the session is being closed
-            return
-        if answered and not self._silent:
-            now = self._clock()
-            self.state = replace(self.state, heard=now, delay=now - began)
-        self._silent = not answered
+    def look(self) -> float:
+        """Ask, if it is time to, and take the answers that have come; gives the seconds until the next look."""
+        if self._clock() - self._asked >= PERIOD:
+            self._asked = self._clock()
+            with contextlib.suppress(RuntimeError):  # the session is being closed
+                self._open.append((self._asked, self._ask(PATIENCE)))
+        for asked, answer in [*self._open]:
+            answered = answer()
+            if answered is not None:
+                self._open.remove((asked, answer))
+            if answered:
+                self._take(asked)
+        since = self._clock() - self._asked
+        if not self._open:
+            return max(SOON, PERIOD - since)
+        return SOON if since < LATER else LATER
+
+    def _take(self, asked: float) -> None:
+        """Believe an answer, unless the question was open over a long silence."""
+        now = self._clock()
+        if now - self._came > SILENCE:
+            self._believed = now
+        self._came = now
+        if asked >= self._believed:
+            self.state = replace(self.state, heard=now, delay=now - asked)

@@ -169,7 +169,10 @@ class Session(Lifetime):
         )
 
     def declare_querier(self, key: str, timeout: float) -> Querier:
-        """Ask all queryables of a key in other sessions, and end each request after `timeout` (s)."""
+        """Ask all queryables of a key in other sessions, and end each request after `timeout` (s).
+
+        Requests, and with them their answers, overtake messages: over a narrow link these leave no room.
+        """
         import zenoh
 
         def ask(
@@ -192,6 +195,7 @@ class Session(Lifetime):
                     target=zenoh.QueryTarget.ALL_COMPLETE,
                     consolidation=zenoh.ConsolidationMode.NONE,
                     congestion_control=zenoh.CongestionControl.DROP,
+                    priority=zenoh.Priority.INTERACTIVE_HIGH,
                     allowed_destination=zenoh.Locality.REMOTE,
                     timeout=timeout,
                 ),
@@ -287,12 +291,38 @@ class Session(Lifetime):
         """The first eight digits of the ids of the sessions that answer within `timeout` (s)."""
         return {each.removeprefix(ATTENDANCE) for each in self.collect_tokens(ATTENDANCE + who, timeout)[0]}
 
+    def question(self, timeout: float) -> Callable[[], bool | None]:
+        """Ask the other end something small: whether it has answered within `timeout` (s), None while it still may.
+
+        Raises `RuntimeError` while the session is being closed.
+        """
+        import zenoh
+
+        late = time.monotonic() + timeout * 0.98
+        try:
+            replies = self._zenoh.liveliness().get(
+                f"{ATTENDANCE}nobody/{self.zid}", zenoh.handlers.FifoChannel(WAITING), timeout=timeout
+            )
+        except zenoh.ZError:  # no session is open
+            return lambda: False
+
+        def answered() -> bool | None:
+            with contextlib.suppress(zenoh.ZError):  # it is over
+                while replies.try_recv() is not None:
+                    pass  # nobody has such a token, but Zenoh may tell its time-out so
+                if time.monotonic() < late:
+                    return None
+            # Without an answer it is over only after the time-out, and without a link at once.
+            return time.monotonic() < late and bool(self.linked())
+
+        return answered
+
     def is_answered(self, timeout: float) -> bool:
         """Whether the other end answers a small question within `timeout` (s)."""
-        began, late = time.monotonic(), timeout * 0.98
-        self.collect_tokens(f"{ATTENDANCE}nobody/{self.zid}", timeout)
-        # Without an answer Zenoh says only after the time-out that it is done, and without a link it says so at once.
-        return time.monotonic() - began < late and bool(self.linked())
+        answer, pause = self.question(timeout), threading.Event()
+        while (answered := answer()) is None:
+            pause.wait(0.001)
+        return answered
 
 
 def preload() -> None:

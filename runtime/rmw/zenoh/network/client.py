@@ -92,7 +92,7 @@ class NetworkSession(Session):
 
     def watch(self) -> None:
         """Ask the router again and again whether the link is alive, and look which processes it shows as frozen."""
-        self._probe = self._probe or LinkProbe(self.is_answered, str(self.way))
+        self._probe = self._probe or LinkProbe(self.question, str(self.way))
         self._stopped = self._stopped or StoppedBehind(self)
 
     def stopped(self) -> Mapping[str, int]:

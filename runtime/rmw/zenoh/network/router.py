@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from bot_console.runtime.rmw.zenoh.session import Session, SessionError
-from bot_console.runtime.rmw.zenoh.settings import Serving
+from bot_console.runtime.rmw.zenoh.settings import ROOM_OF_A_NETWORK, SMALL_BATCH, Serving, network_link
 
 
 def router_settings(zid: str, serving: Serving) -> dict[str, Any]:
@@ -18,7 +18,13 @@ def router_settings(zid: str, serving: Serving) -> dict[str, Any]:
         "scouting": {"multicast": {"enabled": False}, "gossip": {"enabled": True}},
         "routing": {"router": {"peers_failover_brokering": False}},
         "timestamping": {"enabled": True},
-        "transport": {"shared_memory": {"enabled": False}, "link": {"tls": dict(serving.tls)}},
+        "transport": {
+            "shared_memory": {"enabled": False},
+            "link": {
+                **network_link(serving),
+                "tx": {"batch_size": SMALL_BATCH, "queue": {"size": {"data": ROOM_OF_A_NETWORK}}},
+            },
+        },
     }
 
 

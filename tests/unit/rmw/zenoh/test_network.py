@@ -5,6 +5,7 @@ import re
 import socket
 import ssl
 import threading
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -12,15 +13,16 @@ from bot_console.runtime.process import on_notice
 from bot_console.runtime.rmw.zenoh.link_probe import LinkProbe
 from bot_console.runtime.rmw.zenoh.network.client import Way, client_settings, open_network_session, with_environment
 from bot_console.runtime.rmw.zenoh.network.reach import Tls, place_of
-from bot_console.runtime.rmw.zenoh.network.router import Router
+from bot_console.runtime.rmw.zenoh.network.router import Router, router_settings
 from bot_console.runtime.rmw.zenoh.session import SessionError
-from bot_console.runtime.rmw.zenoh.settings import Serving
+from bot_console.runtime.rmw.zenoh.settings import Serving, session_settings
 from bot_console.runtime.rmw.zenoh.whole_graph import WholeGraph
 from bot_console.runtime.rmw.zenoh.wire.tokens import TokenNode, node_token
 from processes.certificates import make_certificates
 from processes.ports import free_port
 
 PATIENCE = 20.0
+STEP = 0.125
 
 
 @pytest.fixture(scope="module")
@@ -178,6 +180,18 @@ def test_a_router_that_comes_back_is_found_again_and_what_was_declared_works():
         each.close()
 
 
+@pytest.mark.parametrize("settings", [session_settings, router_settings])
+def test_little_waits_on_the_way_to_other_machines(settings):
+    serving = Serving(("tls/localhost:1",), {"listen_certificate": "c"})
+    beside = ("unixsock-stream/a", ["unixsock-stream/b"]) if settings is session_settings else ()
+    link = settings("1" * 32, *beside, serving)["transport"]["link"]
+    assert link["tcp"]["so_sndbuf"] == link["tls"]["so_sndbuf"] == 16_384
+    assert link["tls"]["listen_certificate"] == "c"
+    assert link["tx"]["batch_size"] * link["tx"]["queue"]["size"]["data"] == 16_384
+    at_home = session_settings("1" * 32, "unixsock-stream/a", [])["transport"]["link"]
+    assert "tcp" not in at_home and "batch_size" not in at_home["tx"]
+
+
 def test_the_access_list_of_the_documentation_keeps_guests_from_moving_and_changing_the_robot(tmp_path):
     text = (Path(__file__).parents[4] / "docs" / "your-robot.md").read_text(encoding="utf-8")
     (listed,) = re.findall(r"^```json5\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
@@ -221,32 +235,68 @@ def test_a_taken_port_is_told():
             Router(Serving((place,)))
 
 
-def test_a_link_that_does_not_answer_keeps_the_time_of_its_last_answer():
-    now, answers = [100.0], [True]
+class Link:
+    """A link whose answers are given by hand; its probe looks when it is told to."""
 
-    def ask(timeout: float) -> bool:
-        now[0] += 0.25
-        return answers[0]
+    def __init__(self) -> None:
+        self.now = 100.0
+        self.asked: list[tuple[float, list[bool]]] = []
+        self.probe = LinkProbe(self._ask, "tcp/robot:7447", lambda: self.now)
+        self.probe.end()
 
-    probe = LinkProbe(ask, "tcp/robot:7447", lambda: now[0])
-    probe.end()
-    probe.look()
-    assert (probe.state.heard, probe.state.delay) == (100.25, 0.25)
-    answers[0] = False
-    probe.look()
-    assert probe.state.heard == 100.25
+    def _ask(self, timeout: float) -> Callable[[], bool | None]:
+        answer: list[bool] = []
+        self.asked.append((self.now, answer))
+        return lambda: answer[0] if answer else None
+
+    def pass_time(self, seconds: float, delay: float | None) -> None:
+        """Let time go by on a link that answers each question after `delay` s; None: not at all."""
+        for _ in range(round(seconds * 8)):
+            self.now += STEP
+            for asked, answer in self.asked:
+                if delay is not None and self.now - asked >= delay:
+                    answer.append(True)
+            self.probe.look()
+
+    @property
+    def silent(self) -> float:
+        """For how long nothing was answered, in s."""
+        return self.now - (self.probe.state.heard or 0.0)
+
+    @property
+    def delay(self) -> float | None:
+        return self.probe.state.delay
 
 
-@pytest.mark.parametrize(("answers", "heard"), [([False, True, False], 0.0), ([False, True, True], 3.0), ([True], 1.0)])
-def test_after_silence_one_answer_is_not_believed(answers, heard):
-    now = [0.0]
+@pytest.fixture
+def link():
+    link = Link()
+    link.probe.look()
+    return link
 
-    def ask(timeout: float) -> bool:
-        now[0] += 1.0
-        return answers.pop(0)
 
-    probe = LinkProbe(ask, "tcp/robot:7447", lambda: now[0])
-    probe.end()
-    while answers:
-        probe.look()
-    assert probe.state.heard == heard
+def test_a_link_that_does_not_answer_keeps_the_time_of_its_last_answer(link):
+    link.pass_time(1.0, 0.25)
+    assert (link.silent, link.delay) == (0.25, 0.25)
+    link.pass_time(3.0, None)
+    assert (link.silent, link.delay) == (3.25, 0.25)
+
+
+def test_a_link_that_always_answers_late_is_slow_and_not_silent(link):
+    link.pass_time(1.0, 0.25)
+    link.pass_time(9.0, 2.5)
+    assert link.silent <= 0.5 and link.delay == 2.5
+    link.pass_time(2.0, None)
+    link.pass_time(STEP, 2.5)
+    assert link.silent == 0.0
+
+
+def test_what_was_asked_before_a_silence_ended_is_not_believed(link):
+    link.pass_time(1.0, 0.25)
+    link.pass_time(9.0, None)
+    link.pass_time(STEP, 0.0)  # all that was open is over at once, as when the link is given up
+    link.pass_time(2.0, None)
+    assert link.silent == 11.25 + STEP
+    link.pass_time(1.0, 0.25)
+    link.pass_time(1.0, 0.25)
+    assert link.silent <= 0.5
