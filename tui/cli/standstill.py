@@ -1,7 +1,8 @@
 """Where each thread of a console stands is kept in a file: when its screen stands, and whenever SIGUSR1 asks for it.
 
-The interpreter's `faulthandler` writes the stacks, which needs neither its lock nor a thread that is free: a screen
-that stands says nothing itself, and what it waits for is not known afterwards.
+A screen that stands says nothing itself, and what it waits for is not known afterwards. A thread of ours writes the
+stacks while it has the interpreter's lock: to walk through those of threads that run meanwhile can end the process.
+Where it does not get that lock, no thread runs, and `faulthandler` writes them without.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ import faulthandler
 import fcntl
 import os
 import signal
+import threading
 import time
 from collections.abc import Callable, Generator
 from pathlib import Path
@@ -38,6 +40,23 @@ class Standstill:
         self._tell = tell
         self._clock = clock
         self._heard: float | None = None
+        self._written = False
+        self._over = threading.Event()
+
+    def watch(self) -> None:
+        """Look once a second until the end, in the calling thread."""
+        while not self._over.wait(BEAT_S):
+            self.look()
+
+    def look(self) -> None:
+        """Write the stacks when the thread that draws was not heard of for long, once until it is heard again."""
+        heard = self._heard
+        if heard is None:
+            return
+        faulthandler.dump_traceback_later(STANDS_S, file=self._descriptor)  # unless the next look puts it off
+        if self._clock() - heard >= STANDS_S and not self._written:
+            self._written = True
+            faulthandler.dump_traceback(self._descriptor)
 
     def beat(self) -> None:
         """The thread that draws is at work."""
@@ -45,13 +64,17 @@ class Standstill:
         if self._heard is not None and (stood := now - self._heard) >= STANDS_S:
             self.note(f"the screen has stood for {stood:.0f} s, or the whole process was stopped")
             self._tell(f"the screen stood for {stood:.0f} s; what its threads did meanwhile is in {self._path}")
-        self._heard = now
-        faulthandler.dump_traceback_later(STANDS_S, file=self._descriptor)
+        self._heard, self._written = now, False
 
     def rest(self) -> None:
         """Nothing is drawn for a while, as is right."""
         self._heard = None
         faulthandler.cancel_dump_traceback_later()
+
+    def end(self) -> None:
+        """Look no more."""
+        self._over.set()
+        self.rest()
 
     def follow(self) -> None:
         """Beat in the running loop from now on."""
@@ -94,16 +117,19 @@ def stacks_kept(folder: Path, state: Callable[[], str], tell: Callable[[str], No
         return
     standstill = Standstill(path, descriptor, tell)
 
-    def asked(number: int, frame: FrameType | None) -> None:
+    def asked(number: int, frame: FrameType | None) -> None:  # in the thread that draws: else it was written before
+        faulthandler.dump_traceback(descriptor)
         standstill.note(state())
 
     before = signal.signal(signal.SIGUSR1, asked)
-    faulthandler.register(signal.SIGUSR1, file=descriptor, all_threads=True, chain=True)
     standstill.beat()
+    watch = threading.Thread(target=standstill.watch, name="standstill", daemon=True)
+    watch.start()
     try:
         yield standstill
     finally:
-        standstill.rest()
-        faulthandler.unregister(signal.SIGUSR1)
+        standstill.end()
+        watch.join()
+        standstill.rest()  # a look may just have been at it
         signal.signal(signal.SIGUSR1, before)
         os.close(descriptor)

@@ -42,6 +42,7 @@ class Terminal:
         self.output = b""
         self.folder = folder
         self._stacks = state_folder() / FILE
+        self._stacks_before = self._stacks.stat().st_size if self._stacks.exists() else 0
 
     def read_until(self, condition: Callable[[], bool], what: str) -> None:
         """Take the program's output until a condition holds."""
@@ -61,14 +62,16 @@ class Terminal:
         """How a console's screen is and where each of its threads stands, as it writes them when it is asked to."""
         if self.process.poll() is not None or not self._stacks.exists():
             return "it keeps no stacks"
-        before = self._stacks.stat().st_size
         self.process.send_signal(signal.SIGUSR1)
         deadline = time.monotonic() + STACKS
-        while f"process {self.process.pid}:" not in (text := self._stacks.read_text(errors="replace")[before:]):
-            if time.monotonic() >= deadline:  # the thread that draws stands, and says nothing of the screen
+        while f"process {self.process.pid}:" not in (text := self._written()):
+            if time.monotonic() >= deadline:  # the thread that draws stands: what was kept of itself is all
                 break
             self._read(0.05)
         return text
+
+    def _written(self) -> str:
+        return self._stacks.read_bytes()[self._stacks_before :].decode(errors="replace")
 
     def drain(self, seconds: float) -> None:
         """Take the program's output for a while."""

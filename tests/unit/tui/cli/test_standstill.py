@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
+import faulthandler
 import os
 import signal
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from bot_console.tui.cli import standstill
 from bot_console.tui.cli.standstill import FILE, STANDS_S, Standstill, stacks_kept
-
-PATIENCE = 60.0
-"""Seconds after which a test gives up; nothing is measured by it."""
 
 HERE = "in test_"
 
@@ -43,15 +39,31 @@ def test_a_signal_has_them_written_with_how_the_screen_is(tmp_path: Path) -> Non
     assert signal.getsignal(signal.SIGUSR1) == before
 
 
-def test_who_does_nothing_for_long_is_found_in_the_file(
+def test_who_does_nothing_for_long_is_found_in_the_file_once(kept: tuple[Standstill, Clock, list[str], Path]) -> None:
+    watch, clock, _, path = kept
+    watch.beat()
+    clock.now += STANDS_S - 1
+    watch.look()
+    assert path.read_text() == ""
+    for _ in range(2):
+        clock.now += STANDS_S
+        watch.look()
+    assert path.read_text().count("Current thread") == 1 and HERE in path.read_text()
+    watch.beat()
+    clock.now += STANDS_S
+    watch.look()
+    assert path.read_text().count("Current thread") == 2
+
+
+def test_where_no_thread_may_run_the_interpreter_writes_them_itself(
     kept: tuple[Standstill, Clock, list[str], Path], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     watch, _, _, path = kept
-    monkeypatch.setattr(standstill, "STANDS_S", 0.01)
+    put_off: list[float] = []
+    monkeypatch.setattr(faulthandler, "dump_traceback_later", lambda seconds, file: put_off.append(seconds))
     watch.beat()
-    end = time.monotonic() + PATIENCE
-    while HERE not in path.read_text():
-        assert time.monotonic() < end
+    watch.look()
+    assert put_off == [STANDS_S] and path.read_text() == ""
 
 
 def test_that_it_stood_is_told_when_it_goes_on(kept: tuple[Standstill, Clock, list[str], Path]) -> None:
