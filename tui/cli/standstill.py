@@ -1,8 +1,9 @@
 """Where each thread of a console stands is kept in a file: when its screen stands, and whenever SIGUSR1 asks for it.
 
 A screen that stands says nothing itself, and what it waits for is not known afterwards. A thread of ours writes the
-stacks while it has the interpreter's lock: to walk through those of threads that run meanwhile can end the process.
-Where it does not get that lock, no thread runs, and `faulthandler` writes them without.
+stacks while it has the interpreter's lock: to walk through those of threads that run meanwhile can end the process. So
+no timer writes them without that lock, as it would when a stopped process goes on. Where no thread gets it, a signal
+that ends the process, such as SIGABRT, has them written.
 """
 
 from __future__ import annotations
@@ -53,7 +54,6 @@ class Standstill:
         heard = self._heard
         if heard is None:
             return
-        faulthandler.dump_traceback_later(STANDS_S, file=self._descriptor)  # unless the next look puts it off
         if self._clock() - heard >= STANDS_S and not self._written:
             self._written = True
             faulthandler.dump_traceback(self._descriptor)
@@ -69,7 +69,6 @@ class Standstill:
     def rest(self) -> None:
         """Nothing is drawn for a while, as is right."""
         self._heard = None
-        faulthandler.cancel_dump_traceback_later()
 
     def end(self) -> None:
         """Look no more."""
@@ -122,6 +121,9 @@ def stacks_kept(folder: Path, state: Callable[[], str], tell: Callable[[str], No
         standstill.note(state())
 
     before = signal.signal(signal.SIGUSR1, asked)
+    fatal = not faulthandler.is_enabled()
+    if fatal:
+        faulthandler.enable(descriptor)
     standstill.beat()
     watch = threading.Thread(target=standstill.watch, name="standstill", daemon=True)
     watch.start()
@@ -130,6 +132,7 @@ def stacks_kept(folder: Path, state: Callable[[], str], tell: Callable[[str], No
     finally:
         standstill.end()
         watch.join()
-        standstill.rest()  # a look may just have been at it
+        if fatal:
+            faulthandler.disable()
         signal.signal(signal.SIGUSR1, before)
         os.close(descriptor)

@@ -65,8 +65,10 @@ class Terminal:
         self.process.send_signal(signal.SIGUSR1)
         deadline = time.monotonic() + STACKS
         while f"process {self.process.pid}:" not in (text := self._written()):
-            if time.monotonic() >= deadline:  # the thread that draws stands: what was kept of itself is all
-                break
+            if time.monotonic() >= deadline:  # the thread that draws stands
+                self.process.send_signal(signal.SIGABRT)
+                self.process.wait()
+                return self._written()
             self._read(0.05)
         return text
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import faulthandler
 import os
 import signal
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -55,15 +56,21 @@ def test_who_does_nothing_for_long_is_found_in_the_file_once(kept: tuple[Standst
     assert path.read_text().count("Current thread") == 2
 
 
-def test_where_no_thread_may_run_the_interpreter_writes_them_itself(
-    kept: tuple[Standstill, Clock, list[str], Path], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    watch, _, _, path = kept
-    put_off: list[float] = []
-    monkeypatch.setattr(faulthandler, "dump_traceback_later", lambda seconds, file: put_off.append(seconds))
-    watch.beat()
-    watch.look()
-    assert put_off == [STANDS_S] and path.read_text() == ""
+def test_a_signal_that_ends_the_process_has_them_written_where_no_thread_may_run(tmp_path: Path) -> None:
+    program = f"""
+from pathlib import Path
+import ctypes, os
+from bot_console.tui.cli.standstill import stacks_kept
+with stacks_kept(Path({str(tmp_path)!r}), str, print):
+    os.write(1, b"x")
+    ctypes.PyDLL(None).sleep(60)  # with the interpreter's lock
+"""
+    with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE) as process:
+        assert process.stdout is not None and process.stdout.read(1) == b"x"
+        process.send_signal(signal.SIGUSR1)
+        process.send_signal(signal.SIGABRT)
+    text = (tmp_path / FILE).read_text()
+    assert process.returncode == -signal.SIGABRT and "Fatal Python error" in text and 'File "<string>"' in text
 
 
 def test_that_it_stood_is_told_when_it_goes_on(kept: tuple[Standstill, Clock, list[str], Path]) -> None:
