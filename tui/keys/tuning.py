@@ -120,7 +120,7 @@ TUNING: Mapping[str, tuple[Key, ...]] = {
             short="Open",
         ),
         Key("profiles.save", "S", "save_profile", "Save what runs as a profile, with a name", shown="S"),
-        Key("profiles.rename", "m,f2", "rename_profile", "Rename a profile of yours", shown="m"),
+        Key("profiles.rename", "m", "rename_profile", "Rename a profile of yours"),
         Key("profiles.delete", "d,delete", "delete_profile", "Delete a profile of yours, after a question"),
         Key("profiles.presets", "p", "presets", "Presets that nodes keep as a service: apply, save, delete"),
         Key("profiles.again", "r", "again", "Work the differences out anew", footer=True, short="Refresh"),
