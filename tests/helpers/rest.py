@@ -31,6 +31,8 @@ from textual.screen import Screen
 
 LOOKS = 100_000
 """Turns of the event loop after which what never rests is left alone."""
+_RUNNERS = frozenset(threading.enumerate())
+"""Threads of whoever runs the tests, which are there before the first test and do nothing for an app."""
 SOON = 0.02
 """What is due within these s is waited for."""
 
@@ -49,7 +51,7 @@ async def _at_rest(min_sleep: float, max_sleep: float, *, draws: bool) -> None:
     loop: Any = asyncio.get_running_loop()
     end = loop.time() + SOON
     await _drained(loop, draws=draws)
-    if threading.active_count() > 1:
+    if not _RUNNERS.issuperset(threading.enumerate()):
         await _wait.wait_for_idle(min_sleep, max_sleep)
         await _drained(loop, draws=draws)
     while due := [each.when() for each in loop._scheduled if not each.cancelled() and each.when() < end]:
@@ -87,8 +89,7 @@ def _draw(app: Any) -> None:
 def at_rest() -> Iterator[None]:
     """Pilots wait so, meanwhile; and no style sheet is read again that an app of this process has read.
 
-    Nor is the file of a class looked for again, or a signature made to count what a callback takes: together a fifth of
-    what the start of a console cost.
+    Nor is the file of a class looked for again, or a signature made to count what a callback takes.
     """
     with (
         patch.object(dom_module, "getfile", _file_of_class),
