@@ -8,6 +8,7 @@ counted (`idle_share`). Verbs are asked meanwhile, with their wall and processor
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import re
@@ -57,14 +58,11 @@ def generate_launch_description():
 def tree(root: int) -> Iterator[int]:
     """A process and all below it."""
     yield root
-    try:
-        children = Path(f"/proc/{root}/task/{root}/children").read_text().split()
-        threads = os.listdir(f"/proc/{root}/task")
-    except OSError:
-        return
-    for thread in threads:
-        if thread != str(root):
-            children += Path(f"/proc/{root}/task/{thread}/children").read_text().split()
+    children: list[str] = []
+    with contextlib.suppress(OSError):  # it has ended
+        for thread in os.listdir(f"/proc/{root}/task"):
+            with contextlib.suppress(OSError):
+                children += Path(f"/proc/{root}/task/{thread}/children").read_text().split()
     for each in children:
         yield from tree(int(each))
 
