@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from typing import ClassVar
 
@@ -14,6 +15,9 @@ from rich.text import Text
 from textual.binding import BindingType
 from textual.events import Click
 from textual.widget import Widget
+
+LINE_END = re.compile(r"(?<=\S)\n(?=\S)")
+"""The end of a line within a paragraph, which ends where the screen does; a list's lines are indented."""
 
 
 class HelpScreen(Overlay):
@@ -29,7 +33,7 @@ class HelpScreen(Overlay):
     def content(self) -> Iterable[RenderableType | Widget]:
         """The text, then two tables of keys."""
         if self._text:
-            yield Text(self._text + "\n", "dim")
+            yield Text(LINE_END.sub(" ", self._text) + "\n", "dim")
         own, *shared = (TABLE.get(each, ()) for each in self._scopes)
         if own:
             yield KeyTable(own)
