@@ -44,7 +44,8 @@ def told_apart(event: events.Key, screen: Screen[Any]) -> list[events.Key]:
     if not event.key.startswith(ALT) or not event.character or event.key in screen.active_bindings:
         return []
     both = [events.Key("escape", ESC), events.Key(event.character, event.character)]
+    given: Any = event  # who sent it is private to Textual
     for each in both:
         each.time = event.time
-        each.set_sender(event._sender)
+        each.set_sender(given._sender)
     return both
