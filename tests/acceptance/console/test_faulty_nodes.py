@@ -59,8 +59,8 @@ class System:
             self.until(lambda name=name: self.heard(name, "up"), f"{name} is up")
 
     def named(self, name: str) -> ProcessInfo:
-        """The process of a name."""
-        return next(each for each in self.launcher.info().processes if each.label.startswith(name))
+        """The process of a name; the last one, where a test has begun anew."""
+        return next(each for each in reversed(self.launcher.info().processes) if each.label.startswith(name))
 
     def heard(self, name: str, text: str) -> Any:
         """Whether a process's line has this in it."""
@@ -216,7 +216,7 @@ def test_a_host_with_a_thread_that_holds_the_interpreters_lock_is_named_and_ende
 
 def test_the_robot_is_stopped_beside_those_that_never_end(system: System) -> None:
     system.start({name: HEAD + fault for name, fault in ENDLESS.items() if name != "floods"})
-    system.until(lambda: (system.named("holds").memory or 0) > 300, "its memory")
+    system.until(lambda: (system.named("holds").memory or 0) > 250, "its memory")
     system.start({"floods": HEAD + ENDLESS["floods"]})
     assert typed("stop", "a test").returncode == 0
     system.kill(["floods"])  # it takes a whole processor
