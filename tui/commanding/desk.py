@@ -112,8 +112,8 @@ class Desk:
         streams = self._streams()
         if len(streams.panels) > 1:
             self._app.push_screen(screen_for(which_stream(streams)))
-        for each in streams.panels[:1] if len(streams.panels) == 1 else ():
-            streams.end(each)
+        elif streams.panels:
+            streams.end(streams.panels[0])
 
     def _streams(self) -> StreamPanels:
         return self._app.screen_stack[0].query_one(StreamPanels)
