@@ -67,20 +67,26 @@ class LinkProbe:
 
     def look(self) -> float:
         """Ask, if it is time to, and take the answers that have come; gives the seconds until the next look."""
+        with contextlib.suppress(RuntimeError):  # the session is being closed
+            self._ask_if_due()
+            self._take_answers()
+        since = self._clock() - self._asked
+        if not self._open:
+            return max(SOON, PERIOD - since)
+        return SOON if since < LATER else LATER
+
+    def _ask_if_due(self) -> None:
         if self._clock() - self._asked >= PERIOD:
             self._asked = self._clock()
-            with contextlib.suppress(RuntimeError):  # the session is being closed
-                self._open.append((self._asked, self._ask(PATIENCE)))
+            self._open.append((self._asked, self._ask(PATIENCE)))
+
+    def _take_answers(self) -> None:
         for asked, answer in [*self._open]:
             answered = answer()
             if answered is not None:
                 self._open.remove((asked, answer))
             if answered:
                 self._take(asked)
-        since = self._clock() - self._asked
-        if not self._open:
-            return max(SOON, PERIOD - since)
-        return SOON if since < LATER else LATER
 
     def _take(self, asked: float) -> None:
         """Believe an answer, unless the question was open over a long silence."""
