@@ -137,10 +137,20 @@ BESIDE_OTHERS = (
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """One order, however they were read; and tests over processes, terminals and screens are tried twice.
 
-    Beside others one of the parts may come too late. The summary counts what needed its second try (`rerun`); a fault
-    fails both.
+    Beside others one of the parts may come too late. The summary counts what needed its second try (`rerun`) and shows
+    what failed in the first; a fault fails both.
     """
     items.sort(key=lambda each: each.path)
     for item in items:
         if item.nodeid.startswith(BESIDE_OTHERS):
             item.add_marker(pytest.mark.flaky(reruns=1))
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """A first try that failed is shown though the second passed: a fault that is rare would never be seen else."""
+    for report in terminalreporter.getreports("rerun"):
+        terminalreporter.write_sep("_", f"first try of {report.nodeid}")
+        terminalreporter.write_line(report.longreprtext)
+        for name, text in report.sections:
+            terminalreporter.write_sep("-", name)
+            terminalreporter.write_line(text)
