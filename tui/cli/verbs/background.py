@@ -208,7 +208,11 @@ def _tell_holders() -> None:
     from bot_console.tui.cli.verbs.stop import holders
     from bot_console.tui.format import harmless
 
-    for each in holders():
+    found = holders()
+    if found is None:
+        print("whether somebody holds it is not known: its emergency stop has not answered")
+        return
+    for each in found:
         print(f"held by {harmless(each)}; bot-console release --all lets it go")
 
 

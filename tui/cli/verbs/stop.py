@@ -74,23 +74,28 @@ def ask(verb: str, reason: str, *, everybody: bool = False) -> tuple[bool, StopI
     return done, link.info
 
 
-def holders(patience: float = 1.0) -> list[str]:
-    """Who holds the robots that are found, each with a reason; so many seconds are given them to tell."""
+def holders(to_find: float = 1.0, to_hear: float = PATIENCE) -> list[str] | None:
+    """Who holds the robots that are found, each with a reason; None where one that can be held has not said it.
+
+    So many seconds are given to find a robot, and to hear one that is found.
+    """
     install()
     import rclpy
     from bot_console.tui.console.robot.stop_link import STATUS, StopLink
 
     rclpy.init(args=[])
     node = rclpy.create_node("_bot_console_status", enable_rosout=False, start_parameter_services=False)
-    link, deadline = StopLink(node), time.monotonic() + patience
-    while not (link.info.locks and link.heard) and time.monotonic() < deadline:
+    link, begun = StopLink(node), time.monotonic()
+    while not (link.info.locks and link.heard):
+        if time.monotonic() - begun > (to_hear if link.info.locks else to_find):
+            break
         names = node.get_topic_names_and_types()
         link.follow(name for name, types in names if STATUS in types and node.count_publishers(name))
         for _ in range(10):
             rclpy.spin_once(node, timeout_sec=0.01)
     node.destroy_node()
     rclpy.try_shutdown()
-    return _said(link.info) if link.info.stopped else []
+    return _said(link.info) if link.heard else None
 
 
 def _said(info: StopInfo) -> list[str]:

@@ -1,0 +1,42 @@
+"""Who holds a robot, as `bot-console status` tells it."""
+
+from collections.abc import Iterator
+
+import pytest
+from bot_console.tui.cli.verbs import background, stop
+from bot_console.tui.console.robot.stop_link import FOLDER, LATCHED
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+from rclpy.context import Context
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+
+
+@pytest.fixture
+def word(monkeypatch: pytest.MonkeyPatch) -> Iterator[Publisher]:
+    """The word of a robot's emergency stop, of which nothing has been said yet."""
+    monkeypatch.setenv("ROS_DOMAIN_ID", "48")
+    context = Context()
+    context.init([], domain_id=48)
+    node = Node("monitor", context=context)
+    yield node.create_publisher(DiagnosticStatus, f"{FOLDER}monitor", LATCHED)
+    node.destroy_node()
+    context.try_shutdown()
+
+
+def test_a_robot_that_says_nothing_is_not_taken_for_one_that_nobody_holds(word: Publisher) -> None:
+    assert stop.holders(to_hear=0.0) is None
+    word.publish(DiagnosticStatus(values=[KeyValue(key="locked", value="false")]))
+    assert stop.holders() == []
+
+
+def test_it_is_said_when_the_robot_does_not_answer(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(stop, "holders", lambda: None)
+    background._tell_holders()
+    assert capsys.readouterr().out == "whether somebody holds it is not known: its emergency stop has not answered\n"
+
+
+def test_there_may_be_no_robot_that_can_be_held(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS_DOMAIN_ID", "49")
+    assert stop.holders(to_find=0.0) == []
