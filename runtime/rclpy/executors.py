@@ -244,14 +244,14 @@ class Executor(ReadyCallbacks):
         if not (due or ready or self._ready_tasks):  # as before each wait
             return bool(batch)
         entities: list[Any] = []
+        if due:
+            with self._lock:
+                entities = self._timers.pop_due(now, self)
         while ready:
             entity = ready.popleft()
             entity.marked = None
             if entity.sink is self:
                 entities.append(entity)
-        if due:
-            with self._lock:
-                entities += self._timers.pop_due(now, self)
         if self._ready_tasks:
             batch.extend(self._collect_tasks())
         if len(entities) > 1:
@@ -263,12 +263,13 @@ class Executor(ReadyCallbacks):
         with self._lock:
             timer = self._timers.next_deadline(self)
         until = timer if deadline is None else deadline if timer is None else min(deadline, timer)
-        self._wakeup.clear()
+        wakeup, context = self._wakeup, self._context
+        wakeup.clear()
         self._waiting += 1
         try:
-            if self._ready or self._ready_tasks or self._is_shutdown or not self._context.ok():
+            if self._ready or self._ready_tasks or self._is_shutdown or (context.ended and not context.ok()):
                 return
-            woken = self._wakeup.wait(until)
+            woken = wakeup.wait(until)
         finally:
             self._waiting -= 1
         if not woken and deadline is not None and self._clock.steady_ns() >= deadline:
