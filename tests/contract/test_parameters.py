@@ -336,3 +336,12 @@ def test_what_runs_is_saved_as_a_profile_and_can_be_gone_back_to(rig: Rig) -> No
     assert [each.name for each in rig.console.snapshot().profiles if each.own] == ["faster"]
     assert rig.console.delete_profile("faster").ok and not rig.console.delete_profile("faster").ok
     assert not any(each.own for each in rig.console.snapshot().profiles)
+
+
+def test_a_profile_whose_file_is_deleted_is_the_active_one_no_more(rig: Rig) -> None:
+    assert rig.console.save_profile("passing").ok
+    assert all(each.accepted for each in rig.console.apply_profile("passing").result(PATIENCE))
+    assert rig.console.snapshot().active_profile == "passing"
+    assert rig.console.delete_profile("passing").ok
+    snapshot = rig.console.snapshot()
+    assert (snapshot.active_profile, snapshot.profile_changes) == ("", 0)

@@ -59,6 +59,8 @@ class LinkedConsole:
         node.node.create_timer(SHELF_PERIOD, shelf.look_if_changed)
         self._capabilities = capabilities
         self._recordings = Recordings(past)
+        self._once_there: set[str] = set()
+        """Profiles that were on the shelf while they were the active one."""
 
     @property
     def recording(self) -> Recording:
@@ -79,6 +81,7 @@ class LinkedConsole:
         """What the node knows now; each unchanged part is the same object."""
         node = self._node
         world = node.world.info
+        active = self._active_profile()
         return ConsoleSnapshot(
             graph=node.graph.info,
             parameters=node.parameters.trees,
@@ -87,11 +90,20 @@ class LinkedConsole:
             world=world,
             drive=node.drive.info(world),
             profiles=self._shelf.profiles,
-            active_profile=node.setter.profile,
-            profile_changes=node.profile_changes(self._profile(node.setter.profile)),
+            active_profile=active,
+            profile_changes=node.profile_changes(self._profile(active)),
             capabilities=self._capabilities,
             recording=self._recordings.info,
         )
+
+    def _active_profile(self) -> str:
+        """The profile that runs; none once its file has been deleted, by whomever."""
+        name = self._node.setter.profile
+        if self._profile(name) is not None:
+            self._once_there.add(name)
+        elif name in self._once_there:
+            return ""
+        return name
 
     def log(self, seq: int) -> LogRecord | None:
         """The log record of that number."""
