@@ -170,6 +170,10 @@ class Context:
         if self._abandoned:
             node._ros_leave_graph()
 
+    def tracked_nodes(self) -> list[Any]:
+        """The nodes that it has now."""
+        return list(self._nodes)
+
     def untrack_node(self, node: Any) -> None:
         """A node was destroyed."""
         self._nodes.discard(node)

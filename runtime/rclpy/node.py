@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from types import TracebackType
 from typing import Any
 
+from bot_console.runtime.process import current
+from bot_console.runtime.process.notices import notify
 from bot_console.runtime.rmw import names, remapping
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
@@ -17,6 +19,7 @@ from rclpy.impl.reexports import reexporting
 from rclpy.logging import get_logger
 from rclpy.node_parts.entities import NodeEntities
 from rclpy.node_parts.graph import NodeGraph
+from rclpy.node_parts.missed_parameter_files import missed_files
 from rclpy.node_parts.parameters import NodeParameters
 from rclpy.node_parts.rosout import Rosout
 from rclpy.parameter import Parameter
@@ -129,8 +132,16 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         )
         self._clock = ROSClock()
         self._ros_init_parameters(arguments, overrides, undeclared, automatic)
+        self._ros_tell_missed_files(arguments)
         self._time_source = TimeSource(node=self)
         self._time_source.attach_clock(self._clock)
+
+    def _ros_tell_missed_files(self, arguments: list[Any]) -> None:
+        own = self.get_fully_qualified_name()
+        others = [each.get_fully_qualified_name() for each in self.context.tracked_nodes() if each is not self]
+        for each in arguments:
+            for line in missed_files(each.parameters, own, others):
+                notify(current(), line)
 
     @property
     def executor(self) -> Any:

@@ -1,0 +1,47 @@
+"""Parameter files that give a node nothing, since none of their keys means it: ROS 2 says nothing of that."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from typing import TYPE_CHECKING
+
+from bot_console.runtime.rmw.parameter_precedence import COMMAND_LINE, key_matches
+
+if TYPE_CHECKING:
+    from bot_console.runtime.rmw.parameter_precedence import ParameterTable
+
+HIDDEN = "_"
+
+
+def missed_files(table: ParameterTable, node: str, others: Collection[str]) -> Iterator[str]:
+    """A line for each file in which a node, by its full name, has no key, and whose key for it seems to be mistyped.
+
+    A file for many nodes may well leave one out: told is where a key that means none of the `others` of the process
+    (full names) looks like the node's name, or is all that the file has.
+    """
+    if node.rpartition("/")[2].startswith(HIDDEN):
+        return
+    for path, keys in _keys_by_file(table).items():
+        if any(key_matches(key, node) for key in keys):
+            continue
+        free = [key for key in keys if not any(key_matches(key, each) for each in others)]
+        near = _nearest(node, free) or (free[0] if len(keys) == 1 and free else "")
+        if near:
+            yield f"{path} gives {node} no parameter: its key '{near}' does not mean it; did you mean '{node}'?"
+
+
+def _keys_by_file(table: ParameterTable) -> dict[str, list[str]]:
+    found: dict[str, list[str]] = {}
+    for key, values in table.nodes.items():
+        for path in dict.fromkeys(values.sources):
+            if path != COMMAND_LINE:
+                found.setdefault(path, []).append(key)
+    return found
+
+
+def _nearest(node: str, keys: list[str]) -> str:
+    from difflib import get_close_matches  # where something was missed, which most programs never do
+
+    by_name = {key.rpartition("/")[2]: key for key in keys if "*" not in key}
+    found = get_close_matches(node.rpartition("/")[2], by_name, 1)
+    return by_name[found[0]] if found else ""

@@ -1,0 +1,57 @@
+"""A parameter file that gives a node nothing is told of where its key looks mistyped, and only there."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+from bot_console.runtime.process.notices import on_notice
+
+SECTION = "{}:\n  ros__parameters:\n    speed: 2.0\n"
+
+
+@pytest.fixture
+def told():
+    lines: list[str] = []
+    forget = on_notice(lambda process, text: lines.append(text))
+    yield lines
+    forget()
+
+
+def begin(ros: Any, folder: Path, *keys: str) -> str:
+    """A context with a file that has these keys."""
+    file = folder / "parameters.yaml"
+    file.write_text("".join(SECTION.format(key) for key in keys))
+    ros.init("--params-file", str(file), "-p", "other:=1")
+    return str(file)
+
+
+@pytest.mark.parametrize(
+    ("key", "space"), [("robto_node", ""), ("/robot", ""), ("robot_node", "/left"), ("camera", ""), ("/left/*", "")]
+)
+def test_a_key_that_looks_mistyped_or_is_all_there_is_is_named_once(
+    key: str, space: str, ros: Any, told: list[str], tmp_path: Path
+) -> None:
+    file = begin(ros, tmp_path, key)
+    node = ros.node("robot_node", namespace=space)
+    assert node.declare_parameter("speed", 1.0).value == 1.0
+    ros.node("_robot_nodes_hidden_helper")
+    full = f"{space}/robot_node"
+    assert told == [f"{file} gives {full} no parameter: its key '{key}' does not mean it; did you mean '{full}'?"]
+
+
+@pytest.mark.parametrize("keys", [("/**",), ("robot_node", "robto_node"), ("/*",), ("camera", "arm")])
+def test_a_file_that_reaches_the_node_or_is_for_many_others_is_not(
+    keys: tuple[str, ...], ros: Any, told: list[str], tmp_path: Path
+) -> None:
+    begin(ros, tmp_path, *keys)
+    ros.node("robot_node")
+    assert told == []
+
+
+def test_what_means_another_node_of_the_program_is_not(ros: Any, told: list[str], tmp_path: Path) -> None:
+    begin(ros, tmp_path, "camera_left")
+    ros.node("camera_left")
+    ros.node("camera_right")
+    assert told == []
