@@ -1,9 +1,12 @@
-"""Where each thread of a console stands is kept in a file: when its screen stands, and whenever SIGUSR1 asks for it.
+"""Where each thread and task of a console stands is kept in a file: when its screen stands, and when SIGUSR1 asks.
 
 A screen that stands says nothing itself, and what it waits for is not known afterwards. A thread of ours writes the
 stacks while it has the interpreter's lock: to walk through those of threads that run meanwhile can end the process. So
 no timer writes them without that lock, as it would when a stopped process goes on. Where no thread gets it, a signal
 that ends the process, such as SIGABRT, has them written.
+
+An app also stands when its event loop runs, but what deals with its messages waits for something that does not come, or
+a batch of changes stays open: then its tasks are written.
 """
 
 from __future__ import annotations
@@ -21,10 +24,17 @@ from pathlib import Path
 from types import FrameType
 from typing import Any
 
+from bot_console.tui.cli.waiting_tasks import waiting_tasks
+
 FILE = "console-stacks.txt"
 STANDS_S = 15.0
 """Seconds after which a thread that draws and has done nothing counts as standing."""
 BEAT_S = 1.0
+DEAF = round(STANDS_S / BEAT_S)
+"""Beats without an answer after which an app counts as standing though its loop runs.
+
+Beats and not seconds: of a process that was stopped, or had lent its terminal, only the clock has gone on.
+"""
 FIRST = 100
 """Our descriptors begin here, beyond those that programs close or count."""
 
@@ -43,6 +53,7 @@ class Standstill:
         self._heard: float | None = None
         self._written = False
         self._over = threading.Event()
+        self._unanswered = 0
 
     def watch(self) -> None:
         """Look once a second until the end, in the calling thread."""
@@ -83,6 +94,7 @@ class Standstill:
     def accompany(self, app: Any) -> None:
         """Beat in the running loop of an app (of Textual, which does not tell the types of its signals) from now on."""
         self.follow()
+        asyncio.get_running_loop().call_soon(self._listen, app)
 
         def left(_: object) -> None:  # an editor, or the shell, has the terminal
             self.rest()
@@ -92,6 +104,27 @@ class Standstill:
 
         app.app_suspend_signal.subscribe(app, left, immediate=True)
         app.app_resume_signal.subscribe(app, back, immediate=True)
+
+    def _listen(self, app: Any) -> None:
+        self.heed(app)
+        asyncio.get_running_loop().call_later(BEAT_S, self._listen, app)
+
+    def heed(self, app: Any) -> None:
+        """Send the app a message, unless one is under way; write what its tasks wait for where that is not answered."""
+        if self._unanswered == 0:
+            app.call_later(self._answer, app)
+        self._unanswered += 1
+        if self._unanswered == DEAF:
+            self.note(f"the app has dealt with nothing for {STANDS_S:.0f} s: {app.how_it_draws()}\n{waiting_tasks()}")
+
+    def _answer(self, app: Any) -> None:
+        if app.holds_frames:
+            app.set_timer(BEAT_S, lambda: self._answer(app))
+            return
+        if self._unanswered >= DEAF:
+            self.note(f"the app goes on after {self._unanswered * BEAT_S:.0f} s")
+            self._tell(f"the console did nothing for {self._unanswered * BEAT_S:.0f} s; why is in {self._path}")
+        self._unanswered = 0
 
     def note(self, text: str) -> None:
         """Write a line into the file."""
@@ -118,7 +151,7 @@ def stacks_kept(folder: Path, state: Callable[[], str], tell: Callable[[str], No
 
     def asked(number: int, frame: FrameType | None) -> None:  # in the thread that draws: else it was written before
         faulthandler.dump_traceback(descriptor)
-        standstill.note(state())
+        standstill.note(f"{state()}\n{waiting_tasks()}")
 
     before = signal.signal(signal.SIGUSR1, asked)
     fatal = not faulthandler.is_enabled()

@@ -113,6 +113,11 @@ class SparingApp(App[None]):
             self._look_again()
         return False
 
+    @property
+    def holds_frames(self) -> bool:
+        """Whether a batch of changes is open, before whose end nothing is drawn."""
+        return bool(self._batch_count)
+
     def how_it_draws(self) -> str:
         """What drawing depends on, on one line, for who looks for the reason why nothing is drawn."""
         driver = self._driver_or_none()

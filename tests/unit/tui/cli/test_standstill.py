@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 
 import pytest
-from bot_console.tui.cli.standstill import FILE, STANDS_S, Standstill, stacks_kept
+from bot_console.tui.cli.standstill import DEAF, FILE, STANDS_S, Standstill, stacks_kept
 
 HERE = "in test_"
 
@@ -99,3 +101,59 @@ def test_a_place_that_cannot_be_written_is_no_reason_to_have_no_console(tmp_path
     (tmp_path / "file").touch()
     with stacks_kept(tmp_path / "file", lambda: "", print) as watch:
         assert watch is None
+
+
+class App:
+    """An app that keeps the messages it is sent until it is told to deal with them."""
+
+    def __init__(self) -> None:
+        self.messages: list[Callable[[], object]] = []
+        self.holds_frames = False
+
+    def call_later(self, callback: Callable[..., object], *words: object) -> None:
+        self.messages.append(partial(callback, *words))
+
+    def set_timer(self, seconds: float, callback: Callable[[], object]) -> None:
+        self.messages.append(callback)
+
+    def how_it_draws(self) -> str:
+        return "two screens"
+
+    def deal(self) -> None:
+        messages, self.messages = self.messages, []
+        for each in messages:
+            each()
+
+
+@pytest.mark.parametrize("held", [False, True])
+def test_an_app_that_stands_while_its_loop_runs_is_found_with_what_it_waits_for(
+    kept: tuple[Standstill, Clock, list[str], Path], held: bool
+) -> None:
+    watch, _, told, path = kept
+    app = App()
+
+    async def waits() -> None:
+        await asyncio.Event().wait()
+
+    async def stand() -> None:
+        waiting = asyncio.create_task(waits(), name="message pump App()")
+        await asyncio.sleep(0)
+        for _ in range(3 * DEAF):
+            watch.heed(app)
+            app.deal()
+        assert (path.read_text(), told) == ("", []), "one that answers"
+        app.holds_frames = held
+        for _ in range(2 * DEAF):
+            watch.heed(app)
+            if held:
+                app.deal()
+        waiting.cancel()
+
+    asyncio.run(stand())
+    text = path.read_text()
+    assert text.count("dealt with nothing for 15 s: two screens") == 1, "once"
+    assert text.count("message pump App():") == 1 and "in waits\n" in text and "locks.py" in text
+    app.holds_frames = False
+    app.deal()
+    [line] = told
+    assert "did nothing for 30 s" in line and str(path) in line
