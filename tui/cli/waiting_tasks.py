@@ -7,15 +7,18 @@ from typing import Any
 
 
 def waiting_tasks() -> str:
-    """Each task of the loop that runs in this thread, with the lines in which it waits, the outermost first.
+    """The tasks of the loop that runs in this thread, with the lines in which they wait, the outermost first.
 
-    Empty where none runs.
+    Those that wait alike stand together. Empty where no loop runs.
     """
     try:
         tasks = asyncio.all_tasks()
     except RuntimeError:
         return ""
-    return "\n".join(sorted(f"Task {each.get_name()}:\n" + "".join(_lines(each.get_coro())) for each in tasks))
+    names: dict[str, list[str]] = {}
+    for each in tasks:
+        names.setdefault("".join(_lines(each.get_coro())), []).append(each.get_name())
+    return "\n".join(f"Task {', '.join(sorted(alike))}:\n{lines}" for lines, alike in sorted(names.items()))
 
 
 def _lines(waiting: Any) -> list[str]:
