@@ -14,6 +14,8 @@ class CallbackGroup:
     """Entities that are ready and have to wait for the group, or nothing."""
     own_rules = False
     """Whether it is a program's own class, which does not tell when an entity that had to wait may begin."""
+    _full = 64
+    """So many entities, those that are gone among them, that these are let go before another one is added."""
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
@@ -41,6 +43,11 @@ class CallbackGroup:
 
     def add_entity(self, entity: Any) -> None:
         """Let an entity belong to the group."""
+        if len(self.entities) >= self._full:
+            # Here and not when they go: then a program that iterates over the set would find it changed at any moment.
+            known = tuple(self.entities)  # at once: other threads may add meanwhile
+            self.entities.difference_update([each for each in known if each() is None])
+            self._full = 2 * max(len(self.entities), CallbackGroup._full)
         self.entities.add(weakref.ref(entity))
 
     def has_entity(self, entity: Any) -> bool:

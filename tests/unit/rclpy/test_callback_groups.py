@@ -157,3 +157,17 @@ def test_a_waiting_coroutine_leaves_a_reentrant_group_free(ros: Any) -> None:
     assert got == [("start", 1), ("start", 2)]
     go.set_result(None)
     ros.spin(lambda: len(got) >= 4)
+
+
+class Thing:
+    """Belongs to a group."""
+
+
+def test_a_group_lets_those_go_that_are_gone() -> None:
+    group, kept = ReentrantCallbackGroup(), [Thing() for _ in range(100)]
+    for each in kept:
+        group.add_entity(each)
+    for _ in range(2000):
+        group.add_entity(Thing())
+    assert len(group.entities) <= 2 * len(kept), "a node that makes a timer a second would grow for good"
+    assert all(map(group.has_entity, kept))
