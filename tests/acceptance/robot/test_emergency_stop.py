@@ -4,12 +4,45 @@ from __future__ import annotations
 
 import re
 import sys
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+import rclpy
 from bot_console.tui.cli.verbs.stop import run
 from systems import Program, System, system
+
+SLOW_LOCK = """
+import sys
+import time
+import rclpy
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+from rclpy.qos import DurabilityPolicy, QoSProfile
+
+late, deaf = float(sys.argv[1]), int(sys.argv[2])
+time.sleep(late)
+rclpy.init()
+node = rclpy.create_node("slow_lock")
+latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+state = node.create_publisher(DiagnosticStatus, "emergency_stop/base", latched)
+heard = []
+
+
+def tell(locked):
+    state.publish(DiagnosticStatus(values=[KeyValue(key="locked", value=locked)]))
+
+
+def asked(message):
+    heard.append(message)
+    if len(heard) > deaf:
+        tell("true")
+
+
+node.create_subscription(DiagnosticStatus, "emergency_stop/request", asked, 10)
+tell("false")
+rclpy.spin(node)
+"""
 
 ROOT = Path(__file__).resolve().parents[3]
 MOVING, STANDING = 0.2, 0.02
@@ -213,3 +246,23 @@ def test_a_stop_that_nobody_acknowledges_says_so() -> None:
         alone = running.finish(running.start("stop", lambda: sys.exit(run("stop", [])), ["stop"]))
     assert alone.exit == 1
     assert alone.stderr.startswith("stop sent, not confirmed: no robot with an emergency stop was found")
+
+
+@pytest.mark.parametrize(
+    ("late", "deaf", "slow"), [(0.0, 60, 0.0), (8.0, 0, 0.1)], ids=["one that answers late", "on a busy machine"]
+)
+def test_a_stop_goes_on_until_a_slow_robot_has_acknowledged_it(
+    late: float, deaf: int, slow: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    program, spin_once = tmp_path / "slow_lock.py", rclpy.spin_once
+    program.write_text(SLOW_LOCK)
+
+    def starved(*words: object, **named: object) -> None:
+        time.sleep(slow)
+        spin_once(*words, **named)
+
+    with system() as running:
+        running.python(str(program), str(late), str(deaf))
+        monkeypatch.setattr(rclpy, "spin_once", starved)
+        asked = running.finish(running.start("stop", lambda: sys.exit(run("stop", [])), ["stop"]))
+    assert (asked.exit, asked.stdout) == (0, "held: the robot is locked until a person releases it\n"), asked.stderr

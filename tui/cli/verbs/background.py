@@ -179,7 +179,7 @@ def _bring_to_rest() -> None:
     from bot_console.tui.cli.verbs import stop
 
     install()
-    stop.ask("stop", "its system is being ended")
+    stop.ask("stop", "its system is being ended", answers_s=stop.PATIENCE)
 
 
 def status(words: Sequence[str]) -> int:

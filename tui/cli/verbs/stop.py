@@ -16,7 +16,11 @@ if TYPE_CHECKING:
     from bot_console.tui.console.robot.stop_link import StopInfo
 
 PATIENCE = 3.0
-"""Seconds to find the robot and hear its answer."""
+"""Seconds to hear who holds a robot, and to stop one that is ended in any case."""
+LOOKS = 30
+"""How often a robot is looked for, every 0.1 s: looks and not seconds, in which a busy machine leaves room for few."""
+ANSWERS_S = 15.0
+"""Seconds from the start in which a robot that was found may answer; it is asked on until then."""
 
 
 def stop(words: list[str]) -> int:
@@ -47,8 +51,11 @@ def run(verb: str, words: list[str]) -> int:
     return _tell(verb, done, info)
 
 
-def ask(verb: str, reason: str, *, everybody: bool = False) -> tuple[bool, StopInfo]:
-    """Ask every robot that is found to lock or release, everybody's stops if so; whether all did, and what is known."""
+def ask(verb: str, reason: str, *, everybody: bool = False, answers_s: float = ANSWERS_S) -> tuple[bool, StopInfo]:
+    """Ask every robot that is found to lock or release, everybody's stops if so; whether all did, and what is known.
+
+    One that was found may answer for so many seconds from the start.
+    """
     import rclpy
     from bot_console.tui.console.robot.stop_link import STATUS, StopLink, user
 
@@ -58,8 +65,9 @@ def ask(verb: str, reason: str, *, everybody: bool = False) -> tuple[bool, StopI
     link = StopLink(node, f"bot-console {verb} of {user()}", f"bot-console stop of {user()}")
     if verb == "stop":
         link.stop(reason)
-    deadline, done = time.monotonic() + PATIENCE, False
-    while not done and time.monotonic() < deadline:
+    looks, until, done = 0, time.monotonic() + answers_s, False
+    while not done and (looks < LOOKS or (link.info.locks and time.monotonic() < until)):
+        looks += 1
         names = node.get_topic_names_and_types()
         link.follow(name for name, types in names if STATUS in types and node.count_publishers(name))
         if verb == "release" and not link.releasing and (wanted := _to_release(link.info, everybody)):
