@@ -55,9 +55,19 @@ def test_what_cannot_be_sent_is_refused(message: Any, words: str) -> None:
 
 
 def test_a_fixed_array_of_wrong_length_is_refused() -> None:
+    Imu()._copy_()  # from the first good one on there is a shorter way
     message = Imu()
     message.orientation_covariance = [0.0] * 8
     assert "must be a sequence of exactly 9" in refused(message)
+
+
+def test_a_fixed_array_is_copied_each_time() -> None:
+    message = Imu()
+    copies = [message._copy_() for _ in range(3)]
+    message.orientation_covariance[0] = 1.0
+    copies[0].orientation_covariance[1] = 2.0
+    assert [each.orientation_covariance[:2].tolist() for each in copies] == [[0.0, 2.0], [0.0, 0.0], [0.0, 0.0]]
+    assert {each.orientation_covariance.dtype for each in copies} == {numpy.dtype("float64")}
 
 
 def test_numbers_of_numpy_become_plain() -> None:
