@@ -8,13 +8,13 @@ from bot_console.tui import keymap
 from bot_console.tui.keymap import TABLE
 from bot_console.tui.keys.key import key_text
 from bot_console.tui.layout.tree import Way
+from bot_console.tui.terminal.composing.veil import VeilScreen
 from bot_console.tui.widgets.prompt.line import Prompt, asks
 from bot_console.tui.widgets.prompt.question import Line
 from rich.style import Style
 from rich.text import Text
 from textual.app import ComposeResult
 from textual.binding import BindingType
-from textual.screen import ModalScreen
 from textual.widgets import Static
 
 
@@ -66,7 +66,7 @@ class Arranger(Protocol):
         ...
 
 
-class ArrangeScreen(ModalScreen[None]):
+class ArrangeScreen(VeilScreen):
     """A line of keys over the last line of the screen; everything above it stays to be seen."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("arrange")]

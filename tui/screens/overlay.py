@@ -8,18 +8,18 @@ from typing import ClassVar
 from bot_console.tui import keymap
 from bot_console.tui.format import harmless
 from bot_console.tui.screens.box import Boxed
+from bot_console.tui.terminal.composing.veil import VeilScreen
 from rich.console import RenderableType
 from rich.text import Text
 from textual.app import ComposeResult
 from textual.binding import BindingType
 from textual.containers import VerticalScroll
 from textual.events import Click
-from textual.screen import ModalScreen
 from textual.widget import Widget
 from textual.widgets import Static
 
 
-class Overlay(ModalScreen[None], Boxed):  # pyright: ignore[reportIncompatibleMethodOverride] # of Textual
+class Overlay(VeilScreen, Boxed):  # pyright: ignore[reportIncompatibleMethodOverride] # of Textual
     """A title and what is to be read below it."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("overlay")]

@@ -5,15 +5,15 @@ from __future__ import annotations
 from typing import ClassVar, TypeVar
 
 from bot_console.tui import keymap
+from bot_console.tui.terminal.composing.veil import VeilScreen
 from bot_console.tui.widgets.prompt.question import Asker, Question
 from textual.app import App
 from textual.binding import BindingType
-from textual.screen import ModalScreen
 
 A = TypeVar("A")
 
 
-class QuestionScreen(Asker[A], ModalScreen[None]):
+class QuestionScreen(Asker[A], VeilScreen):
     """Holds a question until it is answered; leaves the screen by itself when what it is about has left."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("question")]

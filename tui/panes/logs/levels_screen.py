@@ -13,6 +13,7 @@ from bot_console.tui.console.model import GraphInfo, Severity
 from bot_console.tui.console.protocol import Console, LoggerLevel
 from bot_console.tui.format import LETTERS, cut, harmless
 from bot_console.tui.panes.pane import answer_of
+from bot_console.tui.terminal.composing.veil import VeilScreen
 from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.item_list import ItemList
 from bot_console.tui.widgets.words import Words
@@ -20,7 +21,6 @@ from rich.segment import Segment
 from rich.text import Text
 from textual.app import App, ComposeResult
 from textual.binding import BindingType
-from textual.screen import ModalScreen
 
 HINT = "d i w e f level · u as its parent · esc closes"
 LEVELS = (Severity.DEBUG, Severity.INFO, Severity.WARN, Severity.ERROR, Severity.FATAL)
@@ -42,7 +42,7 @@ class LevelRows(ItemList[LoggerLevel]):
         return [Segment(f" {cut(harmless(level.logger), wide, pad=True)}  {marks}  {set_here}")]
 
 
-class LevelsScreen(ModalScreen[None]):
+class LevelsScreen(VeilScreen):
     """Asks every node that offers it, and shows what has answered so far."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("levels")]

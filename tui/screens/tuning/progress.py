@@ -9,6 +9,7 @@ from typing import ClassVar
 import numpy as np
 from bot_console.tui import keymap
 from bot_console.tui.format import counted, cut, value_text
+from bot_console.tui.terminal.composing.veil import VeilScreen
 from bot_console.tui.tuning.dial import Setting
 from bot_console.tui.tuning.question import Question
 from bot_console.tui.tuning.study import Judged, Progress
@@ -23,7 +24,6 @@ from rich.segment import Segment
 from rich.text import Text
 from textual.app import ComposeResult
 from textual.binding import BindingType
-from textual.screen import ModalScreen
 
 LOOKS = 4.0
 """Times a second that progress is looked at."""
@@ -77,7 +77,7 @@ class SettingRows(RowList):
         return f"{'score':>9}  " + "".join(names)
 
 
-class TuningScreen(ModalScreen[None]):
+class TuningScreen(VeilScreen):
     """Shows a tuning; closing it ends the runs."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("tuning")]

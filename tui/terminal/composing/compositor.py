@@ -6,10 +6,10 @@ one in the last cost what the whole screen costs, ten times a second.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 
-from textual._compositor import ChopsUpdate, Compositor
+from textual._compositor import ChopsUpdate, Compositor, LayoutUpdate
 from textual.geometry import Region
 from textual.strip import Strip
 from textual.widget import Widget
@@ -28,6 +28,25 @@ class PartwiseCompositor(Compositor):
         if not regions:
             return None
         spans = list(self._regions_to_spans(regions))
+        return ChopsUpdate(self._chops(spans), spans, [cuts[1:] for cuts in self.cuts])
+
+    def render_full_update(self, simplify: bool = False) -> LayoutUpdate:
+        """All that is seen; simplified, for a picture of the screen, as Textual does it."""
+        if simplify:
+            return super().render_full_update(simplify)
+        self._dirty_regions.clear()
+        width, height = self.size
+        chops = self._chops([(y, 0, width) for y in range(height)])
+        return LayoutUpdate([chop.values() for chop in chops], self.size.region)
+
+    def lines(self, rows: range) -> list[Strip]:
+        """Whole lines as they are now; those below the last one are empty."""
+        width, height = self.size
+        chops = self._chops([(y, 0, width) for y in rows if y < height])
+        return [Strip.join(chops[y].values()) if y < height else Strip.blank(width) for y in rows]
+
+    def _chops(self, spans: Sequence[tuple[int, int, int]]) -> list[dict[int, Strip | None]]:
+        """Pieces of lines by their columns; those of lines that are in no span are missing."""
         chops: list[dict[int, Strip | None]] = [{} for _ in self.cuts]
         wanted = self._pieces(spans)
         for y in wanted:
@@ -42,7 +61,7 @@ class PartwiseCompositor(Compositor):
                     chops[y][x] = strip.crop(x - shown.x, line.pop(x) - shown.x)
                 if not line:
                     del wanted[y]
-        return ChopsUpdate(chops, spans, [cuts[1:] for cuts in self.cuts])
+        return chops
 
     def _pieces(self, spans: Iterable[tuple[int, int, int]]) -> Pieces:
         pieces: Pieces = {}

@@ -1,0 +1,66 @@
+"""A screen over the panes, which are seen dimmed around what it shows.
+
+Textual renders all that lies below through Rich, splits it into lines again and tints it piece by piece: most of what
+it costs to open the help, or any question. Here only lines that are wanted are asked for, and a style is tinted once.
+It hangs on private parts of Textual, as `output` does.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import Any, cast
+
+from bot_console.tui.terminal.composing.compositor import PartwiseCompositor
+from bot_console.tui.terminal.output import SUPPORTED
+from rich.segment import Segment
+from rich.style import Style
+from textual.color import Color
+from textual.geometry import Region
+from textual.renderables.background_screen import BackgroundScreen
+from textual.screen import ModalScreen
+from textual.strip import Strip
+
+
+class VeilScreen(ModalScreen[None]):
+    """Composes what has changed, and takes what is below as lines."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        if SUPPORTED:
+            self._compositor = PartwiseCompositor()
+
+    def render_lines(self, crop: Region) -> list[Strip]:
+        """The lines in a region, without what the screen shows itself."""
+        below = self._below()
+        if below is None:
+            return super().render_lines(crop)
+        color, base, width = self.styles.background, self.visual_style.rich_style, self.size.width
+        filters = self.get_line_filters()
+        found: list[Strip] = []
+        for strip in below.lines(crop.line_range):
+            veiled = veil(strip, color, base).adjust_cell_length(width, base)
+            for each in filters:
+                veiled = veiled.apply_filter(each, color)
+            found.append(veiled if crop.column_span == (0, width) else veiled.crop(*crop.column_span))
+        return found
+
+    def _below(self) -> PartwiseCompositor | None:
+        """What has composed the screen below; None where that is not seen, or is composed by Textual."""
+        stack: list[Any] = cast(Any, self.app).screen_stack  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic
+        at = stack.index(self) if self in stack else 0
+        if at < 1 or self.styles.background.a == 1:
+            return None
+        compositor = stack[at - 1]._compositor
+        return compositor if isinstance(compositor, PartwiseCompositor) else None
+
+
+def veil(strip: Strip, color: Color, base: Style) -> Strip:
+    """A line behind a colour that is seen through, without links, in a style where it has none."""
+    segments = [Segment(text, _veiled(style, color, base)) for text, style, control in strip if not control]
+    return Strip(segments, strip.cell_length)
+
+
+@lru_cache(maxsize=4096)
+def _veiled(style: Style | None, color: Color, base: Style) -> Style:
+    veiled = next(iter(BackgroundScreen.process_segments([Segment(" ", style)], color))).style
+    return base + veiled if veiled else base
