@@ -137,6 +137,8 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         self._time_source.attach_clock(self._clock)
 
     def _ros_tell_missed_files(self, arguments: list[Any]) -> None:
+        if remapping.remap_node_name(self._ros_remap_rules, self._ros_name):
+            return  # whoever gave it its name knew it, as launch does, which tells this with its own line
         own = self.get_fully_qualified_name()
         others = [each.get_fully_qualified_name() for each in self.context.tracked_nodes() if each is not self]
         for each in arguments:

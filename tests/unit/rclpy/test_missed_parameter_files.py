@@ -19,11 +19,11 @@ def told():
     forget()
 
 
-def begin(ros: Any, folder: Path, *keys: str) -> str:
+def begin(ros: Any, folder: Path, *keys: str, rules: tuple[str, ...] = ()) -> str:
     """A context with a file that has these keys."""
     file = folder / "parameters.yaml"
     file.write_text("".join(SECTION.format(key) for key in keys))
-    ros.init("--params-file", str(file), "-p", "other:=1")
+    ros.init("--params-file", str(file), "-p", "other:=1", *rules)
     return str(file)
 
 
@@ -54,4 +54,10 @@ def test_what_means_another_node_of_the_program_is_not(ros: Any, told: list[str]
     begin(ros, tmp_path, "camera_left")
     ros.node("camera_left")
     ros.node("camera_right")
+    assert told == []
+
+
+def test_a_node_that_launch_has_named_is_left_to_launch(ros: Any, told: list[str], tmp_path: Path) -> None:
+    begin(ros, tmp_path, "robto_node", rules=("-r", "__node:=robot_node"))
+    assert ros.node("minimal").get_name() == "robot_node"
     assert told == []
