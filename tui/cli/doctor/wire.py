@@ -54,16 +54,22 @@ class Wire:
 
 
 def watch_wire(session: Session, seconds: float) -> Wire:
-    """Take all tokens there are, then listen to every topic of the domain for so many seconds."""
+    """Take all tokens there are, listen to every topic of the domain for so many seconds, and take what has come."""
     wire = Wire(session.domain)
-    found, _ = session.collect_tokens(all_tokens(session.domain), PATIENCE)
-    wire.tokens = sorted({each for each in found if session.zid not in each})
+    wire.tokens = _tokens(session)
     good, _ = wire.parsed()
     listening = [_listen(session, wire, each) for each in _publishers(good)]
     threading.Event().wait(seconds)
     for each in listening:
         each.undeclare()
+    # Of a system that has just begun, or is busy, not all had reached the router.
+    wire.tokens = sorted({*wire.tokens, *_tokens(session)})
     return wire
+
+
+def _tokens(session: Session) -> list[str]:
+    found, _ = session.collect_tokens(all_tokens(session.domain), PATIENCE)
+    return sorted({each for each in found if session.zid not in each})
 
 
 def _publishers(tokens: Sequence[Token]) -> list[Token]:

@@ -1,5 +1,6 @@
 """What the doctor reads off the wire: tokens, attachments of old releases, clocks; and that a capture is a fixture."""
 
+import itertools
 import json
 import time
 
@@ -105,6 +106,17 @@ def test_tokens_that_are_none_are_counted_and_shown(place, robot):
     robot.session.declare_token("@ros2_lv/0/zid/1/2/XX/%/%/robot")
     found = levels(watched(place), "graph")
     assert any(level is Level.WARN and text.startswith("1 tokens are not of the format") for level, text in found)
+
+
+def test_what_comes_while_it_listens_counts(place, robot):
+    calls = itertools.count()
+
+    def come():
+        if next(calls) == 50:
+            robot.session.declare_token(node_token(0, TokenNode(robot.session.zid, 1, "", "/", "late")))
+
+    wire = watched(place, come)
+    assert sorted(each.node.name for each in wire.parsed()[0]) == ["late", "robot"]
 
 
 def test_an_empty_domain_says_where_to_look(place):
