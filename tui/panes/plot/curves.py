@@ -13,6 +13,8 @@ from bot_console.tui.text.expression.tree import is_parameter
 Array = npt.NDArray[np.float64]
 MOST = 20_000
 """Samples of one curve that are kept."""
+ROOM = MOST + MOST // 4
+"""Samples for which memory is taken at once: arrays that grow by a few samples at a time leave holes behind them."""
 
 
 def _empty() -> Array:
@@ -36,6 +38,9 @@ class Curve:
     thresholds: tuple[Threshold, ...] = ()
     by_header: bool = False
     """Whether samples lie where their headers say, instead of where they came."""
+    _room: Array = field(default_factory=lambda: np.zeros((3, 0)), repr=False, compare=False)
+    """What times, values and headers are parts of; what lies behind their end is free."""
+    _end: int = field(default=0, repr=False, compare=False)
 
     @property
     def steps(self) -> bool:
@@ -75,12 +80,22 @@ class Curve:
         changed = self.problem != samples.problem or samples.cursor != self.cursor
         self.cursor, self.problem = samples.cursor, samples.problem
         if len(samples.times):
-            new = np.asarray(samples.times, float)
-            headers = np.asarray(samples.headers, float) if len(samples.headers) else np.full(len(new), np.nan)
-            self.times = np.concatenate([self.times, new])[-MOST:]
-            self.values = np.concatenate([self.values, np.asarray(samples.values, float)])[-MOST:]
-            self.headers = np.concatenate([self.headers, headers])[-MOST:]
+            headers = samples.headers if len(samples.headers) else np.full(len(samples.times), np.nan)
+            self._add(np.array([samples.times, samples.values, headers], float)[:, -MOST:])
         return changed
+
+    def _add(self, new: Array) -> None:
+        """Add samples behind the last; what somebody holds of the earlier ones stays as it is."""
+        kept, count = min(len(self.times), MOST - new.shape[1]), new.shape[1]
+        first = len(self.times) - kept
+        if self._end + count > self._room.shape[1]:
+            room = np.empty((3, ROOM))
+            for row, old in zip(room, (self.times, self.values, self.headers), strict=True):
+                row[:kept] = old[first:]
+            self._room, self._end = room, kept
+        self._room[:, self._end : self._end + count] = new
+        self._end += count
+        self.times, self.values, self.headers = self._room[:, self._end - kept - count : self._end]
 
     def clear(self) -> None:
         """Forget the samples, but for the newest value of a parameter, which still holds."""

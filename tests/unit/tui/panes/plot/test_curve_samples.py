@@ -1,0 +1,63 @@
+"""What a curve keeps of the samples that come."""
+
+from __future__ import annotations
+
+from typing import Any, cast
+
+import numpy as np
+from bot_console.tui.console.protocol import Console, Samples
+from bot_console.tui.panes.plot.curves import MOST, Curve
+
+
+class Source:
+    """Gives a number of samples at each look; each one's value is its number, its header's time half a second less."""
+
+    def __init__(self, each_time: int, *, headers: bool = True) -> None:
+        self.each_time = each_time
+        self.headers = headers
+
+    def samples(self, path: str, after: int = 0) -> Samples:
+        values = np.arange(after, after + self.each_time, dtype=float)
+        given = values - 0.5 if self.headers else ()
+        return cast(Any, Samples)(values / 10, values, after + self.each_time, headers=given)
+
+
+def take(curve: Curve, source: Source, times: int) -> None:
+    for _ in range(times):
+        assert curve.take_in(cast(Console, source))
+
+
+def test_the_newest_samples_are_kept_whatever_comes_at_once() -> None:
+    for each_time in (1, 7, 900, MOST - 1, MOST + 3):
+        curve, looks = Curve("/t/data"), min(300, 3 * MOST // each_time + 3)
+        take(curve, Source(each_time), looks)
+        end = looks * each_time
+        expected = np.arange(max(0, end - MOST), end)
+        assert np.array_equal(curve.values, expected) and np.array_equal(curve.headers, expected - 0.5)
+        assert np.array_equal(curve.times, expected / 10)
+
+
+def test_what_somebody_holds_of_them_stays_as_it_is() -> None:
+    curve, held = Curve("/t/data"), []
+    for _ in range(40):
+        take(curve, Source(1100, headers=False), 1)
+        held.append((curve.times, curve.values, curve.values.copy()))
+    assert all(np.array_equal(values, copy) and np.array_equal(times, copy / 10) for times, values, copy in held)
+    assert np.isnan(curve.headers).all()
+
+
+def test_samples_are_added_where_the_others_are() -> None:
+    curve = Curve("/t/data")
+    take(curve, Source(20), 1)
+    first = curve.values
+    take(curve, Source(20), 500)
+    assert np.shares_memory(first, curve.values), "arrays that are made anew for each sample leave holes in the memory"
+
+
+def test_after_clearing_only_new_samples_are_there() -> None:
+    curve = Curve("/t/data")
+    take(curve, Source(20), 3)
+    curve.clear()
+    assert len(curve.times) == len(curve.headers) == 0
+    take(curve, Source(20), 1)
+    assert curve.values.tolist() == [*range(60, 80)]
