@@ -9,12 +9,12 @@ from bot_console.tui.widgets.words import Words
 
 FIGURE = re.compile(r" *[-+]?\d+(?:\.\d+)?")
 
-EVERY = 5
-"""Beats of the app for which figures stand before others take their place: half a second."""
-
 
 class LiveWords(Words):
-    """Says other words at once, other figures at most twice a second, and the newest ones in any case."""
+    """Says other words at once, other figures after `EVERY` at the earliest, and the newest ones in any case."""
+
+    EVERY = 5
+    """Beats of the app, of which there are ten a second, for which figures stand before others take their place."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
@@ -45,7 +45,7 @@ class LiveWords(Words):
     def _say_newest(self) -> None:
         if self._newest != self._live:
             self._live = self._newest
-            self._wait = EVERY if self._beats else 0
+            self._wait = self.EVERY if self._beats else 0
             self.say(self._live)
 
 

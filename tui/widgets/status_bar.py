@@ -1,4 +1,4 @@
-"""One line that says how robot and console are; what has changed is told at once, speeds at most twice a second."""
+"""One line that says how robot and console are; what has changed is told at once, speeds at most once a second."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ class StatusBar(LiveWords):
     StatusBar.stopped { background: $error; color: $background; text-style: bold; }
     """
 
+    EVERY = 10
     _acknowledged = 0
     alarms: Sequence[str] = ()
     """The names of the alarms that hold."""

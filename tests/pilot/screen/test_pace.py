@@ -9,7 +9,8 @@ from unittest.mock import patch
 from bot_console.tui.console.robot.robot_model import DriveInfo, Pose, WorldInfo
 from bot_console.tui.panes.plot.pane import PlotPane
 from bot_console.tui.panes.world.view import WorldDrawing, following, told_of
-from bot_console.tui.widgets.live_words import EVERY
+from bot_console.tui.widgets.live_words import LiveWords
+from bot_console.tui.widgets.status_bar import StatusBar
 from piloting import Session, run
 from samples import SPEED, live
 
@@ -30,24 +31,24 @@ async def beat(session: Session, times: int = 1) -> None:
     await session.pilot.pause()
 
 
-def test_figures_of_the_status_line_stand_half_a_second_words_come_at_once() -> None:
+def test_figures_of_the_status_line_stand_a_second_words_come_at_once() -> None:
     async def play(session: Session) -> None:
         drive(session, 0.1)
-        await beat(session, EVERY)
+        await beat(session, StatusBar.EVERY)
         assert "actual +0.1" in status(session)
         drive(session, 0.2)
         await beat(session)
         assert "actual +0.2" in status(session), "what has stood long enough gives way at once"
         drive(session, 0.3)
-        await beat(session)
+        await beat(session, 4)
         drive(session, 0.4)
-        await beat(session)
+        await beat(session, 4)
         assert "actual +0.2" in status(session)
         drive(session, 0.4, stopped=True, stop_confirmed=True, lockable=True, stopped_here=True)
         await beat(session)
         assert "STOP" in status(session) and "actual +0.4" in status(session)
         drive(session, 0.7, stopped=True, stop_confirmed=True, lockable=True, stopped_here=True)
-        await beat(session, EVERY)
+        await beat(session, StatusBar.EVERY)
         assert "actual +0.7" in status(session), "the newest is told, though nothing new comes after it"
 
     run(live(), play, (160, 40))
@@ -56,7 +57,7 @@ def test_figures_of_the_status_line_stand_half_a_second_words_come_at_once() -> 
 def test_facts_of_the_world_stand_as_long_but_for_what_a_person_asks() -> None:
     async def play(session: Session) -> None:
         await session.press("5")
-        await beat(session, EVERY)
+        await beat(session, LiveWords.EVERY)
 
         def at(x: float) -> None:
             session.console.change(world=replace(session.console.current.world, pose=Pose(x, 3.0, 0.0)))
@@ -69,7 +70,7 @@ def test_facts_of_the_world_stand_as_long_but_for_what_a_person_asks() -> None:
         await session.press("+")
         assert "x    2.5" in session.text(), "a key shows what is so now"
         at(3.5)
-        await beat(session, EVERY)
+        await beat(session, LiveWords.EVERY)
         assert "x    3.5" in session.text()
 
     run(live(), play, (120, 40))
