@@ -2,10 +2,16 @@
 
     python tests/soak/steady.py --simulated 24    hours of the default robot without a screen, as fast as it goes
     python tests/soak/steady.py --live 30         minutes of a console with its robot in a terminal of 120x40
+    python tests/soak/steady.py --live 30 --filled 20    the same, sampled after 20 minutes
 
 A line is fitted to the samples of each, the first fifth left out: what a program reads, compiles and fills once is
-start-up. `slope` is in MB, threads or descriptors for each simulated hour or live minute; `first` and `last` are the
-means of a tenth of the samples at either end. Linux.
+start-up. `slope` is in MB, threads or descriptors for each simulated hour or live minute, `slope_last_half` that of the
+second half alone; `first` and `last` are the means of a tenth of the samples at either end. Linux.
+
+What is kept up to a limit fills meanwhile, at the rates of the default robot: the last two minutes for a bag (2 min); a
+plotted curve, 20,000 samples (17 min at 20 Hz), 1 MB with what the pane holds of it; 12,000 poses, 0.4 MB (20 min); the
+last 1,000 lines of a node for who comes later (the navigator's in 17 min, the safety monitor's in 2 h); texts and lines
+that were drawn before, some thousands of each (an hour and more).
 """
 
 from __future__ import annotations
@@ -20,6 +26,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -62,13 +69,18 @@ def fitted(samples: list[Sample], length: float) -> dict[str, Any]:
     moments = np.linspace(0.0, length, len(rows))
     return {
         name: {
-            "slope": round(float(np.polyfit(moments[start:], rows[start:, column], 1)[0]), 5),
+            "slope": _slope(moments[start:], rows[start:, column]),
+            "slope_last_half": _slope(moments[len(rows) // 2 :], rows[len(rows) // 2 :, column]),
             "first": round(float(rows[start : start + tenth, column].mean()), 2),
             "last": round(float(rows[-tenth:, column].mean()), 2),
             "most": round(float(rows[:, column].max()), 2),
         }
         for column, name in enumerate(NAMES)
     }
+
+
+def _slope(moments: Any, figures: Any) -> float:
+    return round(float(np.polyfit(moments, figures, 1)[0]), 5)
 
 
 def simulated(hours: float, folder: Path) -> dict[str, Any]:
@@ -81,14 +93,17 @@ def simulated(hours: float, folder: Path) -> dict[str, Any]:
     return {"hours": hours, "exit_code": process.returncode, "samples": len(samples), **fitted(samples, hours)}
 
 
-def live(minutes: float, folder: Path) -> dict[str, Any]:
-    """Run a console with its robot, read from as a terminal is, for so many minutes; a key goes through its panes."""
-    terminal = Terminal(["-m", "bot_console.tui", "--seed", "1"], folder)
+def live(minutes: float, filled: float, folder: Path) -> dict[str, Any]:
+    """Run a console with its robot, read from as a terminal is; a key goes through its panes.
+
+    It is sampled for so many `minutes` after those in which it has `filled` what it keeps.
+    """
+    terminal, samples = Terminal(["-m", "bot_console.tui", "--seed", "1"], folder), []
     try:
         terminal.read_until(lambda: b"robot_navigator" in terminal.output, "the robot")
-        end, pane = time.monotonic() + minutes * 60, 0
+        pane = 0
 
-        def over() -> bool:
+        def over(end: float) -> bool:
             nonlocal pane
             terminal.drain(0.5)
             terminal.output = terminal.output[-10_000:]
@@ -96,12 +111,19 @@ def live(minutes: float, folder: Path) -> dict[str, Any]:
             terminal.type(str(pane))
             return time.monotonic() > end or terminal.process.poll() is not None
 
-        samples = _until(over, terminal.process.pid)
+        for span in (filled, minutes):
+            samples = _until(partial(over, time.monotonic() + span * 60), terminal.process.pid)
         terminal.type("q")
         code = terminal.wait()
     finally:
         terminal.close()
-    return {"minutes": minutes, "exit_code": code, "samples": len(samples), **fitted(samples, minutes)}
+    return {
+        "minutes": minutes,
+        "filled": filled,
+        "exit_code": code,
+        "samples": len(samples),
+        **fitted(samples, minutes),
+    }
 
 
 def _until(over: Callable[[], bool], pid: int) -> list[Sample]:
@@ -120,6 +142,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--simulated", type=float, metavar="HOURS")
     parser.add_argument("--live", type=float, metavar="MINUTES")
+    parser.add_argument("--filled", type=float, metavar="MINUTES", default=0.0)
     options = parser.parse_args()
     folder, sockets = Path(tempfile.mkdtemp(prefix="steady")), Path(tempfile.mkdtemp(prefix="bcs"))
     os.environ |= {
@@ -132,7 +155,7 @@ def main() -> None:
         if options.simulated:
             report["simulated"] = simulated(options.simulated, folder)
         if options.live:
-            report["live"] = live(options.live, folder)
+            report["live"] = live(options.live, options.filled, folder)
     finally:
         shutil.rmtree(folder, ignore_errors=True)
         shutil.rmtree(sockets, ignore_errors=True)
