@@ -1,11 +1,14 @@
 """What messages cost between two processes: `python tests/benchmarks/bench_processes.py [COUNT]`, JSON out.
 
-Each kind of message goes as bytes through a bare Zenoh session and through rclpy, CDR on both ends, in the same run
-and with nothing dropped (KEEP_ALL): messages/s until the last one is there, processor time of both processes for one
-(us), and the round trip (us); medians of alternating rounds. Bare Zenoh calls back in two ways: `bare` is its default
-for a plain function, which a thread of Python's calls for all that has come meanwhile, and `direct` is at once from
-Zenoh's own threads, as rclpy's subscriptions are told. `share` is rclpy's throughput as a part of theirs, `longer` its
-round trip in theirs; `ros_10` is rclpy with a depth of 10, as nodes use it, where nothing waits to be sent.
+Each kind of message goes as bytes that are made once through a bare Zenoh session, which neither writes nor reads CDR,
+and through rclpy, which writes each one on this side and reads it on the other. Both in the same run and with nothing
+dropped (KEEP_ALL): messages/s until the last one is there, processor time of each process for one (us), and the round
+trip (us); medians of alternating rounds. What rclpy does beyond the bare session is all in its figures: its executor's
+thread on the way in, and with KEEP_ALL a thread on the way out, for nobody who publishes may wait for a reader.
+Bare Zenoh calls back in two ways: `bare` is its default for a plain function, which a thread of Python's calls for all
+that has come meanwhile, and `direct` is at once from Zenoh's own threads, as rclpy's subscriptions are told. `share` is
+rclpy's throughput as a part of theirs, `longer` its round trip in theirs; `ros_10` is rclpy with a depth of 10, as
+nodes use it, where nothing waits to be sent.
 A service call costs the processor time of both sides (us, the median of ten times fifty).
 """
 
@@ -106,11 +109,17 @@ class Ros:
 
 
 def other(way: Bare | Ros, kinds: Sequence[str]) -> None:
-    """The other process: counts, sends back, adds, and says for each line how many came and its processor time (s)."""
+    """The other process: counts, sends back, adds. Each line has a number of messages: once so many have come, it says
+    how many did and its processor time (s). Nobody asks meanwhile, which would cost the slower way more.
+    """
     counts = [0]
+    wanted = [0]
+    reached = threading.Event()
 
     def count() -> None:
         counts[0] += 1
+        if counts[0] == wanted[0]:
+            reached.set()
 
     for kind in kinds:
         for name in SAMPLES:
@@ -120,7 +129,11 @@ def other(way: Bare | Ros, kinds: Sequence[str]) -> None:
         way.node.create_service(AddTwoInts, "/add", lambda request, response: response)
         way.serve()
     print("ready", flush=True)
-    for _ in sys.stdin:
+    for line in sys.stdin:
+        reached.clear()
+        wanted[0] = int(line)
+        if counts[0] < wanted[0]:
+            reached.wait(PATIENCE)
         print(json.dumps([counts[0], time.process_time()]), flush=True)
 
 
@@ -136,9 +149,9 @@ class Other:
         assert self.process.stdout
         return self.process.stdout.readline()
 
-    def state(self) -> tuple[int, float]:
+    def state(self, wanted: int = 0) -> tuple[int, float]:
         assert self.process.stdin
-        self.process.stdin.write("\n")
+        self.process.stdin.write(f"{wanted}\n")
         self.process.stdin.flush()
         count, spent = json.loads(self._line())
         return count, spent
@@ -167,16 +180,18 @@ class Pair:
         time.sleep(0.3)
         self._times: list[float] = []
         self._rates: list[float] = []
-        self._costs: list[float] = []
+        self._costs: list[tuple[float, float]] = []
 
     def throughput(self, count: int) -> None:
         before, spent = self._there.state()
         own, began = time.process_time(), time.perf_counter()
         for _ in range(count):
             self._send()
-        until(lambda: self._there.state()[0] >= before + count)
+        came, end = self._there.state(before + count)
+        if came < before + count:
+            raise TimeoutError
         self._rates.append(count / (time.perf_counter() - began))
-        self._costs.append((time.process_time() - own + self._there.state()[1] - spent) / count)
+        self._costs.append(((time.process_time() - own) / count, (end - spent) / count))
 
     def round_trips(self) -> None:
         for _ in range(ROUND_TRIPS):
@@ -190,7 +205,8 @@ class Pair:
         found: dict[str, float] = {"round_trip_us": round(statistics.median(self._times) * 1e6)}
         if self._rates:
             found["per_s"] = round(statistics.median(self._rates))
-            found["cpu_us"] = round(statistics.median(self._costs) * 1e6, 1)
+            for side, costs in zip(("sender", "receiver"), zip(*self._costs, strict=True), strict=True):
+                found[f"{side}_cpu_us"] = round(statistics.median(costs) * 1e6, 1)
         return found
 
 

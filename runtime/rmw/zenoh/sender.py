@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from _thread import allocate_lock
 from collections import deque
 
 from bot_console.runtime.process import current
@@ -21,11 +22,17 @@ class Sender:
     """
 
     def __init__(self) -> None:
-        self._changed = threading.Condition()
+        self._lock = allocate_lock()
+        self._wake = allocate_lock()
+        """Held but for the moment in which the thread that waits is woken."""
+        self._wake.acquire()
         self._queue: deque[tuple[Publisher, bytes, bytes]] = deque()
         self._taken = 0
         self._begun = 0
         """Bytes that were taken, and those of them that do not wait any more: each is counted by one side alone."""
+        self._emptied = threading.Event()
+        self._emptied.set()
+        """Set by the thread where nothing is left, cleared by who waits for that."""
         self._waits = False
         self._ended = False
         self._thread: threading.Thread | None = None
@@ -33,11 +40,17 @@ class Sender:
 
     def send(self, publisher: Publisher, topic: str, payload: bytes, attachment: bytes) -> bool:
         """Have a message sent after all that came before; False where there is no room, which is told once a topic."""
-        with self._changed:
+        queue = self._queue
+        with self._lock:
             waiting = self._taken - self._begun
-            fits = not waiting or waiting + len(payload) <= ROOM
-            if fits:
-                self._append(publisher, payload, attachment)
+            if waiting and waiting + len(payload) > ROOM:
+                fits = False
+            else:
+                fits = True
+                queue.append((publisher, payload, attachment))
+                self._taken += len(payload)
+                if self._waits or self._thread is None:
+                    self._start()
         if not fits:
             notify(
                 self._process,
@@ -46,22 +59,30 @@ class Sender:
             )
         return fits
 
-    def _append(self, publisher: Publisher, payload: bytes, attachment: bytes) -> None:
-        self._queue.append((publisher, payload, attachment))
-        self._taken += len(payload)
+    def _start(self) -> None:
+        """Have the thread look at the queue, which has something now; with the lock held."""
         if self._waits:
             self._waits = False
-            self._changed.notify_all()
+            self._wake.release()
         elif self._thread is None and not self._ended:
             self._thread = threading.Thread(target=self._run, name="zenoh-sender", daemon=True)
             self._thread.start()
 
+    def _is_emptied(self, patience: float) -> bool:
+        """Whether all is sent within `patience` (s)."""
+        with self._lock:
+            if not self._queue:
+                return True
+            self._emptied.clear()
+        return self._emptied.wait(patience)
+
     def undeclare(self, publisher: Publisher) -> None:
         """Take a publisher back once all that it has published was sent."""
-        with self._changed:
+        with self._lock:
             # Copied at once: the thread takes from it meanwhile.
             if any(each[0] is publisher for each in tuple(self._queue)) and not self._ended:
-                self._append(publisher, b"", b"")
+                self._queue.append((publisher, b"", b""))
+                self._start()
                 return
         publisher.undeclare()
 
@@ -78,18 +99,20 @@ class Sender:
 
     def _has_more(self) -> bool:
         """Whether something more was put into the empty queue, which is waited for; False at the end."""
-        with self._changed:
-            while not self._queue and not self._ended:
+        while True:
+            with self._lock:
+                if self._queue:
+                    return True
+                self._emptied.set()
+                if self._ended:
+                    return False
                 self._waits = True
-                self._changed.notify_all()
-                self._changed.wait()
-            if not self._queue:
-                self._changed.notify_all()
-            return bool(self._queue)
+            self._wake.acquire()
 
     def end(self, patience: float) -> bool:
         """Take nothing more, and wait at most `patience` (s) until all is sent; whether it was."""
-        with self._changed:
+        with self._lock:
             self._ended = True
-            self._changed.notify_all()
-            return self._changed.wait_for(lambda: not self._queue, patience)
+            if self._waits:
+                self._start()
+        return self._is_emptied(patience)

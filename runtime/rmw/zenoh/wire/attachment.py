@@ -17,9 +17,8 @@ _LAYOUT = struct.Struct("<qqB16s")
 _FIELDS = struct.Struct("<qqx16s")
 """The same without the length of the id."""
 _SEALED_LAYOUT = struct.Struct("<qqB16s4sQ")
-_SEALED_FIELDS = struct.Struct("<qqx16s4xQ")
 _SEAL = b"xxh3"
-_SEAL_END = _LAYOUT.size + len(_SEAL)
+_SEALED_SIZE = _SEALED_LAYOUT.size
 SEALED = 1 << 16
 """So many bytes of a payload's end are hashed: a link writes at most that at once, and a cut spoils no more of one
 message. Where a longer one is cut in a piece before its last, the next piece is missing, too, unless by chance the
@@ -52,11 +51,12 @@ def unpack(data: bytes | None, payload: bytes | None = None) -> Attachment:
     if data is None:
         raise FormatError("a message without attachment: its sender does not speak the format of rmw_zenoh")
     size = len(data)
-    if size == _SEALED_LAYOUT.size and data[16] == GID_SIZE and data[_LAYOUT.size : _SEAL_END] == _SEAL:
-        number, time_ns, gid, seal = _SEALED_FIELDS.unpack(data)
-        if payload is not None and seal != _hash(payload):
-            raise FormatError("it is not what was sent: the link to its sender was cut while it was written")
-        return number, time_ns, gid
+    if size == _SEALED_SIZE:
+        number, time_ns, gid_size, gid, mark, seal = _SEALED_LAYOUT.unpack(data)
+        if gid_size == GID_SIZE and mark == _SEAL:
+            if payload is not None and seal != _hash(payload):
+                raise FormatError("it is not what was sent: the link to its sender was cut while it was written")
+            return number, time_ns, gid
     if size != _LAYOUT.size or data[16] != GID_SIZE:
         if data.startswith(_OLD):
             raise FormatError("the sender's rmw_zenoh is too old (before Jazzy 0.2.4, Humble 0.1.2): update it")
