@@ -9,13 +9,20 @@ from collections.abc import Callable
 from typing import Any
 
 DELETED = "the folder you are in was deleted; go to another one (cd) and try again"
+RECOGNIZED = 60
+"""Characters of a name that are shown where it is too long."""
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG)
 
 
 def place_fault(error: BaseException) -> str:
-    """What to say of an error that names no file: of standard output, or of the working directory; else empty."""
+    """What to say of an error that names no file: of standard output, or of the working directory; else empty.
+
+    Of a file whose name is too long it is said, too: it is not even looked for.
+    """
     if isinstance(error, SystemError) and not _has_folder():  # so says an import of Python 3.13.0 there
         return DELETED
+    if isinstance(error, OSError) and error.errno == errno.ENAMETOOLONG:
+        return f"{shortened(error.filename)} cannot be a file: its name is too long"
     if not isinstance(error, OSError) or error.filename is not None:
         return ""
     if error.errno in FULL:
@@ -23,6 +30,12 @@ def place_fault(error: BaseException) -> str:
     if error.errno == errno.ENOENT and not _has_folder():
         return DELETED
     return ""
+
+
+def shortened(name: object) -> str:
+    """The beginning of a name, quoted, as much of it as one recognizes it by."""
+    text = os.fsdecode(name) if isinstance(name, (str, bytes)) else "what was given"
+    return repr(text if len(text) <= RECOGNIZED else f"{text[:RECOGNIZED]}...")
 
 
 def _has_folder() -> bool:

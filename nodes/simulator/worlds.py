@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
@@ -20,7 +21,7 @@ def find_world(name: str) -> World:
     if folder is None:
         raise WorldError(f"no world '{name}': the share folder of {PACKAGE} is not found; give the path of a file")
     found = folder / f"{name}.yaml"
-    if not found.is_file():
+    if not os.path.isfile(found):  # `Path` raises where the name is too long for a file
         known = ", ".join(sorted(each.stem for each in folder.glob("*.yaml"))) or "none"
         raise WorldError(f"no world '{name}' in {folder}; there are: {known}")
     return load_world(found)

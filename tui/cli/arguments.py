@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -179,7 +180,7 @@ def _launch_file(parser: argparse.ArgumentParser, words: Sequence[str], given: a
     """The word behind a package; a path has none, and nothing else goes with either."""
     if given.profile is not None or (words and words[0] in profile_names()):
         parser.error("a launch file brings its own settings: give either a profile or --launch")
-    left = [*words] if Path(given.launch).is_file() else words[1:]
+    left = [*words] if os.path.isfile(given.launch) else words[1:]  # `Path` raises where the name is too long
     if left:
         parser.error(f"malformed launch argument '{left[0]}', expected format '<name>:=<value>'")
     return words[0] if words else ""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shlex
 from collections.abc import Callable
 from pathlib import Path
@@ -19,7 +20,7 @@ def program(words: list[str], hint: Callable[[str], None]) -> tuple[dict[str, st
     from bot_console.runtime.importer import install
 
     install()
-    if words[0].endswith(".py") or Path(words[0]).is_file():
+    if words[0].endswith(".py") or os.path.isfile(words[0]):
         return {"program": str(Path(words[0]).resolve()), "words": shlex.join(words[1:])}, _fault(Path(words[0]), hint)
     package, executable, *rest = [*words, ""]
     names = executable_names(package)
@@ -34,7 +35,7 @@ def program(words: list[str], hint: Callable[[str], None]) -> tuple[dict[str, st
 def _fault(file: Path, hint: Callable[[str], None]) -> str:
     from bot_console.runtime.plain_file import examine
 
-    if not file.is_file():
+    if not os.path.isfile(file):  # `Path` raises where the name is too long
         return f"{file} does not exist"
     found = examine(file)
     if found.hint:

@@ -96,7 +96,7 @@ def _why(endpoint: str, host: str, port: int, tls: Tls | None) -> str:
     try:
         with socket.create_connection((host, port), PATIENCE) as link:
             return _why_no_tls(link, endpoint, host, tls) if tls else ""
-    except socket.gaierror:
+    except (socket.gaierror, UnicodeError):  # the latter for what cannot be a name at all
         return f"{endpoint}: no host of the name '{host}' is known here: check the name, or give the robot's address"
     except ConnectionRefusedError:
         return (

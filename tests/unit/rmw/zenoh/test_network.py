@@ -92,6 +92,7 @@ def test_files_that_cannot_be_used_are_named(secure, files, tmp_path):
 def test_where_nobody_listens_it_is_said_what_to_start():
     assert "rmw_zenohd" in refusal(Way((f"tcp/127.0.0.1:{free_port()}",), patience=0.3))
     assert "no host of the name" in refusal(Way(("tcp/no-such-robot.invalid:7447",), patience=0.3))
+    assert "no host of the name" in refusal(Way((f"tcp/{'a' * 64}:7447",), patience=0.3))
 
 
 @pytest.mark.parametrize("text", ["robot", "robot:7447", "tcp/robot", "tcp/:7447", "tcp/robot:70000", "tcp/robot:x"])

@@ -50,6 +50,28 @@ def test_a_background_system_says_where_its_log_would_go(
     assert said.startswith(f"not started: the log cannot be kept in {no_home}/state: ") and OVERRIDE in said
 
 
+LONG = "a" * 300
+
+
+@pytest.mark.parametrize(
+    "words",
+    [["run", LONG], ["run", f"{LONG}.py"], ["lint", LONG], ["bag", "play", LONG], ["bag", "info", LONG],
+     ["pkg", "create", LONG], ["launch_test", LONG]],
+    ids=lambda words: " ".join(words[:-1]),
+)  # fmt: skip
+def test_a_name_too_long_for_a_file_is_told_in_one_line(
+    words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert told(lambda: main(words)) == 1
+    (line,) = [each for each in capsys.readouterr().err.splitlines() if "too long" in each]
+    assert "'" + "a" * 30 in line.replace("./", "") and len(line) < 200
+
+
+def test_a_launch_file_with_too_long_a_name_is_no_file() -> None:
+    assert parse(["--launch", LONG, "robot.launch.py"]).launch == LONG
+
+
 @pytest.mark.parametrize("words", [["--headless"], [], ["--launch", "x.launch.py"]])
 def test_a_run_in_a_deleted_folder_is_refused_in_one_line(
     words: list[str], deleted_folder: None, capsys: pytest.CaptureFixture[str]
