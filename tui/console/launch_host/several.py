@@ -41,6 +41,8 @@ class SeveralLaunchers(AskedForProcesses):
         self._doors = doors
         self._open = open_door
         self._lock = threading.RLock()
+        self._making = threading.Lock()
+        """Held while the own host is started, which takes seconds: never by whoever holds `_lock`, or draws."""
         self._own: HostedLauncher | None = None
         self._others: dict[str, HostedLauncher] = {}
         self._merged = _Merged()
@@ -78,8 +80,21 @@ class SeveralLaunchers(AskedForProcesses):
             return self._merged.of(infos)
 
     def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
-        """Run one more launch file, which ends with this console."""
-        return self._mine().launch(path, arguments)
+        """Run one more launch file, which ends with this console; the first starts a host, which nobody waits for."""
+        with self._lock:
+            own = self._own
+        if own is not None:
+            return own.launch(path, arguments)
+        outcome: Future[Answer] = Future()
+
+        def start() -> None:
+            try:
+                outcome.set_result(self._mine().launch(path, arguments).result())
+            except Exception as error:  # the border of the thread
+                outcome.set_result(Answer(False, f"no launch host could be started: {error}"))
+
+        threading.Thread(target=start, name="launch host", daemon=True).start()
+        return outcome
 
     def arguments(self, path: str) -> Sequence[LaunchArgument]:
         """The arguments a launch file declares; raises `ValueError` when it cannot be read."""
@@ -99,9 +114,14 @@ class SeveralLaunchers(AskedForProcesses):
         return outcome
 
     def _mine(self) -> HostedLauncher:
-        with self._lock:
+        with self._making:
             if self._own is None:
-                self._own = self._make_own()
+                made = self._make_own()
+                with self._lock:
+                    self._own = made
+                    over = self._over.is_set()
+                if over:  # the console was closed meanwhile
+                    made.close()
             return self._own
 
     def close(self) -> None:
