@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
 from bot_console.tui import keymap
-from bot_console.tui.arrangement.arrival import COMING_STATUS, ORDERED, ArrivingApp, System
+from bot_console.tui.arrangement.arrival import COMING_STATUS, ArrivingApp, System
 from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.files.crash import keep, reason
 from bot_console.tui.keys.keyboard import LONGEST_PASTE, Keyboard
@@ -142,7 +142,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
         yield Tabs()
         with PaneArea(id="panes"):
             if self._reached:
-                yield from (self.made(each.load(), each.id) for each in ORDERED)
+                yield from self.made_at_once()
             else:
                 yield from (
                     ComingPane(id, title, chosen=chosen) for id, title, chosen in self.stage.at_first(self.size)
@@ -194,7 +194,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
         self.pull()
         with self.batch_update():
             for pane in self.panes():
-                if pane.children:  # none at the end, when the screen is taken apart
+                if not pane.is_ending:
                     pane.tick()
             self.crew.beat()
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Awaitable, Callable, Sequence
+from collections.abc import Awaitable, Callable, Iterator, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from bot_console.tui.arrangement.early_keys import panes_needed
 from bot_console.tui.arrangement.stage import Stage
@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from bot_console.tui.keys.keyboard import Keyboard, Typed
     from bot_console.tui.panes.pane import Pane
     from bot_console.tui.terminal.gate import AnswerGate
+
+P = TypeVar("P", bound="Pane")
 
 COMING_STATUS = "coming-status"
 """The id of what stands in the place of the status bar."""
@@ -75,6 +77,19 @@ class ArrivingApp(App[None]):
     def is_stop(self, key: object) -> bool:
         """Whether a key is one that stops the robot."""
         raise NotImplementedError
+
+    def made(self, kind: type[P], id: str, **facts: Any) -> P:
+        """A pane of a class, for the system that is shown."""
+        raise NotImplementedError
+
+    def made_at_once(self) -> Iterator[Pane]:
+        """All panes; those that are not seen make their parts later."""
+        seen = self.stage.seen_at(self.size)
+        for each in ORDERED:
+            pane = self.made(each.load(), each.id)
+            if each.id not in seen:
+                pane.come_late()
+            yield pane
 
     def arrive(self, reach: Callable[[], System], there: Callable[[], None]) -> None:
         """Bring everything; `reach` gives the system, `there` is called when all of it stands."""
@@ -160,7 +175,9 @@ class ArrivingApp(App[None]):
         area = self.screen_stack[0].query_one(PaneArea)
         behind = {each.id for each in ORDERED[ORDERED.index(entry) + 1 :]}
         before = next((each for each in area.children if each.id in behind), None)
-        await mount_unseen(area, self._made(entry), before)
+        pane = self._made(entry)
+        pane.come_late()
+        await mount_unseen(area, pane, before)
         self.stage.look_again()
         await self._keyboard.hold(self._may_act)
 

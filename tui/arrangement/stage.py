@@ -70,7 +70,7 @@ class Stage:
     def heed(self, snapshot: ConsoleSnapshot) -> None:
         """Let all panes learn what none may miss."""
         for pane in self.panes():
-            if pane.children:  # none at the end, when the screen is taken apart
+            if not pane.is_ending:
                 pane.heed(snapshot)
 
     def current(self) -> Pane | None:
@@ -108,11 +108,15 @@ class Stage:
 
     def at_first(self, size: Size) -> list[tuple[str, str, bool]]:
         """What is to be seen in a terminal of a size: ids and titles of panes, and which is to have the keyboard."""
-        self._extent = size
-        shown = panes(self._shown())
+        shown = self.seen_at(size)
         if self._focused not in shown:
             self._focused = shown[0]
         return [(each.id, each.title, each.id == self._focused) for each in PANES if each.id in shown]
+
+    def seen_at(self, size: Size) -> Sequence[str]:
+        """The panes, by their ids, that are to be seen in a terminal of a size, which is that of the screen now."""
+        self._extent = size
+        return panes(self._shown())
 
     def resized(self, size: Size) -> None:
         """The terminal has another size."""
@@ -180,8 +184,10 @@ class Stage:
         shown = self._shown()
         screen.query_one(PaneArea).place(shown)
         for pane in self.panes():
-            before = pane.display
-            pane.display = pane.id in panes(shown)
+            before, now = pane.display, pane.id in panes(shown)
+            if now:
+                pane.make_parts()
+            pane.display = now
             if pane.display and not before:
                 pane.show(self._newest())
         self._tabs(shown)

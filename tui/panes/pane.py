@@ -18,12 +18,12 @@ from bot_console.tui.screens.door import screen_for
 from bot_console.tui.time_cursor import TimeCursor
 from bot_console.tui.tuning.dial import Setting
 from bot_console.tui.tuning.question import Question as TuningQuestion
+from bot_console.tui.widgets.late_parts import LateParts
 from bot_console.tui.widgets.prompt.common import file_line
 from bot_console.tui.widgets.prompt.line import Prompt, asks
 from bot_console.tui.widgets.prompt.question import Confirmation, Line, Question
 from rich.text import Text
 from textual.app import App
-from textual.containers import Container
 from textual.geometry import Region
 from textual.message import Message
 from textual.widget import Widget
@@ -31,7 +31,7 @@ from textual.widget import Widget
 P = TypeVar("P", bound="Pane")
 
 
-class Pane(Container):
+class Pane(LateParts):
     """A pane of the console.
 
     The app calls `show` with each new snapshot while the pane is visible, and once with the newest one when it becomes
@@ -200,7 +200,7 @@ class Pane(Container):
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
         """No key of the pane acts while something is typed in it."""
-        return not asks(self) and super().check_action(action, parameters)
+        return not (self.has_parts and asks(self)) and super().check_action(action, parameters)
 
     def on_mount(self) -> None:
         """Follow the moment that is looked at."""

@@ -68,7 +68,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
 
     EMPTY: ClassVar[Digraph] = Digraph()
 
-    selected: reactive[str] = reactive("")
+    selected: reactive[str] = reactive("", init=False)
     """The id of the selected item; empty when there is none."""
 
     class Selected(Message):

@@ -35,7 +35,7 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
         f"row-list--{each}" for each in ("cursor", "dim", "head", "warn", "error", "good", "strong", "plain")
     }
 
-    cursor: reactive[int] = reactive(0)
+    cursor: reactive[int] = reactive(0, init=False)
     """The row that keys act on."""
 
     class Moved(Message):

@@ -168,9 +168,10 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
     def tick(self) -> None:
         """Write rates where they are wanted and the pane is seen; measure nothing otherwise."""
         self._ask_nodes()
-        self._frames.look(self.console.sights, self.clock(), seen=self.display)
-        if self._frames.open:
-            self._tell()
+        if self.has_parts:
+            self._frames.look(self.console.sights, self.clock(), seen=self.display)
+            if self._frames.open:
+                self._tell()
         if self._rates is None or not self.display:
             if self._looked:
                 self._looked = 0.0

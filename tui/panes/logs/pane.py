@@ -8,7 +8,7 @@ from typing import Any
 
 from bot_console.tui import keymap
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.model import ConsoleSnapshot, GraphInfo, LogFilter, LogState, Severity
+from bot_console.tui.console.model import ConsoleSnapshot, LogFilter, LogState, Severity
 from bot_console.tui.console.protocol import LogFindings, LogSource, LogView
 from bot_console.tui.files.save_file import save_file
 from bot_console.tui.format import LETTERS, harmless
@@ -16,6 +16,7 @@ from bot_console.tui.panes.logs.filtering import Filtering
 from bot_console.tui.panes.logs.levels_screen import LevelsScreen
 from bot_console.tui.panes.logs.likeness import options_like
 from bot_console.tui.panes.logs.line_pane import LinePane
+from bot_console.tui.panes.logs.names import NodeNames
 from bot_console.tui.panes.logs.rows import LogRows
 from bot_console.tui.panes.logs.rules import RuleBook
 from bot_console.tui.panes.logs.rules_screen import RulesScreen
@@ -44,7 +45,7 @@ class LogsPane(LinePane):
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
         self._source: LogSource = LiveLog(self.console)
-        self._graph: GraphInfo | None = None
+        self._names = NodeNames()
         self._state = LogState()
         self._filtering = Filtering(RuleBook())
         self._view: LogView | None = None
@@ -62,7 +63,7 @@ class LogsPane(LinePane):
 
     def compose(self) -> ComposeResult:
         """The lines, what is filtered, a prompt."""
-        yield LogRows(self._source, self._filtering.rules)
+        yield LogRows(self._source, self._filtering.rules, self._names)
         yield Words(id="log-status")
         yield Prompt(id="log-prompt")
 
@@ -85,9 +86,8 @@ class LogsPane(LinePane):
 
     def heed(self, snapshot: ConsoleSnapshot) -> None:
         """Learn the names of nodes: one may leave before it is shown."""
-        if snapshot.graph is not self._graph:
-            self._graph = snapshot.graph
-            self._list.learn(snapshot.graph)
+        if self._names.learn(snapshot.graph) and self.has_parts:
+            self._list.refresh()
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Take in what is new in the log."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import ClassVar
 
-from bot_console.tui.console.model import GraphInfo, LogRecord, Severity
+from bot_console.tui.console.model import LogRecord, Severity
 from bot_console.tui.console.protocol import LogNumbers, LogSource
 from bot_console.tui.format import LETTERS, clock_text, cut, harmless
 from bot_console.tui.panes.logs.names import NodeNames
@@ -25,12 +25,12 @@ class LogRows(RowList):
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {f"log-rows--{each}" for each in COLOURS}
 
-    def __init__(self, source: LogSource, rules: RuleBook) -> None:
+    def __init__(self, source: LogSource, rules: RuleBook, names: NodeNames) -> None:
         super().__init__()
         self.source = source
         self.rules = rules
         self.numbers: LogNumbers | None = None
-        self.names = NodeNames()
+        self.names = names
 
     def row_count(self) -> int:
         """How many lines there are."""
@@ -55,11 +55,6 @@ class LogRows(RowList):
             else:
                 high = middle
         return max(0, low - 1)
-
-    def learn(self, graph: GraphInfo) -> None:
-        """Spell the nodes of the log as the graph does, also those that have left it since."""
-        if self.names.learn(graph):
-            self.refresh()
 
     @property
     def record(self) -> LogRecord | None:
