@@ -71,6 +71,9 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
     selected: reactive[str] = reactive("", init=False)
     """The id of the selected item; empty when there is none."""
 
+    class Resized(Message):
+        """There is another room for the picture."""
+
     class Selected(Message):
         """Another item is selected."""
 
@@ -93,6 +96,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         self._flow: Flow | None = None
         self._selecting = False
         self._downward = False
+        self._room = Size()
 
     def show(
         self,
@@ -309,6 +313,9 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         """Choose the direction anew, and keep the selected item in view."""
         self._choose()
         self.show_selected()
+        if self.outer_size != self._room:  # without its scroll bars, which come and go with what is drawn
+            self._room = self.outer_size
+            self.post_message(self.Resized())
 
 
 def _apart(begin: int, length: int, other: int, other_length: int) -> int:

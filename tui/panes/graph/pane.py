@@ -202,9 +202,9 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self.console.sights.look_at_nodes(False)
         self.console.sights.look_at_frames(False)
 
-    def on_resize(self) -> None:
+    def on_diagram_view_resized(self) -> None:
         """Choose anew what fits."""
-        self.call_after_refresh(self._draw)
+        self._draw()
 
     def _tell(self) -> None:
         """Say what is selected, and what is left out."""
