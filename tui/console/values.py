@@ -17,11 +17,16 @@ STEP_TOLERANCE = 1e-6
 
 def from_message(message: ParameterValue) -> Value:
     """The value that a `rcl_interfaces/msg/ParameterValue` holds."""
-    kind = Kind(message.type) if message.type in TYPES else Kind.NOT_SET
+    kind = _kind(message.type)
     if kind is Kind.NOT_SET:
         return None
     value: Any = getattr(message, field_of(kind))
     return tuple(value) if kind in ARRAYS else value
+
+
+def _kind(code: int) -> Kind:
+    """The kind of a code in a message, where anything may stand."""
+    return Kind(code) if code in TYPES else Kind.NOT_SET
 
 
 def kind_of(value: Value, declared: Kind = Kind.NOT_SET) -> Kind:
@@ -57,7 +62,7 @@ def info(
     return ParameterInfo(
         node=node,
         name=descriptor.name,
-        kind=Kind(value.type) if value.type else Kind(descriptor.type if descriptor.type in TYPES else 0),
+        kind=_kind(value.type) or _kind(descriptor.type),
         value=now,
         description=descriptor.description,
         read_only=descriptor.read_only,
