@@ -48,7 +48,6 @@ P = TypeVar("P", bound="Pane")
 
 AT_ONCE = frozenset(next(key.keys for key in keymap.TABLE["app"] if key.id == "app.quit_now").split(","))
 """Keys that never wait for those typed before."""
-STOPS = frozenset(next(key.keys for key in keymap.TABLE["app"] if key.id == "app.stop").split(","))
 
 
 class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
@@ -114,6 +113,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
             changed=self.panes_changed,
         )
         self.desk, self.faults = self.crew.desk, self.crew.faults
+        self._keyboard.waits = self.crew.late_stop.waits
         self._reached = True
 
     async def on_event(self, event: events.Event) -> None:
@@ -132,9 +132,8 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
             await self._keyboard.typed(event)
 
     async def _deal(self, event: events.Event) -> None:
-        # The question whether to quit is not answered by what was typed before the key that asked it.
-        early = isinstance(event, events.Key) and event.key not in STOPS and self._keyboard.was_overtaken(event)
-        if not (early and self._reached and self.crew.quitting.asking):
+        overtaken = isinstance(event, events.Key) and self._keyboard.was_overtaken(event)
+        if not (self._reached and self.crew.is_spent(event, overtaken=overtaken)):
             await super().on_event(event)
 
     def compose(self) -> ComposeResult:
@@ -175,7 +174,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
 
     def is_stop(self, key: object) -> bool:
         """Whether a key is one that stops the robot."""
-        return isinstance(key, events.Key) and key.key in STOPS
+        return isinstance(key, events.Key) and key.key in keymap.STOPS
 
     def _all_there(self) -> None:
         self._open_first()

@@ -15,8 +15,10 @@ from bot_console.tui.console.connection.no_console import NoCommandLine
 from bot_console.tui.console.connection.read_only import ReadOnlyConsole
 from bot_console.tui.console.protocol import CommandLine, Console
 from bot_console.tui.faults import Faults, PaneMaker
+from bot_console.tui.keymap import STOPS
 from bot_console.tui.opening import Opening
 from bot_console.tui.panes.pane import Pane
+from bot_console.tui.safety.late_stop import LateStop
 from bot_console.tui.safety.quitting import Quitting
 from bot_console.tui.safety.safety_news import SafetyNews
 from bot_console.tui.safety.stopping import Stopping
@@ -28,6 +30,7 @@ from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Asker
 from bot_console.tui.widgets.status_bar import StatusBar
 from bot_console.tui.widgets.streams.panels import StreamPanels
+from textual import events
 from textual.app import App
 from textual.widget import Widget
 
@@ -52,6 +55,7 @@ class Crew:
         self._stage = stage
         self.quitting = Quitting(app, console)
         self.stopping = Stopping(app, console)
+        self.late_stop = LateStop(self.stopping, stage.typing)
         self.leaving = Leaving(app, console, redraw, holds=not isinstance(console, ReadOnlyConsole))
         self.desk = Desk(app, stage, self.stopping, console, lines or NoCommandLine(), open, self.leaving.run)
         self.safety_news = SafetyNews(console)
@@ -61,6 +65,15 @@ class Crew:
     def widgets(self) -> Sequence[Widget]:
         """What stands between the panes and the keys, from above."""
         return StreamPanels(), self.desk.field(), self.status
+
+    def is_spent(self, event: events.Event, *, overtaken: bool) -> bool:
+        """Whether an event means nothing any more, a key that was overtaken or not.
+
+        The question whether to quit is not answered by what was typed before the key that asked it.
+        """
+        if not isinstance(event, events.Key):
+            return False
+        return (overtaken and event.key not in STOPS and self.quitting.asking) or self.late_stop.was_done(event)
 
     def beat(self) -> None:
         """Ten times a second: take in what the line of a stream prints, show the figures that have waited."""

@@ -334,6 +334,9 @@ TABLE: dict[str, tuple[Key, ...]] = {
     ),
 }
 
+STOPS = frozenset(next(key.keys for key in TABLE["app"] if key.id == "app.stop").split(","))
+"""Keys that stop the robot."""
+
 
 def bindings(scope: str) -> list[BindingType]:
     """The bindings of one scope of the table, for a class's `BINDINGS`."""

@@ -44,6 +44,8 @@ class Keyboard:
         self._count = 0
         self.passes: Callable[[Typed], bool] = lambda _: True
         """Whether a key may be dealt with yet; one that may not holds those behind it up."""
+        self.waits: Callable[[Typed], None] = lambda _: None
+        """Told of a key that is not dealt with at once."""
         self._overtaken = 0.0
         """When the last key was typed that waited for nothing, by the clock of Textual's events."""
 
@@ -72,6 +74,8 @@ class Keyboard:
             await self._next()
         elif len(self._waiting) == 1:
             self._be_patient()
+        if event in self._waiting:
+            self.waits(event)
 
     async def _next(self) -> None:
         while self._waiting and not self._under_way and self.passes(self._first()):

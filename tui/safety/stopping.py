@@ -32,6 +32,11 @@ class Stopping:
         else:
             self.release()
 
+    @property
+    def held_here(self) -> bool:
+        """Whether this console holds the robot, or has asked for it."""
+        return self._console.snapshot().drive.stopped_here
+
     def hold(self) -> None:
         """Hold the robot still."""
         self._console.all_stop(True)

@@ -1,0 +1,60 @@
+"""A stop that was typed behind keys which are not done yet: the robot does not wait for them."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+from functools import partial
+
+from bot_console.tui.keymap import STOPS
+from bot_console.tui.safety.stopping import Stopping
+from textual import events
+
+LATE_S = 0.25
+"""Seconds for which such a key may wait for its turn. Keys typed before it may open a field in which it is a letter; on
+a machine that takes longer for them the robot is rather held once too often.
+"""
+
+
+def in_a_while(look: Callable[[], None]) -> None:
+    """Look when a key waits too long; not by a timer of Textual's, whose message would wait, too."""
+    asyncio.get_running_loop().call_later(LATE_S, look)
+
+
+class LateStop:
+    """Holds the robot for keys that wait, and knows at their turn that it was done."""
+
+    def __init__(
+        self, stopping: Stopping, typing: Callable[[], bool], later: Callable[[Callable[[], None]], None] = in_a_while
+    ) -> None:
+        """`typing` says whether a text field has the keyboard; `later` has something done when a key waits too long."""
+        self._stopping = stopping
+        self._typing = typing
+        self.later = later
+        self._waiting: list[events.Key] = []
+        self._done: list[events.Key] = []
+
+    def waits(self, event: events.Event) -> None:
+        """A key has to wait for those before it."""
+        if isinstance(event, events.Key) and event.key in STOPS:
+            self._waiting.append(event)
+            self.later(partial(self._look, event))
+
+    def was_done(self, event: events.Key) -> bool:
+        """Whether a key whose turn has come has held the robot already, and is not a letter of a text."""
+        if event in self._waiting:
+            self._waiting.remove(event)
+        if event not in self._done:
+            return False
+        self._done.remove(event)
+        return not self._typing()
+
+    def _look(self, event: events.Key) -> None:
+        if event not in self._waiting:
+            return
+        if self._typing():
+            self.later(partial(self._look, event))
+        elif not self._stopping.held_here:
+            self._waiting.remove(event)
+            self._done.append(event)
+            self._stopping.hold()
