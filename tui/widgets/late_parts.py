@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, cast
 
 from bot_console.tui.terminal.output import SUPPORTED
-from textual.compose import compose
+from textual.compose import compose  # pyright: ignore[reportUnknownVariableType] -- Textual's App is generic
 from textual.containers import Container
 from textual.widget import Widget
 

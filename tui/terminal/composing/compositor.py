@@ -37,7 +37,8 @@ class PartwiseCompositor(Compositor):
         self._dirty_regions.clear()
         width, height = self.size
         chops = self._chops([(y, 0, width) for y in range(height)])
-        return LayoutUpdate([chop.values() for chop in chops], self.size.region)
+        lines: list[Iterable[Strip]] = [[each for each in chop.values() if each is not None] for chop in chops]
+        return LayoutUpdate(lines, self.size.region)
 
     def lines(self, rows: range) -> list[Strip]:
         """Whole lines as they are now; those below the last one are empty."""
