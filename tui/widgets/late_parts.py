@@ -18,6 +18,8 @@ class LateParts(Container):
     """
 
     _late = False
+    """Whether the parts come by `make_parts`, also when that was before the mount is over."""
+    _missing = False
 
     @property
     def has_parts(self) -> bool:
@@ -27,17 +29,17 @@ class LateParts(Container):
     @property
     def is_ending(self) -> bool:
         """Whether the screen is taken apart, and this with it."""
-        return not (self.is_attached if self._late else self.children)
+        return not (self.is_attached if self._missing else self.children)
 
     def come_late(self) -> None:
         """Make no parts yet. They are not composed by the mount, but by `make_parts`."""
-        self._late = True
+        self._late = self._missing = True
 
     def make_parts(self) -> None:
         """Make the parts now, if they are not there yet: what is asked of them next finds all of them in place."""
         private = cast(Any, self)
-        if self._late and self.is_attached and not (private._closing or private._pruning):
-            self._late = False
+        if self._missing and self.is_attached and not (private._closing or private._pruning):
+            self._missing = False
             put(self, compose(self))
 
     async def _compose(self) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
+
 import pytest
 from bot_console.tui.arrangement.arrival import ORDERED
 from bot_console.tui.panes.alarms.pane import AlarmsPane
@@ -13,7 +15,8 @@ from bot_console.tui.panes.topics.table import TopicRows
 from bot_console.tui.widgets.late_parts import LateParts
 from piloting import Session, run
 from samples import live
-from textual.app import ComposeResult
+from textual.app import App, ComposeResult
+from textual.widgets import Static
 
 DIGITS = {each.id: each.digit for each in ORDERED}
 
@@ -54,6 +57,26 @@ def test_who_asks_a_pane_for_a_part_finds_all_that_is_in_it() -> None:
         assert len(pane.query(TopicRows)) == 1, "they are made once"
 
     run(live(), play)
+
+
+class Box(LateParts):
+    def compose(self) -> ComposeResult:
+        yield Static(id="part")
+
+
+def test_what_is_asked_for_before_the_mount_is_over_is_made_once() -> None:
+    async def play() -> None:
+        app: App[None] = App()
+        async with app.run_test() as pilot:
+            box = Box()
+            box.come_late()
+            mounted = app.mount(box)
+            box.make_parts()
+            await mounted
+            await pilot.pause()
+            assert len(box.children) == 1
+
+    asyncio.run(play())
 
 
 def test_a_fault_in_what_a_pane_makes_late_ends_that_pane_alone(monkeypatch: pytest.MonkeyPatch) -> None:
