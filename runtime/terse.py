@@ -22,7 +22,7 @@ def place_fault(error: BaseException) -> str:
     if isinstance(error, SystemError) and not _has_folder():  # so says an import of Python 3.13.0 there
         return DELETED
     if isinstance(error, OSError) and error.errno == errno.ENAMETOOLONG:
-        return f"{shortened(error.filename)} cannot be a file: its name is too long"
+        return f"{_shortened(error.filename)} cannot be a file: its name is too long"
     if not isinstance(error, OSError) or error.filename is not None:
         return ""
     if error.errno in FULL:
@@ -32,7 +32,7 @@ def place_fault(error: BaseException) -> str:
     return ""
 
 
-def shortened(name: object) -> str:
+def _shortened(name: object) -> str:
     """The beginning of a name, quoted, as much of it as one recognizes it by."""
     text = os.fsdecode(name) if isinstance(name, (str, bytes)) else "what was given"
     return repr(text if len(text) <= RECOGNIZED else f"{text[:RECOGNIZED]}...")

@@ -46,9 +46,6 @@ SEEN_AT_ONCE = 2
 
 P = TypeVar("P", bound="Pane")
 
-AT_ONCE = frozenset(next(key.keys for key in keymap.TABLE["app"] if key.id == "app.quit_now").split(","))
-"""Keys that never wait for those typed before."""
-
 
 class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
     """rqt for the terminal."""
@@ -125,7 +122,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
                 f"{len(event.text):,} letters were pasted, and none of them taken: {LONGEST_PASTE:,} at most",
                 severity="error",
             )
-        elif isinstance(event, events.Key) and event.key in AT_ONCE:
+        elif isinstance(event, events.Key) and event.key in keymap.AT_ONCE:
             self._keyboard.overtake(event)
             await self._deal(event)
         else:

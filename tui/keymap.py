@@ -334,7 +334,14 @@ TABLE: dict[str, tuple[Key, ...]] = {
     ),
 }
 
-STOPS = frozenset(next(key.keys for key in TABLE["app"] if key.id == "app.stop").split(","))
+
+def _keys_of(id: str) -> frozenset[str]:
+    return frozenset(next(key.keys for key in TABLE["app"] if key.id == id).split(","))
+
+
+AT_ONCE = _keys_of("app.quit_now")
+"""Keys that never wait for those typed before."""
+STOPS = _keys_of("app.stop")
 """Keys that stop the robot."""
 
 
