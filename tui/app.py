@@ -122,7 +122,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
                 f"{len(event.text):,} letters were pasted, and none of them taken: {LONGEST_PASTE:,} at most",
                 severity="error",
             )
-        elif isinstance(event, events.Key) and event.key in keymap.AT_ONCE:
+        elif isinstance(event, events.Key) and keymap.quits_at_once(event.key):
             self._keyboard.overtake(event)
             await self._deal(event)
         else:
@@ -171,7 +171,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
 
     def is_stop(self, key: object) -> bool:
         """Whether a key is one that stops the robot."""
-        return isinstance(key, events.Key) and key.key in keymap.STOPS
+        return isinstance(key, events.Key) and keymap.stops(key.key)
 
     def _all_there(self) -> None:
         self._open_first()

@@ -15,7 +15,7 @@ from bot_console.tui.console.connection.no_console import NoCommandLine
 from bot_console.tui.console.connection.read_only import ReadOnlyConsole
 from bot_console.tui.console.protocol import CommandLine, Console
 from bot_console.tui.faults import Faults, PaneMaker
-from bot_console.tui.keymap import STOPS
+from bot_console.tui.keymap import stops
 from bot_console.tui.opening import Opening
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.safety.late_stop import LateStop
@@ -73,7 +73,7 @@ class Crew:
         """
         if not isinstance(event, events.Key):
             return False
-        return (overtaken and event.key not in STOPS and self.quitting.asking) or self.late_stop.was_done(event)
+        return (overtaken and not stops(event.key) and self.quitting.asking) or self.late_stop.was_done(event)
 
     def beat(self) -> None:
         """Ten times a second: take in what the line of a stream prints, show the figures that have waited."""

@@ -335,14 +335,19 @@ TABLE: dict[str, tuple[Key, ...]] = {
 }
 
 
-def _keys_of(id: str) -> frozenset[str]:
-    return frozenset(next(key.keys for key in TABLE["app"] if key.id == id).split(","))
+def stops(key: str) -> bool:
+    """Whether a key stops the robot."""
+    return _is_of("app.stop", key)
 
 
-AT_ONCE = _keys_of("app.quit_now")
-"""Keys that never wait for those typed before."""
-STOPS = _keys_of("app.stop")
-"""Keys that stop the robot."""
+def quits_at_once(key: str) -> bool:
+    """Whether a key never waits for those typed before."""
+    return _is_of("app.quit_now", key)
+
+
+def _is_of(id: str, pressed: str) -> bool:
+    """Asked for each key anew: a person may have given an action further ones."""
+    return any(key.id == id and pressed in key.keys.split(",") for key in TABLE["app"])
 
 
 def bindings(scope: str) -> list[BindingType]:

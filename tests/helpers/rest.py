@@ -20,6 +20,7 @@ from typing import Any
 from unittest.mock import patch
 from weakref import WeakKeyDictionary
 
+from bot_console.tui.safety import late_stop
 from bot_console.tui.terminal.output import SparingApp
 from textual import _callback, _wait
 from textual import app as app_module
@@ -89,7 +90,8 @@ def _draw(app: Any) -> None:
 def at_rest() -> Iterator[None]:
     """Pilots wait so, meanwhile; and no style sheet is read again that an app of this process has read.
 
-    Nor is the file of a class looked for again, or a signature made to count what a callback takes.
+    Nor is the file of a class looked for again, or a signature made to count what a callback takes. No stop is late by
+    the clock.
     """
     with (
         patch.object(dom_module, "getfile", _file_of_class),
@@ -100,6 +102,7 @@ def at_rest() -> Iterator[None]:
         patch.object(app_module, "wait_for_idle", rest_undrawn),
         patch.object(pilot_module, "wait_for_idle", rest),
         patch.object(pilot_module.Pilot, "_wait_for_screen", _screen_at_rest),
+        patch.object(late_stop, "LATE_S", float(10**6)),
     ):
         yield
 

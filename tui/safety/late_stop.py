@@ -6,7 +6,7 @@ import asyncio
 from collections.abc import Callable
 from functools import partial
 
-from bot_console.tui.keymap import STOPS
+from bot_console.tui.keymap import stops
 from bot_console.tui.safety.stopping import Stopping
 from textual import events
 
@@ -36,7 +36,7 @@ class LateStop:
 
     def waits(self, event: events.Event) -> None:
         """A key has to wait for those before it."""
-        if isinstance(event, events.Key) and event.key in STOPS:
+        if isinstance(event, events.Key) and stops(event.key):
             self._waiting.append(event)
             self.later(partial(self._look, event))
 

@@ -4,21 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import pytest
+from bot_console.tui.keymap import TABLE
+from bot_console.tui.keys.remapping import remap
+from bot_console.tui.look import Look
 from piloting import Session, run
 from samples import live
 from textual import events
 
 STOP = "exclamation_mark"
-Look = Callable[[], None]
+Later = Callable[[], None]
 
 
 def held(session: Session) -> bool:
     return bool(session.console.current.drive.stopped_here)
 
 
-async def behind(session: Session, *keys: str) -> list[Look]:
+async def behind(session: Session, *keys: str) -> list[Later]:
     """Type keys of which none has its turn yet; what is to be looked at when they have waited too long."""
-    looks: list[Look] = []
+    looks: list[Later] = []
     session.app.crew.late_stop.later = looks.append
     await session.app._keyboard.hold(lambda _: False)
     for each in keys:
@@ -94,3 +98,17 @@ def test_one_that_had_its_turn_in_time_holds_once() -> None:
         assert not held(session)
 
     run(live(), play)
+
+
+def test_a_key_that_a_person_has_given_it_does_not_wait_either(monkeypatch: pytest.MonkeyPatch) -> None:
+    for scope, keys in list(TABLE.items()):
+        monkeypatch.setitem(TABLE, scope, keys)
+
+    async def play(session: Session) -> None:
+        (look,) = await behind(session, "3", "f9")
+        look()
+        assert held(session)
+        await their_turn(session)
+        assert held(session)
+
+    run(live(), play, look=Look(keys=remap({"app.stop": "f9"})))
