@@ -47,7 +47,7 @@ class StyledByPart(Widget):
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
-        self._drawn_parts: dict[str, tuple[RenderStyles, Style]] = {}
+        self._drawn_parts: dict[str, Style] = {}
 
     @property
     def own_style(self) -> Style:
@@ -74,20 +74,23 @@ class StyledByPart(Widget):
 
         Textual forgets it with everything that is drawn anew, be it a letter. Raises `KeyError` as above.
         """
-        kept = self._drawn_parts.get(name)
-        if kept is not None and kept[0] is self._component_styles.get(name):
-            return kept[1]
-        style = self.get_component_styles(name).partial_rich_style
-        self._drawn_parts[name] = self._component_styles[name], style
+        style = self._drawn_parts.get(name)
+        if style is None:
+            style = self._drawn_parts[name] = self.get_component_styles(name).partial_rich_style
         return style
 
     def style_parts_again(self, sheet: Stylesheet) -> None:
-        """Match the rules anew for those parts that were drawn, and draw again if one has changed."""
-        before = dict(self._component_styles)
-        self._component_styles.clear()
-        for name in before:
-            self._style_part(sheet, name)
-        if any(self._component_styles[name] != styles for name, styles in before.items()):
+        """Match the rules anew for those parts that were drawn, and draw again if one has changed.
+
+        A part stays the node that it was: a new one each time would stay in memory until garbage is looked for.
+        """
+        changed = False
+        for styles in self._component_styles.values():
+            before = styles.get_rules()
+            cast(Any, sheet).apply(styles.node, animate=False)
+            changed = changed or styles.get_rules() != before
+        if changed:
+            self._drawn_parts.clear()
             self.refresh()
 
     def _style_part(self, sheet: Stylesheet, name: str) -> None:

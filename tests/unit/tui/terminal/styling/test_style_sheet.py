@@ -42,11 +42,13 @@ def test_a_part_is_styled_when_it_is_asked_for_and_follows_the_rules_from_then_o
             assert not parts._component_styles
             assert parts.get_component_styles("parts--first").color == Color.parse("red")
             assert list(parts._component_styles) == ["parts--first"]
+            part = parts.get_component_styles("parts--first").node
             with patch.object(Widget, "refresh", autospec=True, side_effect=Widget.refresh) as drawn:
                 parts.add_class("changed")
                 await pilot.pause()
                 assert [call for call in drawn.call_args_list if call.args == (parts,) and not call.kwargs]
             assert parts.get_component_styles("parts--first").color == Color.parse("blue")
+            assert parts.get_component_styles("parts--first").node is part, "another one would be left to the collector"
             with pytest.raises(KeyError):
                 parts.get_component_styles("parts--third")
 
