@@ -30,7 +30,7 @@ PARTS = {
     "launch_ros": "components in C++",
     "nav2_msgs": "services that came after the first Jazzy",
     "launch_pytest": "`launch_service`, `launch_context` and `event_loop` for fixtures wider than a function",
-    "launch_testing": "actions that run GTest or pytest, JUnit files; `bot-console test` runs test files",
+    "launch_testing": "`loader` and `test_runner`; `bot-console test` and `launch_test` run test files",
     "message_filters": "`LatestTimeSynchronizer`, input aligner",
     "tf2_geometry_msgs": "`PyKDL` types",
     "turtlebot3_msgs": "`Patrol` as examples since 2025 use it; `bot-console interface add FOLDER` takes a checkout",

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable, Iterable, Iterator
-from typing import Any
+from typing import Any, TypeVar
 
 PARAMETERS = "__parametrized__"
 POST_SHUTDOWN = "__post_shutdown_test__"
+READY_TIMEOUT = "__ready_to_test_action_timeout__"
+_Description = TypeVar("_Description")
 
 
 def post_shutdown_test() -> Callable[[type[Any]], type[Any]]:
@@ -22,21 +24,33 @@ def post_shutdown_test() -> Callable[[type[Any]], type[Any]]:
     return mark
 
 
+def ready_to_test_action_timeout(timeout: float) -> Callable[[_Description], _Description]:
+    """A test description whose `ReadyToTest` has so many seconds, not 15."""
+
+    def mark(description: _Description) -> _Description:
+        setattr(description, READY_TIMEOUT, timeout)
+        return description
+
+    return mark
+
+
 def parametrize(argnames: str | Iterable[str], argvalues: Iterable[Any]) -> Callable[[Any], Any]:
-    """A test description that is made, and tested, once for each row of values."""
+    """A test description that is made, and tested, once for each row of values: a tuple, or the one value itself."""
     names = [each.strip() for each in argnames.split(",")] if isinstance(argnames, str) else list(argnames)
 
     def rows() -> Iterator[dict[str, Any]]:
         for value in argvalues:
-            values = value if isinstance(value, list | tuple) else (value,)
-            yield dict(zip(names, values, strict=True))
+            yield dict(zip(names, value if isinstance(value, tuple) else (value,), strict=True))
 
     def decorate(function: Any) -> Any:
         @functools.wraps(function)
         def described(*args: Any, **kwargs: Any) -> Any:
             return function(*args, **kwargs)
 
-        setattr(described, PARAMETERS, lambda: [(functools.partial(function, **row), row) for row in rows()])
+        def made_with(row: dict[str, Any]) -> Any:
+            return functools.update_wrapper(functools.partial(function, **row), function)  # with its marks
+
+        setattr(described, PARAMETERS, lambda: [(made_with(row), row) for row in rows()])
         return described
 
     return decorate

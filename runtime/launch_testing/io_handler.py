@@ -6,8 +6,8 @@ import threading
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from launch_testing.asserts.texts import matcher
-from launch_testing.processes import NoMatchingProcessException, resolve
+from launch_testing.asserts.output import assertInStream
+from launch_testing.util import NoMatchingProcessException, resolveProcesses
 
 
 class IoHandler:
@@ -15,26 +15,32 @@ class IoHandler:
 
     def __init__(self) -> None:
         self._sequence: list[Any] = []
+        self._by_name: dict[str, list[Any]] = {}
 
-    def track(self, action: Any) -> None:
-        """Upstream's way to announce a process; here all are known when they write."""
+    def track(self, process_name: str) -> None:
+        """Know a process that has not written anything yet."""
+        self._by_name.setdefault(process_name, [])
 
     def append(self, process_io: Any) -> None:
         """Keep one more piece."""
         self._sequence.append(process_io)
+        self._by_name.setdefault(process_io.process_name, []).append(process_io)
 
     def __iter__(self) -> Iterator[Any]:
         return iter(list(self._sequence))
 
     def processes(self) -> list[Any]:
         """The processes that have written something."""
-        return list(dict.fromkeys(each.action for each in self))
+        return [pieces[0].action for pieces in list(self._by_name.values()) if pieces]
 
-    process_names = property(lambda self: [each.process_name for each in self])
+    def process_names(self) -> list[str]:
+        """The names of all that are known."""
+        return list(self._by_name)
 
     def __getitem__(self, process: Any) -> list[Any]:
-        (action,) = resolve(self.processes(), process)
-        return [each for each in self if each.action is action]
+        """What a process has written, by its action or its whole name; raises `KeyError` for one that is not known."""
+        name = process if isinstance(process, str) else process.process_details["name"]
+        return list(self._by_name[name])
 
 
 class ActiveIoHandler(IoHandler):
@@ -49,6 +55,11 @@ class ActiveIoHandler(IoHandler):
         """Is notified of each new piece."""
         return self._changed
 
+    def track(self, process_name: str) -> None:
+        """Know a process that has not written anything yet."""
+        with self._changed:
+            super().track(process_name)
+
     def append(self, process_io: Any) -> None:
         """Keep one more piece, and tell those who wait."""
         with self._changed:
@@ -61,38 +72,36 @@ class ActiveIoHandler(IoHandler):
         process: Any = None,
         cmd_args: Any = None,
         *,
+        strict_proc_matching: bool = True,
         output_filter: Callable[[str], str] | None = None,
         timeout: float = 10,
-        strict_proc_matching: bool = True,
+        strip_ansi_escape_sequences: bool = True,
         stream: str = "stderr",
     ) -> bool:
-        """Whether a process writes a text, or a line that matches, within so many seconds."""
-        found = matcher(expected_output)
+        """Whether a process writes something to a stream within so many seconds.
+
+        Raises `NoMatchingProcessException` where by then none of those that are meant has written anything.
+        """
 
         def written() -> bool:
-            known = self.processes()
-            if process is not None or cmd_args is not None:
-                try:
-                    known = resolve(known, process, cmd_args, strict_proc_matching)
-                except NoMatchingProcessException:
-                    return False  # not started yet
-            return any(found(_text(self, action, stream, output_filter)) for action in known)
+            try:
+                assertInStream(
+                    self, expected_output, process, cmd_args,
+                    output_filter=output_filter, strict_proc_matching=strict_proc_matching,
+                    strip_ansi_escape_sequences=strip_ansi_escape_sequences, stream=stream,
+                )  # fmt: skip
+            except (NoMatchingProcessException, AssertionError):
+                return False
+            return True
 
         with self._changed:
-            return self._changed.wait_for(written, timeout)
+            so = self._changed.wait_for(written, timeout)
+            if not so:
+                resolveProcesses(self, process=process, cmd_args=cmd_args, strict_proc_matching=False)
+        return so
 
     def assertWaitFor(self, expected_output: Any, *args: Any, timeout: float = 10, **kwargs: Any) -> None:
         """Assert `waitFor`."""
         assert self.waitFor(expected_output, *args, timeout=timeout, **kwargs), (
             f"Waiting for output timed out: {expected_output!r} was not found within {timeout} s"
         )
-
-
-def _text(handler: IoHandler, action: Any, stream: str, output_filter: Callable[[str], str] | None) -> str:
-    pieces = (
-        each
-        for each in handler
-        if each.action is action and (stream == "both" or each.from_stderr == (stream == "stderr"))
-    )
-    text = "".join(each.text.decode(errors="replace") for each in pieces)
-    return output_filter(text) if output_filter else text

@@ -4,34 +4,68 @@ from __future__ import annotations
 
 import argparse
 import importlib.util
+import logging
 import sys
 import unittest
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from launch_testing.test_run import DESCRIPTION, test_runs
+import launch.logging
+from launch_testing.junitxml import TimedResult, write_report
+from launch_testing.test_run import DESCRIPTION, TestRun, test_runs
+from ros2cli.launch_file import parse_launch_arguments
+from ros2cli.launch_show_args import print_arguments
 
 
 def main(words: Sequence[str] | None = None) -> int:
     """Run a test file; 0 where all tests passed."""
-    parser = argparse.ArgumentParser("launch_test", description="Run the tests of a launch description.")
-    parser.add_argument("test_file", type=Path)
-    parser.add_argument("launch_arguments", nargs="*", metavar="NAME:=VALUE")
+    parser = _parser()
     given = parser.parse_args(words)
-    if not given.test_file.is_file():
-        parser.error(f"{given.test_file} does not exist")
-    runs = test_runs(load(given.test_file))
-    if not runs:
-        parser.error(f"{given.test_file} has no function {DESCRIPTION}")
-    pairs = (each.partition(":=") for each in given.launch_arguments)
-    arguments = {name: value for name, assigned, value in pairs if assigned}
-    result = unittest.TextTestResult(unittest.runner._WritelnDecorator(sys.stderr), True, 2)
+    if given.verbose:
+        launch.logging.launch_config.level = logging.DEBUG
+    path = Path(given.launch_test_file)
+    if not path.is_file():
+        parser.error(f"Test file '{path}' does not exist")
+    try:
+        runs = test_runs(load(path.absolute()))
+        if not runs:
+            raise AttributeError(f"module '{path.stem}' has no attribute '{DESCRIPTION}'")
+        if given.show_args:
+            print_arguments(runs[0].describe()[0])
+            return 0
+        return _run(runs, dict(parse_launch_arguments(given.launch_arguments)), given)
+    except Exception as error:  # a test file is a program: what it raises is told as the command line's fault
+        parser.error(str(error))
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser("launch_test", description="Run the tests of a launch description.")
+    parser.add_argument("launch_test_file", help="the test file")
+    parser.add_argument("--package-name", help="the package of the test, for names in reports")
+    parser.add_argument("-v", "--verbose", action="store_true", help="show more of what launch does")
+    parser.add_argument(
+        "-s",
+        "--show-args",
+        "--show-arguments",
+        action="store_true",
+        help="show the arguments of the description",
+    )
+    parser.add_argument("launch_arguments", nargs="*", help="'<name>:=<value>'; of several of one name the last counts")
+    parser.add_argument("--junit-xml", dest="xmlpath", help="write a report for JUnit there")
+    return parser
+
+
+def _run(runs: Sequence[TestRun], arguments: dict[str, str], given: argparse.Namespace) -> int:
+    result = TimedResult(unittest.runner._WritelnDecorator(sys.stderr), True, 2)
     for run in runs:
         run.run(arguments, result)
     result.printErrors()
     print(f"Ran {result.testsRun} tests: {'OK' if result.wasSuccessful() else 'FAILED'}", file=sys.stderr)
-    return 0 if result.wasSuccessful() and result.testsRun else 1
+    if given.xmlpath:
+        name = Path(given.launch_test_file).stem
+        write_report(given.xmlpath, f"{given.package_name or name}.{name}", result)
+    return 0 if result.wasSuccessful() and (result.testsRun or result.skipped) else 1
 
 
 def load(path: Path) -> Any:

@@ -3,36 +3,42 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
-from launch_testing.processes import NoMatchingProcessException, name_of, resolve
+from launch.events.process import ProcessExited
+from launch_testing.util.proc_lookup import NoMatchingProcessException, described, resolveProcesses
 
 
 class ProcInfoHandler:
-    """Keeps the exit of each process."""
+    """Keeps the last event of each process: its start, then its exit."""
 
     def __init__(self) -> None:
-        self._exits: dict[Any, Any] = {}
+        self._events: dict[Any, Any] = {}
 
     def append(self, process_info: Any) -> None:
         """Keep one more start or exit."""
-        self._exits[process_info.action] = process_info
+        self._events[process_info.action] = process_info
+
+    def __iter__(self) -> Iterator[Any]:
+        return iter(list(self._events.values()))
 
     def processes(self) -> list[Any]:
         """The processes that are known."""
-        return list(self._exits)
+        return list(self._events)
 
     def process_names(self) -> list[str]:
         """Their names."""
-        return [each.process_name for each in self._exits.values()]
-
-    def __iter__(self) -> Iterator[Any]:
-        return iter(list(self._exits.values()))
+        return [each.process_details["name"] for each in list(self._events)]
 
     def __getitem__(self, process: Any) -> Any:
-        (action,) = resolve(self._exits, process)
-        return self._exits[action]
+        """The event of a process, by its action or a part of its name; raises `KeyError` for one that is not known."""
+        if not isinstance(process, str):
+            return self._events[process]
+        for action, event in list(self._events.items()):
+            if process in action.process_details["name"]:
+                return event
+        raise KeyError(process)
 
 
 class ActiveProcInfoHandler(ProcInfoHandler):
@@ -41,39 +47,38 @@ class ActiveProcInfoHandler(ProcInfoHandler):
     def __init__(self) -> None:
         super().__init__()
         self._changed = threading.Condition()
-        self._ended: set[Any] = set()
+
+    @property
+    def proc_event(self) -> threading.Condition:
+        """Is notified of each start and exit."""
+        return self._changed
 
     def append(self, process_info: Any) -> None:
         """Keep one more start or exit, and tell those who wait."""
         with self._changed:
             super().append(process_info)
-            if hasattr(process_info, "returncode"):
-                self._ended.add(process_info.action)
             self._changed.notify_all()
 
     def assertWaitForStartup(self, process: Any, cmd_args: Any = None, *, timeout: float = 10) -> None:
         """Assert that a process starts within so many seconds."""
-        assert self._wait(process, cmd_args, timeout, ended=False), (
-            f"Timed out waiting for process '{_shown(process)}' to start"
-        )
+        so = self._wait(process, cmd_args, timeout, lambda event: True)
+        assert so, f"Timed out waiting for process '{_shown(process)}' to start"
 
     def assertWaitForShutdown(self, process: Any, cmd_args: Any = None, *, timeout: float = 10) -> None:
         """Assert that a process ends within so many seconds."""
-        assert self._wait(process, cmd_args, timeout, ended=True), (
-            f"Timed out waiting for process '{_shown(process)}' to finish"
-        )
+        so = self._wait(process, cmd_args, timeout, lambda event: isinstance(event, ProcessExited))
+        assert so, f"Timed out waiting for process '{_shown(process)}' to finish"
 
-    def _wait(self, process: Any, cmd_args: Any, timeout: float, *, ended: bool) -> bool:
+    def _wait(self, process: Any, cmd_args: Any, timeout: float, fits: Callable[[Any], bool]) -> bool:
         def so() -> bool:
             try:
-                found = resolve(self._exits, process, cmd_args)
+                return fits(self._events[resolveProcesses(self, process=process, cmd_args=cmd_args)[0]])
             except NoMatchingProcessException:
                 return False
-            return not ended or all(each in self._ended for each in found)
 
         with self._changed:
             return self._changed.wait_for(so, timeout)
 
 
-def _shown(process: Any) -> str:
-    return process if isinstance(process, str) else name_of(process)
+def _shown(process: Any) -> str | None:
+    return process if isinstance(process, str) or process is None else described(process)

@@ -6,18 +6,18 @@ import functools
 import inspect
 import threading
 import unittest
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
-from launch.actions import RegisterEventHandler
+from launch.actions import IncludeLaunchDescription, RegisterEventHandler
 from launch.event_handlers import OnProcessExit, OnProcessIO, OnProcessStart
 from launch_testing.actions import ReadyToTest
-from launch_testing.decorators import PARAMETERS, POST_SHUTDOWN
+from launch_testing.decorators import PARAMETERS, POST_SHUTDOWN, READY_TIMEOUT
 from launch_testing.io_handler import ActiveIoHandler
 from launch_testing.markers import KEEP_ALIVE
 from launch_testing.proc_info_handler import ActiveProcInfoHandler
 
-from launch import LaunchDescription, LaunchService
+from launch import LaunchDescription, LaunchDescriptionSource, LaunchService
 
 START_LIMIT = 15.0
 """Seconds within which what is tested has to be ready, as upstream."""
@@ -33,66 +33,84 @@ class TestRun:
         self.parameters = dict(parameters)
         self._module = module
         self._description = description
-        self.name = ", ".join(f"{name}={value!r}" for name, value in parameters.items())
+        self.name = f"[{', '.join(map(str, parameters.values()))}]" if parameters else ""
+
+    def describe(self) -> tuple[LaunchDescription, list[ReadyToTest], dict[str, Any]]:
+        """The launch description, its marks and what it gives to the tests; raises `Exception` without a mark."""
+        made = self._description()
+        description, context = made if isinstance(made, tuple) else (made, {})
+        marks = [each for each in entities_of(description) if isinstance(each, ReadyToTest)]
+        if not marks:
+            raise Exception(f"{DESCRIPTION} functions must return a LaunchDescription containing a ReadyToTest action")
+        return description, marks, context
 
     def run(self, arguments: Mapping[str, str], result: unittest.TestResult) -> None:
         """Run all tests into a result; a launch that ends before the tests counts as an error."""
+        try:
+            description, marks, context = self.describe()
+        except unittest.SkipTest as skipped:
+            result.addSkip(self._whole(), str(skipped))
+            return
         ready = threading.Event()
-        description, context = self._describe(ready.set)
+        for mark in marks:
+            mark._add_callback(ready.set)
         proc_info, proc_output = ActiveProcInfoHandler(), ActiveIoHandler()
         service = LaunchService(argv=[f"{name}:={value}" for name, value in arguments.items()], noninteractive=True)
-        service.context.launch_configurations.update(arguments)
         known = {**context, **self.parameters, "proc_info": proc_info, "proc_output": proc_output}
-        known |= {"launch_service": service, "test_args": dict(arguments)}
-        before, after = self._suites(known)
-        service.include_launch_description(LaunchDescription([*_watched(proc_info, proc_output), description]))
+        known |= {"test_args": dict(arguments)}
+        before, after = self._suite(False, {**known, "launch_service": service}), self._suite(True, known)
+        included = IncludeLaunchDescription(LaunchDescriptionSource(description), launch_arguments=arguments.items())
+        service.include_launch_description(LaunchDescription([*_watched(proc_info, proc_output), included]))
         tester = threading.Thread(target=self._run_beside, args=(ready, before, result, service), daemon=True)
         tester.start()
         service.run(shutdown_when_idle=not getattr(self._description, KEEP_ALIVE, False))
         tester.join(timeout=1.0)
         if tester.is_alive():
-            result.addError(
-                _Named(f"{self._module.__name__} {self.name}"),
-                _raised("Processes under test stopped before tests completed"),
-            )
+            result.addError(self._whole(), _raised("Processes under test stopped before tests completed"))
+            _print_output_of_failed(proc_info, proc_output)
             return
         setattr(result, "_previousTestClass", None)  # noqa: B010 -- else unittest tears its last class down a second time
         after.run(result)
 
-    def _describe(self, ready: Any) -> tuple[LaunchDescription, dict[str, Any]]:
-        wants_ready = "ready_fn" in inspect.signature(self._description).parameters
-        made = self._description(ready_fn=ready) if wants_ready else self._description()
-        description, context = made if isinstance(made, tuple) else (made, {})
-        marks = [each for each in entities_of(description) if isinstance(each, ReadyToTest)]
-        for mark in marks:
-            mark._add_callback(ready)
-        if not marks and not wants_ready:
-            if not getattr(self._description, KEEP_ALIVE, False):
-                raise RuntimeError(f"{DESCRIPTION} without an argument ready_fn has to contain an action ReadyToTest")
-            ready()
-        return description, context
+    def _suite(self, afterwards: bool, known: Mapping[str, Any]) -> unittest.TestSuite:
+        """The test cases for beside or for afterwards, with what their methods ask for by name."""
+        suite = unittest.TestSuite()
+        named = (getattr(self._module, name) for name in dir(self._module))  # by name, as unittest finds them
+        for case in (each for each in named if isinstance(each, type) and issubclass(each, unittest.TestCase)):
+            if bool(getattr(case, POST_SHUTDOWN, False)) == afterwards:
+                suite.addTests(self._tests_of(case, known))
+        return suite
 
-    def _suites(self, known: Mapping[str, Any]) -> tuple[unittest.TestSuite, unittest.TestSuite]:
-        """The test cases for beside and for afterwards, with what their methods ask for by name."""
-        suites = unittest.TestSuite(), unittest.TestSuite()
-        classes = [each for each in vars(self._module).values() if isinstance(each, type)]
-        for case in (each for each in classes if issubclass(each, unittest.TestCase)):
-            suite = suites[bool(getattr(case, POST_SHUTDOWN, False))]
-            for test in unittest.defaultTestLoader.loadTestsFromTestCase(case):
-                _bind(test, known)
-                suite.addTest(test)
-        return suites
+    def _tests_of(self, case: type[unittest.TestCase], known: Mapping[str, Any]) -> Iterator[unittest.TestCase]:
+        """The tests of a class, in a class of this run: others shall not see what is given to it."""
+        own = type(case.__name__, (case,), {"__module__": case.__module__, "__qualname__": case.__qualname__})
+        for name in ("proc_info", "proc_output", "launch_service", "test_args"):
+            if name in known:
+                setattr(own, name, known[name])
+        for name in ("setUpClass", "tearDownClass"):
+            setattr(own, name, _given(getattr(own, name), known))
+        for test in unittest.defaultTestLoader.loadTestsFromTestCase(own):
+            for name in (test._testMethodName, "setUp", "tearDown"):
+                setattr(test, name, _given(getattr(test, name), known))
+            if self.name:
+                method = getattr(test, test._testMethodName)
+                test._testMethodName += self.name
+                setattr(test, test._testMethodName, method)
+            yield test
 
     def _run_beside(
         self, ready: threading.Event, suite: unittest.TestSuite, result: unittest.TestResult, service: LaunchService
     ) -> None:
         try:
-            if ready.wait(START_LIMIT):
+            if ready.wait(getattr(self._description, READY_TIMEOUT, START_LIMIT)):
                 suite.run(result)
             else:
-                result.addError(_Named(self._module.__name__), _raised("Timed out waiting for processes to start up"))
+                result.addError(self._whole(), _raised("Timed out waiting for processes to start up"))
         finally:
             service.shutdown()
+
+    def _whole(self) -> unittest.TestCase:
+        return _Named(f"{self._module.__name__}{self.name}")
 
 
 class _Named(unittest.TestCase):
@@ -118,8 +136,19 @@ def _raised(text: str) -> Any:
     return RuntimeError, error, error.__traceback__
 
 
+def _print_output_of_failed(proc_info: ActiveProcInfoHandler, proc_output: ActiveIoHandler) -> None:
+    """What may say why processes ended too early."""
+    for event in (each for each in proc_info if getattr(each, "returncode", 0)):
+        print(f"Process '{event.process_name}' exited with {event.returncode}")
+        print(f"##### '{event.process_name}' output #####")
+        for piece in proc_output[event.process_name]:
+            print(piece.text.decode(errors="replace"))
+        print("#" * (len(event.process_name) + 21))
+
+
 def _watched(proc_info: ActiveProcInfoHandler, proc_output: ActiveIoHandler) -> list[RegisterEventHandler]:
     heard = (
+        OnProcessStart(on_start=lambda event, _: proc_output.track(event.process_name)),
         OnProcessStart(on_start=lambda event, _: proc_info.append(event)),
         OnProcessExit(on_exit=lambda event, _: proc_info.append(event)),
         OnProcessIO(on_stdout=proc_output.append, on_stderr=proc_output.append),
@@ -135,15 +164,10 @@ def entities_of(entity: Any) -> list[Any]:
     return [entity, *(found for each in below for found in entities_of(each))]
 
 
-def _bind(test: Any, known: Mapping[str, Any]) -> None:
-    """Give a test, its `setUp` and its class what they name as arguments; also as attributes, as upstream."""
-    for name in ("proc_info", "proc_output", "launch_service", "test_args"):
-        setattr(test, name, known[name])
-    for name in (test._testMethodName, "setUp", "tearDown"):
-        method = getattr(test, name)
-        wanted = [each for each in inspect.signature(method).parameters if each in known]
-        if wanted:
-            setattr(test, name, functools.partial(method, **{each: known[each] for each in wanted}))
+def _given(method: Any, known: Mapping[str, Any]) -> Any:
+    """A method with those of its arguments that are known by name."""
+    wanted = [each for each in inspect.signature(method).parameters if each in known]
+    return functools.partial(method, **{each: known[each] for each in wanted}) if wanted else method
 
 
 def test_runs(module: Any) -> list[TestRun]:

@@ -16,18 +16,23 @@ def show_args(path: str) -> int:
         description = get_launch_description_from_any_launch_file(path)
     except Exception as error:  # a launch file is a program: what it raises is told without a traceback
         return _failed(error)
-    print(HEADER)
     try:
-        arguments = description.get_launch_arguments()
+        print_arguments(description)
     except Exception as error:
         return _failed(error)
+    return 0
+
+
+def print_arguments(description: Any) -> None:
+    """Print the arguments of a launch description with their defaults; raises what an included file raises."""
+    print(HEADER)
+    arguments = description.get_launch_arguments()
     if not arguments:
         print("\n  No arguments.")
     for each in arguments:
         print(_text(each))
     if any(each._conditionally_included for each in arguments):
         print("\n* argument(s) which are only used if specific conditions occur")
-    return 0
 
 
 def _failed(error: Exception) -> int:

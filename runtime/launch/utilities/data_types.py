@@ -23,7 +23,7 @@ def extract_type(data_type: Any) -> tuple[Any, bool]:
     return scalar, is_list
 
 
-def is_instance_of_valid_type(value: Any, *, can_be_str: bool = False) -> bool:
+def is_instance_of_valid_type(value: Any, can_be_str: bool = False) -> bool:
     """Whether a value is a scalar or a list of one type; texts may stand between others where that is allowed."""
     if not isinstance(value, list):
         return isinstance(value, SCALARS)
@@ -34,7 +34,7 @@ def is_instance_of_valid_type(value: Any, *, can_be_str: bool = False) -> bool:
     return kind in SCALARS and all(isinstance(each, allowed) for each in items)
 
 
-def is_instance_of(value: Any, data_type: Any, *, can_be_str: bool = False) -> bool:
+def is_instance_of(value: Any, data_type: Any, can_be_str: bool = False) -> bool:
     """Whether a value is of a type; an int is no float, but a bool is an int. Raises `ValueError` for other types."""
     if data_type is None:
         return is_instance_of_valid_type(value, can_be_str=can_be_str)

@@ -54,7 +54,7 @@ __all__ = [
 ]
 
 
-def coerce_to_type(value: str, data_type: Any = None, *, can_be_str: bool = False) -> Any:
+def coerce_to_type(value: str, data_type: Any = None, can_be_str: bool = False) -> Any:
     """A scalar or list from a text, which may stay a text where that is allowed.
 
     Raises `ValueError` for a text that is none of the type, `TypeError` for what is no text.
@@ -77,7 +77,7 @@ def coerce_to_type(value: str, data_type: Any = None, *, can_be_str: bool = Fals
         raise
 
 
-def coerce_list(value: list[str], data_type: Any = None, *, can_be_str: bool = False) -> list[Any]:
+def coerce_list(value: list[str], data_type: Any = None, can_be_str: bool = False) -> list[Any]:
     """A list from texts; raises `ValueError` where they are not of one type, `TypeError` for what is no list."""
     ensure_argument_type(value, list, "value", "coerce_list")
     found = [coerce_to_type(each, data_type, can_be_str=can_be_str) for each in value]
@@ -86,7 +86,7 @@ def coerce_list(value: list[str], data_type: Any = None, *, can_be_str: bool = F
     return found
 
 
-def get_typed_value(value: Any, data_type: Any, *, can_be_str: bool = False) -> Any:
+def get_typed_value(value: Any, data_type: Any, can_be_str: bool = False) -> Any:
     """A value of a type from a text or a list of texts; raises `ValueError`, and `TypeError` for a list as a scalar."""
     if not isinstance(value, list):
         return coerce_to_type(value, data_type, can_be_str=can_be_str)

@@ -6,6 +6,7 @@ from launch_testing.asserts.exit_codes import (
     EXIT_SIGINT,
     EXIT_SIGKILL,
     EXIT_SIGQUIT,
+    EXIT_SIGSEGV,
     EXIT_SIGTERM,
     assertExitCodes,
 )
@@ -13,9 +14,10 @@ from launch_testing.asserts.output import (
     SequentialTextChecker,
     assertInStderr,
     assertInStdout,
+    assertInStream,
     assertSequentialStdout,
 )
-from launch_testing.processes import NoMatchingProcessException
+from launch_testing.util import NO_CMD_ARGS, NoMatchingProcessException
 
 __all__ = [
     "EXIT_FORCED",
@@ -23,11 +25,14 @@ __all__ = [
     "EXIT_SIGINT",
     "EXIT_SIGKILL",
     "EXIT_SIGQUIT",
+    "EXIT_SIGSEGV",
     "EXIT_SIGTERM",
+    "NO_CMD_ARGS",
     "NoMatchingProcessException",
     "SequentialTextChecker",
     "assertExitCodes",
     "assertInStderr",
     "assertInStdout",
+    "assertInStream",
     "assertSequentialStdout",
 ]

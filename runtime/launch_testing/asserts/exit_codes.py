@@ -2,28 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection
 from typing import Any
 
-from launch_testing.processes import resolve
+from launch_testing.util import resolveProcesses
 
 EXIT_OK = 0
 EXIT_SIGINT = 130
 EXIT_SIGQUIT = 131
 EXIT_SIGTERM = 143
 EXIT_SIGKILL = 137
+EXIT_SIGSEGV = 139
 EXIT_FORCED = 1
-SIGNALS = {EXIT_SIGINT: -2, EXIT_SIGQUIT: -3, EXIT_SIGTERM: -15, EXIT_SIGKILL: -9}
-"""What Python says of a process that a signal has ended, by what a shell says."""
 
 
 def assertExitCodes(
-    proc_info: Any, allowable_exit_codes: Iterable[int] = (EXIT_OK,), process: Any = None, cmd_args: Any = None, *,
+    proc_info: Any, allowable_exit_codes: Collection[int] = (EXIT_OK,), process: Any = None, cmd_args: Any = None, *,
     strict_proc_matching: bool = True,
 ) -> None:  # fmt: skip
-    """Assert that all processes, or those that are meant, have ended with one of these codes."""
-    allowed = set(allowable_exit_codes)
-    allowed |= {SIGNALS[each] for each in allowed if each in SIGNALS}
-    for action in resolve(proc_info.processes(), process, cmd_args, strict_proc_matching):
-        info = proc_info[action]
-        assert info.returncode in allowed, f"Proc {info.process_name} exited with code {info.returncode}"
+    """Assert that all processes, or those that are meant, have ended with one of these codes.
+
+    One that a signal has ended has the signal's number with a minus; the codes of signals are what a program or shell
+    returns itself.
+    """
+    for code in allowable_exit_codes:
+        assert isinstance(code, int), f"Provided exit code {code} is not an int"
+    meant = resolveProcesses(proc_info, process=process, cmd_args=cmd_args, strict_proc_matching=strict_proc_matching)
+    for info in [proc_info[action] for action in meant]:
+        assert info.returncode in allowable_exit_codes, f"Proc {info.process_name} exited with code {info.returncode}"

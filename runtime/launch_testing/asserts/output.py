@@ -6,65 +6,103 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from launch_testing.asserts.texts import matcher
-from launch_testing.processes import name_of, resolve
+from launch_testing.texts import build_text_match, remove_ansi_escape_sequences
+from launch_testing.util.proc_lookup import name_of, resolveProcesses
 
-Filter = Callable[[str], str] | None
+STREAMS = ("stdout", "stderr")
+
+
+def assertInStream(
+    proc_output: Any,
+    expected_output: Any,
+    process: Any,
+    cmd_args: Any = None,
+    *,
+    output_filter: Callable[[str], str] | None = None,
+    strict_proc_matching: bool = True,
+    strip_ansi_escape_sequences: bool = True,
+    stream: str = "stderr",
+) -> None:
+    """Assert that a process, or any for None, has written something, by the rules of `build_text_match`.
+
+    Raises `ValueError` for a stream that is not of `STREAMS` and for a filter that cannot be called.
+    """
+    meant = resolveProcesses(proc_output, process=process, cmd_args=cmd_args, strict_proc_matching=strict_proc_matching)
+    if output_filter is not None and not callable(output_filter):
+        raise ValueError("output_filter is not callable")
+    match = build_text_match(expected_output)
+    if stream not in STREAMS:
+        raise ValueError("Invalid value for stream; must be 'stdout' or 'stderr'")
+    for action in meant:
+        pieces = (each for each in proc_output[action] if each.from_stderr == (stream == "stderr"))
+        text = b"".join(each.text for each in pieces).decode(errors="replace")
+        if strip_ansi_escape_sequences:
+            text = remove_ansi_escape_sequences(text)
+        if match(output_filter(text) if output_filter else text) is not None:
+            return
+    names = ", ".join(sorted(map(name_of, meant)))
+    raise AssertionError(f"Did not find '{expected_output}' in output for any of the matching processes: {names}")
 
 
 def assertInStdout(
-    proc_output: Any, expected_output: Any, process: Any = None, cmd_args: Any = None, *,
-    output_filter: Filter = None, strict_proc_matching: bool = True,
+    proc_output: Any, expected_output: Any, process: Any, cmd_args: Any = None, *,
+    output_filter: Callable[[str], str] | None = None, strict_proc_matching: bool = True,
+    strip_ansi_escape_sequences: bool = True,
 ) -> None:  # fmt: skip
-    """Assert that a process has written something to its standard output."""
-    _assert_in(proc_output, expected_output, process, cmd_args, output_filter, strict_proc_matching, stderr=False)
+    """`assertInStream` of the standard output."""
+    assertInStream(
+        proc_output, expected_output, process, cmd_args, output_filter=output_filter,
+        strict_proc_matching=strict_proc_matching, strip_ansi_escape_sequences=strip_ansi_escape_sequences,
+        stream="stdout",
+    )  # fmt: skip
 
 
 def assertInStderr(
-    proc_output: Any, expected_output: Any, process: Any = None, cmd_args: Any = None, *,
-    output_filter: Filter = None, strict_proc_matching: bool = True,
+    proc_output: Any, expected_output: Any, process: Any, cmd_args: Any = None, *,
+    output_filter: Callable[[str], str] | None = None, strict_proc_matching: bool = True,
+    strip_ansi_escape_sequences: bool = True,
 ) -> None:  # fmt: skip
-    """Assert that a process has written something to its standard error."""
-    _assert_in(proc_output, expected_output, process, cmd_args, output_filter, strict_proc_matching, stderr=True)
-
-
-def _assert_in(
-    proc_output: Any, expected: Any, process: Any, cmd_args: Any, output_filter: Filter, strict: bool, *, stderr: bool
-) -> None:
-    found, texts = matcher(expected), {}
-    for action in resolve(proc_output.processes(), process, cmd_args, strict):
-        text = "".join(
-            each.text.decode(errors="replace")
-            for each in proc_output
-            if each.action is action and each.from_stderr == stderr
-        )
-        texts[name_of(action)] = output_filter(text) if output_filter else text
-    assert any(found(text) for text in texts.values()), (
-        f"Did not find {expected!r} in output of {' or '.join(texts) or 'any process'}"
-    )
+    """`assertInStream` of the standard error."""
+    assertInStream(
+        proc_output, expected_output, process, cmd_args, output_filter=output_filter,
+        strict_proc_matching=strict_proc_matching, strip_ansi_escape_sequences=strip_ansi_escape_sequences,
+        stream="stderr",
+    )  # fmt: skip
 
 
 class SequentialTextChecker:
     """Asserts texts one after the other: each is looked for behind the one before."""
 
     def __init__(self, output: list[str]) -> None:
-        self._lines = output
+        self._text = "".join(output)
         self._at = 0
 
-    def assertInStdout(self, msg: Any) -> None:
-        """Assert that a later line has a text."""
-        found = matcher(msg)
-        for at in range(self._at, len(self._lines)):
-            if found(self._lines[at]):
-                self._at = at + 1
-                return
-        raise AssertionError(f"'{msg}' not found in output")
+    def assertInText(self, msg: str) -> None:
+        """Assert that a text comes later; one that does not changes nothing."""
+        found = self._text.find(msg, self._at)
+        if found < 0:
+            raise AssertionError(
+                f"'{msg}' not found in sequence after previous match.  "
+                f"The output near the last matched line:\n{self.get_nearby_lines()}"
+            )
+        self._at = found + len(msg)
+
+    def assertInStdout(self, msg: str) -> None:
+        """The same, under the name that tests use."""
+        self.assertInText(msg)
+
+    def get_nearby_lines(self) -> str:
+        """The line of the last match with two lines before and behind it."""
+        begin, end = self._at, self._at
+        for _ in range(3):
+            begin = max(self._text.rfind("\n", 0, begin), 0)
+        for _ in range(3):
+            end = max(self._text.find("\n", end + 1), end)
+        return self._text[begin + 1 if begin else 0 : end]
 
 
 @contextmanager
 def assertSequentialStdout(proc_output: Any, process: Any, cmd_args: Any = None) -> Iterator[SequentialTextChecker]:
-    """A checker of the lines that a process has written to its standard output."""
-    (action,) = resolve(proc_output.processes(), process, cmd_args)
-    pieces = (each for each in proc_output if each.action is action and not each.from_stderr)
-    text: str = "".join(each.text.decode(errors="replace") for each in pieces)
-    yield SequentialTextChecker([str(line) for line in text.splitlines()])
+    """A checker of all that one process has written, errors included."""
+    action = resolveProcesses(proc_output, process=process, cmd_args=cmd_args)[0]
+    yield SequentialTextChecker([each.text.decode(errors="replace") for each in proc_output[action]])

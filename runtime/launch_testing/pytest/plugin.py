@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 from launch_testing.test_run import DESCRIPTION, test_runs
+from ros2cli.launch_file import parse_launch_arguments
 
 
 class LaunchTestFailure(Exception):
@@ -24,14 +25,14 @@ class LaunchTestItem(pytest.Item):
 
     def runtest(self) -> None:
         """Run them; raises `LaunchTestFailure`."""
-        pairs = [each.partition(":=") for some in self.config.getoption("--launch-args") or () for each in some]
+        words = [each for some in self.config.getoption("--launch-args") or () for each in some]
         result = unittest.TestResult()
         for run in test_runs(self._module):
-            run.run({name: value for name, _, value in pairs}, result)
+            run.run(parse_launch_arguments(words), result)
         bad = [*result.failures, *result.errors]
         if bad:
             raise LaunchTestFailure("\n\n".join(f"FAIL: {test}\n{text}" for test, text in bad))
-        if not result.testsRun:
+        if not result.testsRun and not result.skipped:
             raise LaunchTestFailure(f"{self.name} has no tests")
 
     def repr_failure(self, excinfo: Any, style: Any = None) -> Any:

@@ -78,6 +78,7 @@ def test_instances() -> None:
     assert is_instance_of(True, int)
     assert not is_instance_of(1, float)
     assert is_instance_of(["1", 2], list[int], can_be_str=True)
+    assert is_instance_of("1", int, True)
     assert not is_instance_of([1, "2"], list[str], can_be_str=True)
     assert not is_instance_of([1, "2"], None)
 

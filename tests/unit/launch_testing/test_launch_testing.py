@@ -7,11 +7,10 @@ import subprocess
 import sys
 import unittest
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
-from launch_testing.asserts import SequentialTextChecker
-from launch_testing.asserts.texts import matcher
-from launch_testing.launch_test import load
+from launch_testing.launch_test import load, main
 from launch_testing.markers import retry_on_failure
 from launch_testing.test_run import test_runs as runs_of
 
@@ -62,7 +61,7 @@ class TestGreeter(unittest.TestCase):
 @launch_testing.post_shutdown_test()
 class TestAfterwards(unittest.TestCase):
     def test_exit_code(self, proc_info):
-        launch_testing.asserts.assertExitCodes(proc_info, [launch_testing.asserts.EXIT_SIGINT, 1])
+        launch_testing.asserts.assertExitCodes(proc_info, [-2, 1])
 
     def test_output(self):
         launch_testing.asserts.assertInStderr(self.proc_output, 'oops', 'greeter')
@@ -76,6 +75,7 @@ def generate_test_description():
 
 class TestGreeter(unittest.TestCase):
     def test_it_says_good_bye(self, proc_output):
+        proc_output.assertWaitFor('hello', timeout=30, stream='stdout')
         proc_output.assertWaitFor('good bye', timeout=0.1, stream='stdout')
 """
 PARAMETRIZED = """
@@ -122,7 +122,7 @@ def test_launch_arguments_reach_the_description(tmp_path: Path) -> None:
 
 def test_a_description_that_never_becomes_ready_is_refused(tmp_path: Path) -> None:
     path = write(tmp_path, "def generate_test_description():\n    return launch.LaunchDescription([])\n")
-    with pytest.raises(RuntimeError, match="has to contain an action ReadyToTest"):
+    with pytest.raises(Exception, match="must return a LaunchDescription containing a ReadyToTest action"):
         run(path)
 
 
@@ -150,20 +150,6 @@ def test_under_pytest_and_alone(tmp_path: Path, text: str, code: int) -> None:
     assert ("good bye" in ended.stderr) == bool(code)
 
 
-def test_what_can_be_looked_for() -> None:
-    import re
-
-    assert matcher("b")("abc") and not matcher("d")("abc")
-    assert matcher(re.compile("a.c"))("abc")
-    assert matcher(["a", "c"])("a\nb\nc") and not matcher(["c", "a"])("a\nb\nc")
-    with pytest.raises(ValueError, match="cannot look for 5"):
-        matcher(5)
-    checker = SequentialTextChecker(["one", "two"])
-    checker.assertInStdout("two")
-    with pytest.raises(AssertionError):
-        checker.assertInStdout("one")
-
-
 def test_a_test_may_be_tried_again() -> None:
     tries: list[int] = []
 
@@ -175,3 +161,106 @@ def test_a_test_may_be_tried_again() -> None:
     flaky()
     with pytest.raises(ValueError, match="times or timeout"):
         retry_on_failure()
+
+
+BESIDE = """
+@launch_testing.parametrize('word', ['red', 'blue'])
+@launch_testing.markers.keep_alive
+def generate_test_description(word):
+    return launch.LaunchDescription([launch_testing.actions.ReadyToTest()]), {'given': 5}
+
+class TestBeside(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls, launch_service, proc_info, proc_output):
+        def start(text, **more):
+            action = ExecuteProcess(cmd=[sys.executable, '-c', f'print({text!r}); import sys; sys.exit(3)'])
+            return launch_testing.tools.launch_process(launch_service, action, proc_info, proc_output, **more)
+        cls.start = staticmethod(start)
+
+    def test_a_process_of_its_own(self, word):
+        keep = launch_testing.tools.basic_output_filter(filtered_patterns=['no'])
+        with self.start(f'no{chr(10)}{word}', output_filter=keep) as process:
+            assert process.wait_for_shutdown(timeout=30)
+        assert process.terminated and not process.running
+        assert (process.exit_code, process.stdout, process.stderr) == (3, f'{word}{chr(10)}', '')
+
+    def test_output_while_it_runs(self, launch_service, proc_info, proc_output):
+        stays = ExecuteProcess(cmd=[sys.executable, '-c', PROGRAM, 'x'], name='stays')
+        with launch_testing.tools.launch_process(launch_service, stays, proc_info, proc_output) as process:
+            found = process.wait_for_output(lambda text: 'hello' in text, timeout=30)
+            assert found and 'hello' in repr(found) and process.running
+        assert process.wait_for_shutdown(timeout=30)
+
+@launch_testing.post_shutdown_test()
+class TestAfterwards(unittest.TestCase):
+    def test_all_have_ended(self, proc_info, given):
+        assert given == 5
+        launch_testing.asserts.assertExitCodes(proc_info, [3], 'python')
+"""
+
+
+def test_a_test_may_start_processes_itself(tmp_path: Path) -> None:
+    result = run(write(tmp_path, BESIDE))
+    assert (result.failures, result.errors, result.testsRun) == ([], [], 6)
+
+
+def test_names_of_tests_have_their_parameters(tmp_path: Path) -> None:
+    waits = "proc_output.assertWaitFor(word, timeout=30, stream='stdout')"
+    result = run(write(tmp_path, PARAMETRIZED.replace(waits, "assert not word")))
+    assert [test.id().rpartition(".")[2] for test, _ in result.failures] == [
+        "test_it_says_its_word[red]",
+        "test_it_says_its_word[blue]",
+    ]
+
+
+def test_a_description_may_be_skipped(tmp_path: Path) -> None:
+    result = run(write(tmp_path, "@unittest.skip('not here')" + BAD))
+    assert [text for _, text in result.skipped] == ["not here"]
+    assert result.wasSuccessful()
+
+
+def test_what_was_meant_to_be_ready_in_time(tmp_path: Path) -> None:
+    text = """
+@launch_testing.ready_to_test_action_timeout(0.2)
+def generate_test_description():
+    late = launch.actions.TimerAction(period=60.0, actions=[launch_testing.actions.ReadyToTest()])
+    return launch.LaunchDescription([launch_testing.util.KeepAliveProc(), late])
+"""
+    result = run(write(tmp_path, text))
+    assert "Timed out waiting for processes to start up" in result.errors[0][1]
+
+
+def test_the_output_of_what_ended_too_early_is_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = BAD.replace(
+        "return described()",
+        "return launch.LaunchDescription([ExecuteProcess(cmd=[sys.executable, '-c', 'raise RuntimeError(5)']), "
+        "launch_testing.actions.ReadyToTest()])",
+    )
+    run(write(tmp_path, text.replace("timeout=0.1", "timeout=20")))
+    shown = capsys.readouterr().out
+    assert "exited with 1\n##### 'python" in shown and "RuntimeError: 5" in shown
+
+
+def test_options_of_launch_test(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path, report = write(tmp_path, BAD), tmp_path / "report.xml"
+    assert main([str(path), "--show-args"]) == 0
+    assert "    'who':\n        no description given\n        (default: 'you')" in capsys.readouterr().out
+    assert main([str(path), "--package-name", "greeting", "--junit-xml", str(report)]) == 1
+    suite = ElementTree.parse(report).getroot()[0]
+    assert (suite.attrib["tests"], suite.attrib["failures"], suite.attrib["errors"]) == ("1", "1", "0")
+    assert suite[0].attrib["name"] == "test_it_says_good_bye" and "good bye" in suite[0][0].attrib["message"]
+
+
+@pytest.mark.parametrize(
+    ("words", "text"),
+    [
+        (["missing.py"], "Test file 'missing.py' does not exist"),
+        (["{path}", "who:="], "malformed launch argument 'who:=', expected format '<name>:=<value>'"),
+    ],
+)
+def test_what_launch_test_cannot_run(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], words: list[str], text: str
+) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main([each.format(path=write(tmp_path, BAD)) for each in words])
+    assert ended.value.code == 2 and f"error: {text}" in capsys.readouterr().err

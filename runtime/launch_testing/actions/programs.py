@@ -1,0 +1,60 @@
+"""Programs that are tests: any, one of GTest, and a file of pytest."""
+
+from __future__ import annotations
+
+import signal
+from typing import Any
+
+from launch.actions import EmitEvent, ExecuteProcess, TimerAction
+from launch.events import matches_action
+from launch.events.process import SignalProcess
+from launch.substitutions import FindExecutable
+
+
+class Test(ExecuteProcess):
+    """A process that is killed when it has not ended after `timeout` seconds."""
+
+    __test__ = False  # nothing that pytest should collect
+
+    def __init__(self, *, timeout: Any = None, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__timeout = timeout
+
+    @property
+    def timeout(self) -> Any:
+        """Seconds, None for no limit."""
+        return self.__timeout
+
+    def execute(self, context: Any) -> list[Any] | None:
+        """Start it, and the time."""
+        actions = super().execute(context)
+        if not self.__timeout:
+            return actions
+        kill = EmitEvent(event=SignalProcess(signal_number=signal.SIGKILL, process_matcher=matches_action(self)))
+        return [*(actions or []), TimerAction(period=self.__timeout, actions=[kill])]
+
+
+class GTest(Test):
+    """A program of GTest."""
+
+    def __init__(self, *, path: Any, **kwargs: Any) -> None:
+        super().__init__(cmd=[path], **kwargs)
+        self.__path = path
+
+    @property
+    def path(self) -> Any:
+        """Where it is."""
+        return self.__path
+
+
+class PyTest(Test):
+    """A file of tests for pytest."""
+
+    def __init__(self, *, path: Any, **kwargs: Any) -> None:
+        super().__init__(cmd=[FindExecutable(name="python3"), "-m", "pytest", path], **kwargs)
+        self.__path = path
+
+    @property
+    def path(self) -> Any:
+        """Where it is."""
+        return self.__path

@@ -1,0 +1,22 @@
+"""A process says that it is ready: what then."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.event_handlers import OnProcessIO
+
+
+class StdoutReadyListener(OnProcessIO):
+    """Runs actions whenever a process, or any for None, prints a piece with a text in it to its standard output."""
+
+    def __init__(self, *, target_action: Any = None, ready_txt: str, actions: list[Any]) -> None:
+        def look(event: Any) -> Any:
+            return actions if ready_txt in event.text.decode() else None
+
+        super().__init__(target_action=target_action, on_stdout=look)
+        self.__actions = actions
+
+    def describe(self) -> tuple[str, list[Any]]:
+        """In words, and the actions."""
+        return super().describe()[0], self.__actions

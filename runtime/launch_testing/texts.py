@@ -1,0 +1,100 @@
+"""Looks for what is expected in a text or in lines; a match is the pair of where it begins and ends."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
+
+Span = tuple[int, int]
+TextMatch = Callable[..., Span | None]
+ANSI_ESCAPE = re.compile(r"\x1b\[[0-9;:]*[A-Za-z]")
+
+
+def remove_ansi_escape_sequences(text: str) -> str:
+    """A text without its colours."""
+    return ANSI_ESCAPE.sub("", text)
+
+
+def normalize_lineseps(lines: str) -> str:
+    """A text whose lines all end in one newline, also those that a terminal has taken."""
+    return lines.replace(os.linesep, "\n").replace("\r\n", "\n")
+
+
+def build_line_match(expected_lines: Any, *, strict: bool = False) -> TextMatch:
+    """A function that finds lines among lines, from a given one on.
+
+    A text is looked for within a line, a regular expression at its beginning. Of several each is looked for behind the
+    one before; when strict they begin with the first line and follow each other, and a single one fits all lines.
+    Raises `ValueError` for anything else.
+    """
+    if isinstance(expected_lines, str):
+        fits = (lambda line: line == expected_lines) if strict else (lambda line: expected_lines in line)
+    elif hasattr(expected_lines, "match"):
+        fits = expected_lines.match
+    elif isinstance(expected_lines, Iterable):
+        return _in_order([build_line_match(each) for each in expected_lines], strict)
+    else:
+        raise ValueError("Unknown format for expected lines")
+
+    def match(actual_lines: Sequence[str], start: int = 0) -> Span | None:
+        if strict:
+            return (start, len(actual_lines)) if all(map(fits, actual_lines[start:])) else None
+        return next(((at, at + 1) for at in range(start, len(actual_lines)) if fits(actual_lines[at])), None)
+
+    return match
+
+
+def build_text_match(expected_text: Any, *, strict: bool = False) -> TextMatch:
+    """A function that finds a text in a text, from a given place on.
+
+    It is a text, a regular expression, or several of these, each of which is looked for behind the one before; when
+    strict, a text is the whole rest, and an expression begins at that place. Raises `ValueError` for anything else.
+    """
+    if isinstance(expected_text, str):
+        return _whole(expected_text) if strict else _within(expected_text)
+    if hasattr(expected_text, "search") and hasattr(expected_text, "match"):
+        find = expected_text.match if strict else expected_text.search
+
+        def match(actual_text: str, start: int = 0) -> Span | None:
+            found = find(normalize_lineseps(actual_text), start)
+            return found and found.span()
+
+        return match
+    if isinstance(expected_text, Iterable):
+        return _in_order([build_text_match(each) for each in expected_text], strict)
+    raise ValueError("Unknown format for expected text")
+
+
+def _whole(expected: str) -> TextMatch:
+    def match(actual_text: str, start: int = 0) -> Span | None:
+        return (start, start + len(expected)) if normalize_lineseps(actual_text)[start:] == expected else None
+
+    return match
+
+
+def _within(expected: str) -> TextMatch:
+    def match(actual_text: str, start: int = 0) -> Span | None:
+        found = normalize_lineseps(actual_text).find(expected, start)
+        return None if found < 0 else (found, found + len(expected))
+
+    return match
+
+
+def _in_order(matches: list[TextMatch], strict: bool) -> TextMatch:
+    """One after the other; when strict, with nothing before the first and between them."""
+    if not matches:
+        raise ValueError("nothing is expected: give at least one text")
+
+    def match(actual: Any, start: int = 0) -> Span | None:
+        begin: int | None = None
+        end = start
+        for each in matches:
+            found = each(actual, end)
+            if found is None or (strict and found[0] != end):
+                return None
+            begin, end = found[0] if begin is None else begin, found[1]
+        return start if begin is None else begin, end
+
+    return match

@@ -1,0 +1,12 @@
+"""Processes that a test starts itself, and checks of what they write."""
+
+from launch_testing.tools.output import basic_output_filter, expect_output, expected_output_from_file
+from launch_testing.tools.process import ProcessProxy, launch_process
+
+__all__ = [
+    "ProcessProxy",
+    "basic_output_filter",
+    "expect_output",
+    "expected_output_from_file",
+    "launch_process",
+]

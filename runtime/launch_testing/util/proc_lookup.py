@@ -1,0 +1,73 @@
+"""Which processes a test means: by the action, or by a part of the name and words of the command."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from launch.actions import ExecuteLocal
+from launch.substitutions import TextSubstitution
+
+NO_CMD_ARGS = object()
+"""Stands for a command without arguments."""
+
+
+class NoMatchingProcessException(Exception):
+    """No known process is the one that is meant."""
+
+
+def resolveProcesses(
+    info_obj: Any, *, process: Any = None, cmd_args: Any = None, strict_proc_matching: bool = True
+) -> list[Any]:
+    """The actions that are meant, of those a handler knows; all for None.
+
+    Raises `NoMatchingProcessException` for none, `Exception` for several where one is wanted, `TypeError` for what is
+    neither an action nor a text.
+    """
+    known = list(info_obj.processes())
+    if process is None:
+        if not known:
+            raise NoMatchingProcessException("No data recorded for any process")
+        return known
+    if isinstance(process, ExecuteLocal):
+        if process not in known:
+            raise NoMatchingProcessException(f"No data recorded for proc {described(process)}")
+        return [process]
+    if not isinstance(process, str):
+        raise TypeError(f"proc argument must be 'ExecuteProcess' or 'str' not {type(process)}")
+    if isinstance(cmd_args, str):
+        cmd_args = [cmd_args]
+    found = [each for each in known if process in name_of(each) and _has(each, cmd_args)]
+    names = ", ".join(sorted(map(described, known)))
+    if not found:
+        raise NoMatchingProcessException(
+            f"Did not find any processes matching name '{process}' and args '{cmd_args}'. Procs: {names}"
+        )
+    if strict_proc_matching and len(found) > 1:
+        raise Exception(  # its class is upstream's: not caught where a process that is missing is waited for
+            f"Found multiple processes matching name '{process}' and cmd_args '{cmd_args}'. Procs: {names}"
+        )
+    return found
+
+
+def name_of(action: Any) -> str:
+    """The name of a process, as launch gives it; empty before it was prepared."""
+    details = action.process_details
+    return str(details["name"]) if details else ""
+
+
+def described(action: Any) -> str:
+    """Name and arguments of a process; of one that was not launched its command, where that is plain text."""
+    details = action.process_details
+    if details:
+        return " ".join([details["name"], *details["cmd"][1:]])
+    words = action.process_description.cmd
+    if not all(isinstance(part, TextSubstitution) for word in words for part in word):
+        return "Unknown - Process not launched yet"
+    return " ".join("".join(part.text for part in word) for word in words)
+
+
+def _has(action: Any, cmd_args: Any) -> bool:
+    if cmd_args is None:
+        return True
+    given = action.process_details["cmd"][1:]
+    return not given if cmd_args is NO_CMD_ARGS else all(each in given for each in cmd_args)

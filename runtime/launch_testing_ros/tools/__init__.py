@@ -1,0 +1,5 @@
+"""Checks of what processes of ROS write."""
+
+from launch_testing_ros.tools.output import basic_output_filter
+
+__all__ = ["basic_output_filter"]
