@@ -13,7 +13,7 @@ from typing import Any
 import rclpy
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.calls import Calls, NoAnswer
-from bot_console.tui.console.graph.findings import mend
+from bot_console.tui.console.graph.findings import mend, namesakes
 from bot_console.tui.console.graph.told_types import TypeSource
 from bot_console.tui.console.graph.watch import FrozenNodes, GraphEvents, GraphWatch
 from bot_console.tui.console.launch.process_output import Add
@@ -22,6 +22,7 @@ from bot_console.tui.console.logs.rosout import RosoutWatch
 from bot_console.tui.console.model import (
     ChangeSource,
     GraphInfo,
+    NodeInfo,
     ParameterTree,
     Profile,
     ProfileDifference,
@@ -79,6 +80,7 @@ class ConsoleNode:
         self.executor.add_node(self.node)
         self._log = log
         self._frozen: Sequence[tuple[str, int]] = ()
+        self._doubled: frozenset[str] = frozenset()
         self._rosout = RosoutWatch(self.node, log, foreign=foreign)
         self.loggers = self._rosout.loggers
         """Names of the loggers that `/rosout` has brought lines of."""
@@ -118,6 +120,7 @@ class ConsoleNode:
 
     def _graph_changed(self, graph: GraphInfo) -> None:
         self._tell_frozen(graph.frozen)
+        self._tell_namesakes(graph.nodes)
         self._rosout.follow()
         self.parameters.follow(graph)
         self.world.follow(graph)
@@ -130,6 +133,12 @@ class ConsoleNode:
             if (node, pid) not in self._frozen:
                 self._log(time.time_ns(), Severity.WARN, "bot-console", f"{node} is frozen: {mend(pid)}", ("", "", 0))
         self._frozen = frozen
+
+    def _tell_namesakes(self, nodes: Sequence[NodeInfo]) -> None:
+        doubled = {each.name: each for each in nodes if each.copies > 1 and not each.hidden}
+        for name in doubled.keys() - self._doubled:
+            self._log(time.time_ns(), Severity.WARN, "bot-console", namesakes(doubled[name]), ("", "", 0))
+        self._doubled = frozenset(doubled)
 
     def _parameter_changed(self, node: str, name: str, old: Value, new: Value) -> ChangeSource:
         self.plots.parameter_is(node, name, new)

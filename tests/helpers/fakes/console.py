@@ -127,7 +127,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
         outcomes, moves = self._moved(node, values, source, atomically=atomically)
         if moves:
             self._steps.did(Step(moves), source)
-            self._tell_journal()
+            self.tell_journal()
         return done(outcomes)
 
     def _moved(
@@ -167,7 +167,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
             )
             for name, value in taken.items():
                 self._plot(f"{node}:{name}", value)
-        self._tell_journal()
+        self.tell_journal()
         return tuple(outcomes)
 
     def set_all(
@@ -177,7 +177,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
         outcomes, moves = self._all_or_nothing(values, source, by)
         if moves:
             self._steps.did(Step(moves), source)
-        self._tell_journal()
+        self.tell_journal()
         return done(outcomes)
 
     def _all_or_nothing(
@@ -213,14 +213,14 @@ class FakeConsole(FakeProfiles, FakeSeries):
 
     def all_saved(self) -> None:
         self._steps.saved(())
-        self._tell_journal()
+        self.tell_journal()
 
     @property
     def _end(self) -> int:
         """The number of the next change; those of earlier runs are numbered below 0."""
         return sum(each.seq >= 0 for each in self.journal)
 
-    def _tell_journal(self) -> None:
+    def tell_journal(self) -> None:
         state = self._steps.state
         active = next((each for each in self.current.profiles if each.name == self.current.active_profile), None)
         self.change(
@@ -254,7 +254,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
             self.change(active_profile=step.profiles[0 if undone else 1])
         if gone := tuple(each for each in step.moves if each not in left):
             self._steps.did(Step(gone, None if left else step.profiles), source)
-        self._tell_journal()
+        self.tell_journal()
         names = ", ".join(name for move in step.moves for name in move.after)
         return done(Answer(not left, "; ".join(each.reason for each in refused) or f"{source.value}: {names}"))
 
@@ -346,7 +346,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
             self.change(active_profile=name)
         if moves:
             self._steps.did(Step(moves, (before, self.current.active_profile)), ChangeSource.PROFILE)
-        self._tell_journal()
+        self.tell_journal()
         return done(outcomes)
 
     def save_parameters(self, path: str, nodes: Sequence[str] = (), *, only_changed: bool = False) -> Answer:
@@ -354,7 +354,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
         if self.closed:
             return Answer(False, CLOSED)
         self._steps.saved(nodes)
-        self._tell_journal()
+        self.tell_journal()
         place = self.folder / path if self.folder else Path(path)
         if not place.is_absolute():
             return Answer(True, f"saved to {path}")

@@ -6,6 +6,7 @@ from dataclasses import replace
 from types import MappingProxyType
 
 import pytest
+from bot_console.tui.console.model import BEGUN_ANEW, Change, ChangeSource
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
 from piloting import Session, run
@@ -192,6 +193,20 @@ def test_a_value_changed_elsewhere_is_seen_and_the_cursor_stays() -> None:
         await session.settle()
         assert "2.5 rad/s" in session.text()
         assert rows(session).current.name == "turn_rate" and rows(session).current.node == "/robot_navigator"
+
+    run(live(), play)
+
+
+def test_what_a_node_began_again_with_is_its_start_and_not_a_change_since() -> None:
+    async def play(session: Session) -> None:
+        await session.press("1")
+        console = session.console
+        first = Change(console.current.journal.end, 0, "/robot_navigator", "turn_rate", 0.5, 1.0, ChangeSource.OTHER)
+        for by, told in (("", True), (BEGUN_ANEW, False)):
+            console.journal.append(replace(first, seq=console.current.journal.end, by=by))
+            console.tell_journal()
+            await session.settle()
+            assert (("/robot_navigator", "turn_rate") in rows(session).moved) is told
 
     run(live(), play)
 

@@ -31,7 +31,7 @@ def findings(info: GraphInfo) -> tuple[Finding, ...]:
     otherwise = (Finding(each.partition(": ")[0], each, True) for each in info.unheard)
     frozen = (Finding(node, f"{node} is frozen: {mend(pid)}", True) for node, pid in info.frozen)
     silent = (Finding(node, f"{node} {SILENT}", True) for node in info.silent)
-    found = [*_topics(visible), *_services(nodes), *_alone(nodes), *otherwise, *frozen, *silent]
+    found = [*_namesakes(nodes), *_topics(visible), *_services(nodes), *_alone(nodes), *otherwise, *frozen, *silent]
     return tuple(sorted(found, key=lambda each: (not each.fault, each.subject)))
 
 
@@ -75,6 +75,20 @@ def _alone(nodes: list[NodeInfo]) -> Iterator[Finding]:
         services = [each for each in node.services if not each.name.startswith(f"{node.name}/")]
         if not services and all(each.name in SHARED for each in ends):
             yield Finding(node.name, f"{node.name} publishes, hears and serves nothing")
+
+
+def _namesakes(nodes: list[NodeInfo]) -> Iterator[Finding]:
+    for node in nodes:
+        if node.copies > 1:
+            yield Finding(node.name, namesakes(node), True)
+
+
+def namesakes(node: NodeInfo) -> str:
+    """That several nodes have the name of this one, and what comes of it."""
+    return (
+        f"{_number(node.copies)} nodes are called {node.name}: what is shown and set may be of any of them; "
+        "does one still run in another terminal?"
+    )
 
 
 def _ends(nodes: list[NodeInfo] | tuple[NodeInfo, ...], kind: str) -> dict[str, dict[str, Endpoint]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from time import monotonic, thread_time
@@ -99,8 +99,10 @@ class GraphWatch:
         self._looked = True
         node = self._node
         profiles = Profiles(node)
-        owners = dict.fromkeys(node.get_node_names_and_namespaces())
-        nodes = {owner: known.get(owner) or self._look_at(owner, profiles) for owner in owners}
+        owners = Counter(map(tuple, node.get_node_names_and_namespaces()))
+        nodes = {
+            owner: _copied(known.get(owner) or self._look_at(owner, profiles), count) for owner, count in owners.items()
+        }
         different = [each for each in nodes.keys() | self._nodes.keys() if nodes.get(each) is not self._nodes.get(each)]
         if self._told and not different:
             return
@@ -169,6 +171,12 @@ class GraphWatch:
         except RuntimeError:  # the node left between two questions
             return NOTHING
         return publishers, subscriptions, services, clients
+
+
+def _copied(described: tuple[Answer, NodeInfo], copies: int) -> tuple[Answer, NodeInfo]:
+    """With the number of nodes by this name; the same object where that is known."""
+    answer, info = described
+    return described if info.copies == copies else (answer, replace(info, copies=copies))
 
 
 def _answer(nodes: Mapping[Owner, tuple[Answer, NodeInfo]], owner: Owner) -> Answer:

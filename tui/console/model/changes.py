@@ -21,6 +21,10 @@ class ChangeSource(str, Enum):
     OTHER = "elsewhere"
 
 
+BEGUN_ANEW = "the node came back with it"
+"""`Change.by` of a value that nobody has set: its node has begun again with another one than it had."""
+
+
 @dataclass(frozen=True, slots=True)
 class SetOutcome:
     """What became of one value that somebody asked a node to take.

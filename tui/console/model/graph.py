@@ -26,6 +26,8 @@ class NodeInfo:
     clients: tuple[Endpoint, ...] = ()
     action_servers: tuple[Endpoint, ...] = ()
     action_clients: tuple[Endpoint, ...] = ()
+    copies: int = 1
+    """How many nodes of the graph have this name; what stands here is then of all of them."""
 
     @property
     def hidden(self) -> bool:

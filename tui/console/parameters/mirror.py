@@ -57,6 +57,7 @@ class ParameterMirror:
         self._changed = changed
         self._anew = anew
         self._left: dict[str, ParameterTree] = {}
+        self._copies: dict[str, int] = {}
         self._offering: set[str] = set()
         self._loading: set[str] = set()
         self._waiting: deque[tuple[Reading, str]] = deque()
@@ -70,14 +71,18 @@ class ParameterMirror:
         return tree.get(name) if tree else None
 
     def follow(self, graph: GraphInfo) -> None:
-        """Take in nodes that have come and forget nodes that have left."""
+        """Take in nodes that have come and forget nodes that have left.
+
+        Of nodes with one name it is not known whose values are shown: when one leaves, who stays is read as if new.
+        """
         self._offering = offering = {node.name for node in graph.nodes if _offers(node, f"{node.name}/list_parameters")}
-        gone = [name for name in self.trees if name not in offering]
+        before, self._copies = self._copies, {node.name: node.copies for node in graph.nodes}
+        gone = {name for name in self.trees if name not in offering or self._copies[name] < before.get(name, 1)}
         if gone:
             self._left |= {name: self.trees[name] for name in gone if self.trees[name].parameters}
             while len(self._left) > LEFT:
                 del self._left[next(iter(self._left))]
-            self._publish({name: tree for name, tree in self.trees.items() if name in offering})
+            self._publish({name: tree for name, tree in self.trees.items() if name not in gone})
             for name in gone:
                 self._calls.forget(name + "/")
         for name in offering - self.trees.keys():

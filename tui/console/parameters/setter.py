@@ -8,16 +8,13 @@ from dataclasses import replace
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.calls import Calls, NoAnswer
-from bot_console.tui.console.model import ChangeSource, SetOutcome, Value
+from bot_console.tui.console.model import BEGUN_ANEW, ChangeSource, SetOutcome, Value
 from bot_console.tui.console.parameters.expected import Expected, Wish
 from bot_console.tui.console.parameters.journal import Journal, Move, Step
 from bot_console.tui.console.parameters.mirror import ParameterMirror
 from bot_console.tui.console.values import refusal, to_message
 from rcl_interfaces.msg import Parameter, SetParametersResult
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
-
-BEGUN_ANEW = "the node came back with it"
-"""By whom a value is that a node has after it was gone, or was started again."""
 
 
 class ParameterSetter:

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from bot_console.tui import keymap
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.model import ConsoleSnapshot, Value
+from bot_console.tui.console.model import BEGUN_ANEW, ConsoleSnapshot, Value
 from bot_console.tui.console.query import parse
 from bot_console.tui.format import command_of, harmless
 from bot_console.tui.kept import LAST_FILE
@@ -106,7 +106,9 @@ class ParametersPane(EditPane):
         """Learn which values are not saved, and which are not those of the start."""
         for each in self.console.changes(self._read):
             self._read = max(self._read, each.seq + 1)
-            if each.accepted:
+            if each.accepted and each.by == BEGUN_ANEW:
+                self._starts[each.node, each.name] = each.new
+            elif each.accepted:
                 self._starts.setdefault((each.node, each.name), each.old)
         shown = self._list
         unsaved = frozenset(snapshot.journal.unsaved)

@@ -63,3 +63,9 @@ def test_a_node_without_any_end_and_hidden_ones() -> None:
         "/a publishes, hears and serves nothing"
     ]
     assert said(NodeInfo("/_tool", (), (Endpoint("/x", TWIST),))) == []
+
+
+def test_nodes_of_one_name_are_a_fault() -> None:
+    found = findings(GraphInfo((NodeInfo("/a", copies=2, services=(OWN, Endpoint("/go", ("T",)))),)))
+    assert [(each.subject, each.fault) for each in found] == [("/a", True)]
+    assert found[0].text.startswith("two nodes are called /a")

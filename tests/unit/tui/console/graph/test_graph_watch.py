@@ -165,3 +165,19 @@ def test_nodes_of_a_stopped_process_are_told_at_the_next_tick_until_it_goes_on(c
     assert seen[-1].frozen == ()
     other.destroy_node()
     watch.close()
+
+
+def test_nodes_of_one_name_are_counted(context, node):
+    first = rclpy.create_node("twin", context=context)
+    watch = GraphWatch(node, lambda graph: None, graph_events)
+    copies = []
+    for _ in range(2):
+        watch._tick()
+        copies.append({each.name: each.copies for each in watch.info.nodes}["/twin"])
+        second = rclpy.create_node("twin", context=context)
+        watch._tick()
+        copies.append({each.name: each.copies for each in watch.info.nodes}["/twin"])
+        second.destroy_node()
+    assert copies == [1, 2, 1, 2]
+    first.destroy_node()
+    watch.close()

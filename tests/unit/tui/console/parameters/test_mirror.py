@@ -2,6 +2,7 @@
 
 import asyncio
 from collections import Counter
+from dataclasses import replace
 
 import pytest
 from bot_console.tui.console.calls import NoAnswer
@@ -177,5 +178,26 @@ def test_a_node_that_comes_back_as_it_was_has_not_begun_anew():
             mirror.follow(graph_of(names))
             await finished(asked)
         assert mirror.get("/n", "speed").value == 1.5 and anew == []
+
+    asyncio.run(scenario())
+
+
+def test_when_one_of_two_nodes_by_one_name_leaves_the_other_is_read():
+    async def scenario():
+        asked, node, anew = Asked(), StubNode(), []
+        asked.open.set()
+        mirror = ParameterMirror(node, asked, lambda *change: None, None, lambda *change: anew.append(change))
+        one = graph_of(["/n"])
+        two = GraphInfo((replace(one.nodes[0], copies=2),))
+        mirror.follow(two)
+        await finished(asked)
+        asked.value = 2.5
+        mirror.follow(two)
+        await finished(asked)
+        assert mirror.get("/n", "speed").value == 1.5, "nothing has changed in the graph"
+        mirror.follow(one)
+        await finished(asked)
+        assert mirror.get("/n", "speed").value == 2.5
+        assert anew == [("/n", "speed", 1.5, 2.5)]
 
     asyncio.run(scenario())
