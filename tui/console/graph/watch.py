@@ -99,7 +99,7 @@ class GraphWatch:
         self._looked = True
         node = self._node
         profiles = Profiles(node)
-        owners = Counter(map(tuple, node.get_node_names_and_namespaces()))
+        owners = Counter(node.get_node_names_and_namespaces())
         nodes = {
             owner: _copied(known.get(owner) or self._look_at(owner, profiles), count) for owner, count in owners.items()
         }
