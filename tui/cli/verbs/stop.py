@@ -13,7 +13,8 @@ from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.format import harmless
 
 if TYPE_CHECKING:
-    from bot_console.tui.console.robot.stop_link import StopInfo
+    from bot_console.tui.console.robot.stop_link import StopInfo, StopLink
+    from rclpy.node import Node
 
 PATIENCE = 3.0
 """Seconds to hear who holds a robot, and to stop one that is ended in any case."""
@@ -57,7 +58,7 @@ def ask(verb: str, reason: str, *, everybody: bool = False, answers_s: float = A
     One that was found may answer for so many seconds from the start.
     """
     import rclpy
-    from bot_console.tui.console.robot.stop_link import STATUS, StopLink, user
+    from bot_console.tui.console.robot.stop_link import StopLink, user
 
     rclpy.init(args=[])
     node = rclpy.create_node("_bot_console_stop", enable_rosout=False, start_parameter_services=False)
@@ -68,13 +69,11 @@ def ask(verb: str, reason: str, *, everybody: bool = False, answers_s: float = A
     looks, until, done = 0, time.monotonic() + answers_s, False
     while not done and (looks < LOOKS or (link.info.locks and time.monotonic() < until)):
         looks += 1
-        names = node.get_topic_names_and_types()
-        link.follow(name for name, types in names if STATUS in types and node.count_publishers(name))
+        _follow(link, node)
         if verb == "release" and not link.releasing and (wanted := _to_release(link.info, everybody)):
             link.release([each.key for each in wanted])
         link.repeat()
-        for _ in range(10):
-            rclpy.spin_once(node, timeout_sec=0.01)
+        _hear(node)
         left = not link.info.confirmed if verb == "stop" else _to_release(link.info, everybody)
         done = link.info.locks > 0 and link.heard and not left
     node.destroy_node()
@@ -89,7 +88,7 @@ def holders(to_find: float = 1.0, to_hear: float = PATIENCE) -> list[str] | None
     """
     install()
     import rclpy
-    from bot_console.tui.console.robot.stop_link import STATUS, StopLink
+    from bot_console.tui.console.robot.stop_link import StopLink
 
     rclpy.init(args=[])
     node = rclpy.create_node("_bot_console_status", enable_rosout=False, start_parameter_services=False)
@@ -97,13 +96,27 @@ def holders(to_find: float = 1.0, to_hear: float = PATIENCE) -> list[str] | None
     while not (link.info.locks and link.heard):
         if time.monotonic() - begun > (to_hear if link.info.locks else to_find):
             break
-        names = node.get_topic_names_and_types()
-        link.follow(name for name, types in names if STATUS in types and node.count_publishers(name))
-        for _ in range(10):
-            rclpy.spin_once(node, timeout_sec=0.01)
+        _follow(link, node)
+        _hear(node)
     node.destroy_node()
     rclpy.try_shutdown()
     return _said(link.info) if link.heard else None
+
+
+def _follow(link: StopLink, node: Node) -> None:
+    """Listen to the locks that are there now."""
+    from bot_console.tui.console.robot.stop_link import STATUS
+
+    names = node.get_topic_names_and_types()
+    link.follow(name for name, types in names if STATUS in types and node.count_publishers(name))
+
+
+def _hear(node: Node) -> None:
+    """Take in what they say within a tenth of a second."""
+    import rclpy
+
+    for _ in range(10):
+        rclpy.spin_once(node, timeout_sec=0.01)
 
 
 def _said(info: StopInfo) -> list[str]:
