@@ -8,6 +8,7 @@ import launch.logging
 from ament_index_python.packages import PackageNotFoundError
 from bot_console.runtime.missing_packages import what_brings
 from bot_console.runtime.workspace.executables import executables
+from bot_console.runtime.workspace.not_found import to_add
 from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.events.node_missing import NodeMissing
@@ -36,11 +37,11 @@ def may_start(context: LaunchContext, action: Any, package: str | None) -> bool:
         perform_substitutions(context, action.process_description.cmd[0])
     except (PackageNotFoundError, SubstitutionFailure) as error:
         what = str(error).strip().strip('"')
-        has = _what_it_has(package or "")
+        executable = perform_substitutions(context, normalize_to_list_of_substitutions(action.node_executable))
+        has = _what_it_has(package or "", executable)
         brings = has or what_brings(package or "")
         if _allowed(context):
             logger.warning(f"left out a node: {what}. {brings}")
-            executable = perform_substitutions(context, normalize_to_list_of_substitutions(action.node_executable))
             reason = f"{what}. {brings}"
             event = NodeMissing(action=action, package=package or "", executable=executable, reason=reason)
             context.emit_event_sync(event)
@@ -56,10 +57,11 @@ def may_start(context: LaunchContext, action: Any, package: str | None) -> bool:
     return True
 
 
-def _what_it_has(package: str) -> str:
-    """The executables of a package that is here, a sentence; nothing where it has none, or is not here."""
+def _what_it_has(package: str, executable: str) -> str:
+    """The executables of a package that is here, and how it gets this one; nothing where neither is known."""
     try:
         names = sorted(executables(package))
     except PackageNotFoundError:
         return ""
-    return f"{package} has: {', '.join(names)}." if names else ""
+    mend = to_add(package, executable)
+    return f"{package} has: {', '.join(names) or 'none'}{mend}." if names or mend else ""

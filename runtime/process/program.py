@@ -6,7 +6,7 @@ import importlib
 import os
 import sys
 from collections.abc import Callable
-from types import ModuleType
+from types import FunctionType, ModuleType
 from typing import Any
 
 from .crashes import explain_with
@@ -19,6 +19,16 @@ NO_MAIN = (
 )
 
 
+NO_ENTRY = "The line of 'console_scripts' in setup.py that starts this names {0}, which is not there{1}. Mend that line"
+"""Said of an entry point that leads nowhere, with what the module has instead."""
+ENTRY = "entry_point"
+"""Attribute of an exception that came of looking up an entry point: what to say of it."""
+
+
+def _no_entry(exception: BaseException) -> str | None:
+    return vars(exception).get(ENTRY)
+
+
 def _no_main(exception: BaseException) -> str | None:
     if isinstance(exception, AttributeError) and isinstance(exception.obj, ModuleType) and exception.name == "main":
         return NO_MAIN
@@ -26,6 +36,7 @@ def _no_main(exception: BaseException) -> str | None:
 
 
 explain_with(_no_main)
+explain_with(_no_entry)
 
 
 def file_program(path: str, modules: FreshModules | None = None) -> Callable[[], None]:
@@ -80,10 +91,32 @@ class _EntryPoint:
 
     def __call__(self) -> None:
         modules = _adopt(self._modules or FreshModules(packages=[self._module.partition(".")[0]]))
-        function: Any = importlib.import_module(self._module) if modules is None else modules.load(self._module)
+        sys.exit(self._look_up(modules)())
+
+    def _look_up(self, modules: FreshModules | None) -> Callable[[], Any]:
+        try:
+            module: Any = importlib.import_module(self._module) if modules is None else modules.load(self._module)
+        except ModuleNotFoundError as error:
+            if error.name and f"{self._module}.".startswith(f"{error.name}."):  # else a module that this one imports
+                setattr(error, ENTRY, NO_ENTRY.format(f"the module {self._module}", ""))
+            raise
+        found = module
         for name in self._function.split("."):
-            function = getattr(function, name)
-        sys.exit(function())
+            try:
+                found = getattr(found, name)
+            except AttributeError as error:
+                functions = _functions(module)
+                has = f"; it has {', '.join(functions)}" if functions else ""
+                setattr(error, ENTRY, NO_ENTRY.format(f"{self._function}() of {self._module}", has))
+                raise
+        return found
+
+
+def _functions(module: ModuleType) -> list[str]:
+    """Names of the functions that a module itself defines."""
+    found: dict[str, object] = vars(module)
+    own = (each for each in found.values() if isinstance(each, FunctionType) and each.__module__ == module.__name__)
+    return sorted(each.__name__ for each in own)
 
 
 def _adopt(modules: FreshModules) -> FreshModules | None:

@@ -18,15 +18,16 @@ def no_package(package: str) -> str:
 def no_executable(package: str, name: str) -> str:
     """For a package without that executable."""
     has = ", ".join(executable_names(package)) or "none"
-    return f"No executable found: '{name}' is not in package '{package}', which has: {has}{_to_add(package, name)}"
+    return f"No executable found: '{name}' is not in package '{package}', which has: {has}{to_add(package, name)}"
 
 
-def _to_add(package: str, name: str) -> str:
+def to_add(package: str, name: str) -> str:
+    """What is to be mended for a package of the workspace to have it, after a full stop; nothing for others."""
     source = workspace().packages.get(package)
     if source is None or not (source.folder / "setup.py").is_file():
         return ""
     if source.problem:
-        return f". Its setup.py cannot be read: {source.problem}"
+        return f". It has a mistake: {source.problem}"
     module = name.removesuffix(".py")
     there = any((path / f"{module}.py").is_file() for path in source.modules.values())
     first = f"{module}.py is there; add" if there else f"Write {package}/{module}.py with a main(), and add"

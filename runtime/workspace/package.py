@@ -61,6 +61,7 @@ def read_package(folder: Path) -> Package:
         setup = setup.merged(read_setup_cfg(folder))
         if build_type == "ament_cmake" and (folder / "CMakeLists.txt").exists():
             setup = setup.merged(read_cmake_lists(folder))
+        problem = setup.problem
     except ValueError as error:
         problem = str(error)
     return Package(

@@ -9,6 +9,7 @@ from __future__ import annotations
 import ast
 import glob
 import os
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -16,6 +17,9 @@ from typing import Any
 
 PANES = "bot_console.panes"
 """The group of entry points by which a package brings panes for the console."""
+
+TARGET = re.compile(r"[\w.]+\s*(:\s*[\w.]+)?\s*(\[.*\])?")
+"""What stands behind the `=` of an entry point: a module, its function, extras."""
 
 
 @dataclass(frozen=True)
@@ -28,6 +32,8 @@ class SetupFile:
     data_files: tuple[tuple[str, tuple[Path, ...]], ...] = ()
     panes: dict[str, str] = field(default_factory=dict)
     """Panes of the console that a package brings, as `module:class` (entry points of the group `bot_console.panes`)."""
+    problem: str = ""
+    """Why some of it is missing; empty when nothing is."""
 
     def merged(self, other: SetupFile) -> SetupFile:
         """Both together; what stands here wins."""
@@ -37,6 +43,7 @@ class SetupFile:
             {**other.modules, **self.modules},
             self.data_files + other.data_files,
             {**other.panes, **self.panes},
+            self.problem or other.problem,
         )
 
 
@@ -76,6 +83,7 @@ class _Reader:
 
     def __init__(self, folder: Path, names: dict[str, Any]) -> None:
         self._folder = folder
+        self._path = folder / "setup.py"
         self._values = _Values(folder, names)
         self._keywords: dict[str, ast.expr] = {}
 
@@ -115,11 +123,24 @@ class _Reader:
             return default
 
     def result(self) -> SetupFile:
-        entry_points = self._keyword("entry_points", {})
+        entry_points, problem = self._entry_points()
         groups = entry_points if isinstance(entry_points, dict) else {}
         scripts = {Path(each).name: self._folder / each for each in self._keyword("scripts", [])}
         programs, panes = (entry_lines(groups.get(group, [])) for group in ("console_scripts", PANES))
-        return SetupFile(programs, scripts, self._modules(), self._data_files(), panes)
+        wrong = next((f"{name} = {target}" for name, target in programs.items() if not TARGET.fullmatch(target)), "")
+        if wrong and not problem:
+            problem = f"{self._path}: '{wrong}' is not of the form 'name = module:function'; a comma may be missing"
+        programs = {name: target for name, target in programs.items() if TARGET.fullmatch(target)}
+        return SetupFile(programs, scripts, self._modules(), self._data_files(), panes, problem)
+
+    def _entry_points(self) -> tuple[Any, str]:
+        """What stands there, or why it cannot be made out."""
+        if "entry_points" not in self._keywords:
+            return {}, ""
+        try:
+            return self._values.of(self._keywords["entry_points"]), ""
+        except Unreadable as error:
+            return {}, f"{self._path}: entry_points cannot be made out, {error}"
 
     def _modules(self) -> dict[str, Path]:
         places = {str(key): str(value) for key, value in self._keyword("package_dir", {}).items()}

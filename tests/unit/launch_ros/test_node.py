@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 import yaml
+from bot_console.runtime.workspace import discover
 from launch.actions import GroupAction, OpaqueFunction, SetLaunchConfiguration
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import (
@@ -228,6 +229,17 @@ def test_missing_executables_can_be_left_out(log_lines: list[str]) -> None:
     assert service.run() == 0
     assert "left out a node: package 'nopkg' not found" in "\n".join(log_lines)
     assert "process has finished cleanly" in "\n".join(log_lines)
+
+
+def test_a_missing_executable_of_a_package_whose_setup_py_has_a_mistake(
+    run: Launch, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, log_lines: list[str]
+) -> None:
+    (tmp_path / "demo").mkdir()
+    (tmp_path / "demo" / "package.xml").write_text("<package><name>demo</name></package>")
+    (tmp_path / "demo" / "setup.py").write_text("setup(\n")
+    monkeypatch.setattr(discover, "_current", [discover.Workspace([tmp_path])])
+    assert run([Node(package="demo", executable="talker")]).code == 1
+    assert f"demo has: none. It has a mistake: {tmp_path / 'demo' / 'setup.py'}:1" in "\n".join(log_lines)
 
 
 def test_a_missing_executable_of_a_package_that_has_others(log_lines: list[str]) -> None:

@@ -79,6 +79,19 @@ def test_broken_files_are_named(tmp_path: Path) -> None:
     assert "package.xml" in read_package(folder).problem
 
 
+def test_a_line_that_is_no_entry_point_is_named_and_the_others_are_there(tmp_path: Path) -> None:
+    setup = SETUP.replace('"bare = demo.bare"', '"a = demo.a:main" "b = demo.b:main"')
+    package = read_package(make(tmp_path / "demo", setup=setup))
+    assert set(package.executables) == {"talker"}
+    assert "setup.py: 'a = demo.a:mainb = demo.b:main' is not of the form" in package.problem
+
+
+def test_entry_points_that_only_running_could_tell_are_named(tmp_path: Path) -> None:
+    setup = SETUP.replace('"console_scripts": [', '"console_scripts" [')
+    problem = read_package(make(tmp_path / "demo", setup=setup)).problem
+    assert "setup.py: entry_points cannot be made out, line 18" in problem
+
+
 def test_packages_are_found_as_colcon_does(tmp_path: Path) -> None:
     make(tmp_path / "src" / "deep" / "one", "one")
     make(tmp_path / "src" / "two", "two")

@@ -1,4 +1,4 @@
-"""`colcon build`: nothing has to be built here, and what the line asks for in vain is told as colcon tells it."""
+"""`colcon build`: nothing has to be built here; what is asked for in vain and what could not be built is told."""
 
 from __future__ import annotations
 
@@ -7,30 +7,48 @@ from collections.abc import Iterator, Sequence
 
 from bot_console.runtime.importer import install
 from bot_console.runtime.workspace.choices import package_names
+from bot_console.runtime.workspace.discover import workspace
+from bot_console.tui.format import counted
 
+NOTHING_TO_DO = "Nothing has to be built or sourced: packages of the workspace are read from their sources."
 SELECTING = ("--packages-select", "--packages-up-to")
 
 
 def run(words: Sequence[str]) -> int:
-    """Print what there is to say to `colcon WORDS`."""
+    """Print what there is to say to `colcon WORDS`; exit code 1 where a package cannot be used as it is."""
     install()
     *warnings, answer = answers(words)
     for each in warnings:
         print(each, file=sys.stderr)
     print(answer)
-    return 0
+    return 0 if answer == NOTHING_TO_DO else 1
 
 
 def answers(words: Sequence[str]) -> list[str]:
-    """The lines of the answer, a warning for each package that is not there first."""
+    """The lines of the answer, first a warning for each package that is not there and each that has a mistake."""
     warnings = [f"ignoring unknown package '{name}' in {option}" for option, name in _unknown(words)]
-    return [*warnings, "Nothing has to be built or sourced: packages of the workspace are read from their sources."]
+    broken = _broken(words)
+    failed = [f"Failed   <<< {name}: {problem}" for name, problem in broken.items()]
+    last = f"{counted(len(broken), 'package')} failed: {' '.join(broken)}" if broken else NOTHING_TO_DO
+    return [*warnings, *failed, last]
+
+
+def _broken(words: Sequence[str]) -> dict[str, str]:
+    """Why packages of the workspace cannot be used, by their names; of those selected, where some are."""
+    selected = {word for _, word in _selected(words)}
+    found = ((name, package.problem) for name, package in sorted(workspace().packages.items()))
+    return {name: problem for name, problem in found if problem and (name in selected or not selected)}
 
 
 def _unknown(words: Sequence[str]) -> Iterator[tuple[str, str]]:
-    option, known = "", frozenset(package_names())
+    known = frozenset(package_names())
+    return ((option, word) for option, word in _selected(words) if word not in known)
+
+
+def _selected(words: Sequence[str]) -> Iterator[tuple[str, str]]:
+    option = ""
     for word in words:
         if word.startswith("-"):
             option = word
-        elif option in SELECTING and word not in known:
+        elif option in SELECTING:
             yield option, word

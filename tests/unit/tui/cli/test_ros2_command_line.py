@@ -8,9 +8,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bot_console.runtime.workspace import discover
 from bot_console.tui.cli.live.ros2_command_line import Ros2CommandLine
 from bot_console.tui.cli.started_lines import launched_by
 from bot_console.tui.cli.system.workspaces import PROGRAM_LAUNCH
+from bot_console.tui.cli.verbs.colcon import answers
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.connection.no_console import done
 from bot_console.tui.console.connection.read_only import ReadOnlyLauncher
@@ -32,6 +34,17 @@ def test_colcon_has_nothing_to_do_and_names_the_packages_that_are_not_there():
     unknown, answer = Ros2CommandLine().run(line).result(PATIENCE).splitlines()
     assert unknown == "ignoring unknown package 'typo' in --packages-select"
     assert answer.startswith("Nothing has to be built")
+
+
+def test_colcon_names_the_packages_that_could_not_be_built(tmp_path, monkeypatch):
+    for name, setup in (("good", "setup()\n"), ("bad", "setup(\n")):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "package.xml").write_text(f"<package><name>{name}</name></package>")
+        (tmp_path / name / "setup.py").write_text(setup)
+    monkeypatch.setattr(discover, "_current", [discover.Workspace([tmp_path])])
+    assert answers(["build"])[-1] == "1 package failed: bad"
+    assert answers(["build"])[0].startswith(f"Failed   <<< bad: {tmp_path / 'bad' / 'setup.py'}:1")
+    assert answers(["build", "--packages-select", "good"])[0].startswith("Nothing has to be built")
 
 
 def test_a_quotation_mark_without_its_twin_is_told():
