@@ -1,4 +1,4 @@
-"""Sends what must not be dropped, from a thread of its own: no publisher waits for a reader that does not read."""
+"""Sends what must not be dropped, from a thread of its own: no publisher waits long for a reader that does not read."""
 
 from __future__ import annotations
 
@@ -9,9 +9,21 @@ from collections import deque
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
 from bot_console.runtime.rmw.zenoh.declared import Publisher
+from bot_console.runtime.rmw.zenoh.settings import WAIT_BEFORE_DROP
 
 ROOM = 64_000_000
 """How many bytes may wait to be sent: more than comes until a process that hangs is cut off (`WAIT_BEFORE_CUT`)."""
+
+MANY, MUCH = 128, 4_000_000
+"""Messages, or bytes, that wait when whoever publishes one more lets the thread send all of them before it goes on.
+
+The thread gives the interpreter back with each message that it sends, and gets it again after 5 ms where somebody
+publishes without a pause: next to nothing went out while a burst was published, and of images most found no room.
+"""
+LET_SEND = WAIT_BEFORE_DROP * 1e-6
+"""Seconds for which it does so at most: as long as other publishers wait for a link that is full. Once, and then not
+before nothing waits any more.
+"""
 
 
 class Sender:
@@ -33,6 +45,8 @@ class Sender:
         self._emptied = threading.Event()
         self._emptied.set()
         """Set by the thread where nothing is left, cleared by who waits for that."""
+        self._is_late = False
+        """Whether the thread was let send all that waited, and did not in time."""
         self._waits = False
         self._ended = False
         self._thread: threading.Thread | None = None
@@ -51,7 +65,11 @@ class Sender:
                 self._taken += len(payload)
                 if self._waits or self._thread is None:
                     self._start()
-        if not fits:
+                waiting = self._taken - self._begun
+        if fits:
+            if (len(queue) >= MANY or waiting >= MUCH) and not self._is_late:
+                self._is_late = not self._is_emptied(LET_SEND)
+        else:
             notify(
                 self._process,
                 f"messages of '{topic}' were dropped: {ROOM // 1_000_000} MB wait to be sent to processes "
@@ -103,6 +121,7 @@ class Sender:
             with self._lock:
                 if self._queue:
                     return True
+                self._is_late = False
                 self._emptied.set()
                 if self._ended:
                     return False

@@ -27,6 +27,19 @@ class Slow:
         self.sent.append("undeclared")
 
 
+class Awaited(threading.Event):
+    """Set, and calls back before each wait for it."""
+
+    def __init__(self, on_wait):
+        super().__init__()
+        self.on_wait = on_wait
+        self.set()
+
+    def wait(self, timeout=None):
+        self.on_wait()
+        return super().wait(timeout)
+
+
 @pytest.fixture
 def sender():
     made = Sender()
@@ -91,3 +104,31 @@ def test_a_publisher_whose_last_message_is_being_sent_is_taken_back_after_it(sen
     publisher.free.set()
     assert sender.end(PATIENCE)
     assert publisher.sent == [b"1", "undeclared"]
+
+
+@pytest.mark.parametrize("limit, value, count", [("MANY", 4, 4), ("MUCH", 8, 5)])
+def test_whoever_publishes_a_burst_lets_the_thread_send_it(sender, monkeypatch, limit, value, count):
+    monkeypatch.setattr(module, limit, value)
+    monkeypatch.setattr(module, "LET_SEND", PATIENCE)
+    publisher = Slow()
+    sender._emptied = Awaited(publisher.free.set)
+    for _ in range(count - 1):
+        sender.send(publisher, "/t", b"12", b"a")
+        assert publisher.reached.wait(PATIENCE)  # what is being sent is no byte that waits
+    assert publisher.sent == []
+    sender.send(publisher, "/t", b"12", b"a")
+    assert publisher.sent == [b"12"] * count
+
+
+def test_beside_a_full_link_it_lets_the_thread_send_once_until_nothing_waits(sender, monkeypatch):
+    monkeypatch.setattr(module, "MANY", 2)
+    monkeypatch.setattr(module, "LET_SEND", 0.0)
+    waits = []
+    for burst in (1, 2):
+        publisher = Slow()
+        sender._emptied = Awaited(lambda: waits.append("once"))
+        for _ in range(10):
+            assert sender.send(publisher, "/t", b"1", b"a")
+        assert waits == ["once"] * burst
+        sender._emptied.on_wait = publisher.free.set
+        assert sender._is_emptied(PATIENCE)
