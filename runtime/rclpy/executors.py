@@ -167,18 +167,18 @@ class Executor(ReadyCallbacks):
         raise NotImplementedError
 
     def spin_once_until_future_complete(self, future: Future[Any], timeout_sec: float | None = None) -> None:
-        """Run one callback, or return when the future is done."""
+        """Run one callback, or return when the future is done or cancelled."""
         future.add_done_callback(lambda _: self.wake())
-        self._spin_once(timeout_sec, future.done)
+        self._spin_once(timeout_sec, future._settled)
 
     def spin_until_future_complete(self, future: Future[Any], timeout_sec: float | None = None) -> None:
-        """Serve until the future is done or time is over."""
+        """Serve until the future is done or cancelled, or time is over."""
         future._when_settled(self.wake)
         timeout = timeout_sec_to_nsec(timeout_sec)
         deadline = None if timeout is None else self._clock.steady_ns() + timeout
-        while self._context.ok() and not future.done() and not self._is_shutdown:
+        while self._context.ok() and not future._settled() and not self._is_shutdown:
             left = None if deadline is None else max(0, deadline - self._clock.steady_ns()) * 1e-9
-            self._spin_once(left, future.done)
+            self._spin_once(left, future._settled)
             if deadline is not None and self._clock.steady_ns() >= deadline:
                 return
 

@@ -36,7 +36,7 @@ class Future(Generic[T]):
             print(f"The following exception was never retrieved: {self._exception}", file=sys.stderr)
 
     def __await__(self) -> Generator[Any, None, T | None]:
-        while not self._done:
+        while not self._settled():
             task = getattr(_running, "task", None)
             if task is not None:
                 task.waits_for = self
@@ -44,7 +44,7 @@ class Future(Generic[T]):
         return self.result()
 
     def cancel(self) -> None:
-        """Ask for the work to be given up; a future that is done stays as it is."""
+        """Ask for the work to be given up; a future that is done stays as it is. Who awaits it goes on with None."""
         with self._lock:
             if not self._done:
                 self._cancelled = True
@@ -57,6 +57,10 @@ class Future(Generic[T]):
     def done(self) -> bool:
         """Whether there is a result or an exception."""
         return self._done
+
+    def _settled(self) -> bool:
+        """Whether nobody need wait for it any more: done or cancelled."""
+        return self._done or self._cancelled
 
     def result(self) -> T | None:
         """The result, None while there is none; raises the exception if there is one."""
@@ -89,7 +93,7 @@ class Future(Generic[T]):
     def add_done_callback(self, callback: Callable[[Future[T]], Any]) -> None:
         """Call back with this future when it is done or cancelled; at once where it is."""
         with self._lock:
-            if not self._done:
+            if not self._settled():
                 self._callbacks.append(callback)
                 return
         executor = self._executor() if self._executor else None
@@ -99,11 +103,12 @@ class Future(Generic[T]):
             callback(self)
 
     def remove_done_callback(self, callback: Callable[[Future[T]], Any]) -> bool:
-        """Take a callback away; whether it was there."""
+        """Take a callback away, once where it was added twice; whether it was there."""
         with self._lock:
-            before = len(self._callbacks)
-            self._callbacks = [each for each in self._callbacks if each != callback]
-            return len(self._callbacks) < before
+            if callback not in self._callbacks:
+                return False
+            self._callbacks.remove(callback)
+            return True
 
     def _set_executor(self, executor: Any) -> None:
         self._executor = None if executor is None else weakref.ref(executor)
@@ -111,7 +116,7 @@ class Future(Generic[T]):
     def _when_settled(self, wake: Callable[[], object]) -> None:
         """Call `wake` once, from whichever thread, when the future is settled; at once where it is."""
         with self._lock:
-            if not self._done:
+            if not self._settled():
                 self._waiters.append(wake)
                 return
         wake()
@@ -133,7 +138,7 @@ class Future(Generic[T]):
         try:
             callback(self)
         except Exception as error:  # a done callback's fault must not reach whoever settled the future
-            warnings.warn(f"Unhandled exception in done callback: {error}", RuntimeWarning, stacklevel=2)
+            warnings.warn(f"Unhandled exception in done callback: {error}", stacklevel=2)
 
 
 class Task(Future[T]):
@@ -158,11 +163,11 @@ class Task(Future[T]):
         self.waits_for: Future[Any] | None = None
 
     def __call__(self) -> None:
-        """Run until the next wait, or to the end."""
+        """Run until the next wait, or to the end; a coroutine that was cancelled does not go on."""
         if self._done or self._executing or not self._task_lock.acquire(blocking=False):
             return
         try:
-            if self._done:
+            if self._done or self._handler is None:
                 return
             self._executing = True
             if inspect.iscoroutine(self._handler):
@@ -199,8 +204,11 @@ class Task(Future[T]):
         return self._executing
 
     def cancel(self) -> None:
-        """Give the work up; a coroutine is closed."""
-        if inspect.iscoroutine(self._handler) and not self._executing:
+        """Give the work up: a coroutine is closed, a function that waits for its turn runs all the same.
+
+        Raises ValueError where the coroutine is what runs right now.
+        """
+        if inspect.iscoroutine(self._handler):
             self._handler.close()
             self._handler = None
         super().cancel()

@@ -58,7 +58,7 @@ def test_a_callback_that_raises_does_not_stop_the_next() -> None:
     future, got = Future(), []
     future.add_done_callback(lambda each: {}["missing"])
     future.add_done_callback(lambda each: got.append("next"))
-    with pytest.warns(RuntimeWarning, match="missing"):
+    with pytest.warns(UserWarning, match="missing"):
         future.set_result(1)
     assert got == ["next"]
 
@@ -69,6 +69,24 @@ def test_a_callback_taken_away() -> None:
     assert future.remove_done_callback(got.append) and not future.remove_done_callback(print)
     future.set_result(1)
     assert got == []
+
+
+def test_a_callback_added_twice_is_taken_away_once() -> None:
+    future: Future[int] = Future()
+    got: list[Any] = []
+    future.add_done_callback(got.append)
+    future.add_done_callback(got.append)
+    assert future.remove_done_callback(got.append)
+    future.set_result(1)
+    assert got == [future]
+
+
+def test_a_callback_added_after_the_cancel_is_called_at_once() -> None:
+    future: Future[int] = Future()
+    got: list[Any] = []
+    future.cancel()
+    future.add_done_callback(got.append)
+    assert got == [future]
 
 
 def test_an_exception_that_nobody_asks_for_is_told(capsys: pytest.CaptureFixture[str]) -> None:
@@ -161,3 +179,70 @@ def test_nested_coroutines(ros: Any) -> None:
     inner.set_result(20)
     node.executor.spin_until_future_complete(task, 20.0)
     assert got == [42]
+
+
+def test_a_cancelled_coroutine_does_not_run_and_leaves_the_executor_serving(ros: Any) -> None:
+    executor, got = ros.node().executor, []
+
+    async def work() -> None:
+        got.append("ran")
+
+    task = executor.create_task(work)
+    task.cancel()
+    executor.spin_once(timeout_sec=0)
+    assert (got, task.done(), task.cancelled()) == ([], False, True)
+
+
+def test_a_coroutine_cancelled_while_it_waits_is_closed_once(ros: Any) -> None:
+    executor, got = ros.node().executor, []
+    awaited: Future[int] = Future()
+
+    async def work() -> None:
+        try:
+            await awaited
+        finally:
+            got.append("closed")
+
+    task = executor.create_task(work)
+    executor.spin_once(timeout_sec=0)
+    task.cancel()
+    awaited.set_result(1)
+    executor.spin_once(timeout_sec=0.1)
+    assert (got, task.done(), task.cancelled()) == (["closed"], False, True)
+
+
+@pytest.mark.parametrize("before", [True, False])
+def test_awaiting_a_cancelled_future_goes_on_with_none(ros: Any, before: bool) -> None:
+    executor, got = ros.node().executor, []
+    awaited: Future[int] = Future()
+
+    async def work() -> None:
+        got.append(await awaited)
+
+    if before:
+        awaited.cancel()
+    task = executor.create_task(work)
+    executor.spin_once(timeout_sec=0)
+    awaited.cancel()
+    executor.spin_once(timeout_sec=0.1)
+    assert (got, task.done()) == ([None], True)
+
+
+@pytest.mark.parametrize("timeout", [None, 1000.0])
+def test_spinning_until_a_future_ends_with_its_cancel(ros: Any, timeout: float | None) -> None:
+    executor = ros.node().executor
+    future: Future[int] = Future()
+    executor.create_task(future.cancel)
+    executor.spin_until_future_complete(future, timeout)
+    assert future.cancelled() and not future.done()
+
+
+def test_a_coroutine_cannot_cancel_itself(ros: Any) -> None:
+    executor = ros.node().executor
+
+    async def work() -> None:
+        task.cancel()
+
+    task = executor.create_task(work)
+    with pytest.raises(ValueError, match="already executing"):
+        executor.spin_once(timeout_sec=0)
