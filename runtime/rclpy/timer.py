@@ -183,19 +183,30 @@ class Rate:
         if self._is_shutdown:
             raise ROSInterruptException
         if self._is_destroyed:
-            raise RuntimeError("rate has been destroyed")
-        if self._timer.is_canceled():
-            raise RuntimeError("rate cannot sleep because it has been canceled")
+            raise RuntimeError("Rate cannot sleep because it has been destroyed")
+        if self._timer.destroyed:
+            raise InvalidHandle("Rate cannot sleep because the timer has been destroyed")
+        with self._lock:
+            self._sleepers += 1
 
-    def sleep(self) -> None:
-        """Block until the next tick; raises `ROSInterruptException` when ROS is shut down meanwhile."""
-        self._presleep()
-        self._wakeup.clear()
-        self._wakeup.wait()
+    def _postsleep(self) -> None:
+        with self._lock:
+            self._sleepers -= 1
+            if not self._sleepers:
+                self._wakeup.clear()
         if self._is_shutdown:
             raise ROSInterruptException
-        if self._is_destroyed:
-            raise InvalidHandle(DESTROYED)
+
+    def sleep(self) -> None:
+        """Block until the next tick, not at all where one has come since the last sleep.
+
+        Raises `ROSInterruptException` when ROS is shut down meanwhile; returns when the rate is destroyed.
+        """
+        self._presleep()
+        try:
+            self._wakeup.wait()
+        finally:
+            self._postsleep()
 
 
 __getattr__ = reexporting(__name__, "Clock Context get_default_context")

@@ -9,6 +9,7 @@ import pytest
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.clock import Clock
 from rclpy.clock_type import ClockType
+from rclpy.duration import Duration
 from rclpy.exceptions import ROSInterruptException
 from rclpy.time import Time
 
@@ -257,6 +258,29 @@ def test_a_rate_ticks_while_another_thread_serves(stepped_ros: Any) -> None:
     thread.join()
     assert record.times == [100, 200, 300, 400, 500]
     assert node.destroy_rate(rate) and not node.destroy_rate(rate)
+
+
+def test_a_rate_that_is_late_does_not_wait_for_the_next_tick(stepped_ros: Any) -> None:
+    node = stepped_ros.node()
+    record = Recorder(node)
+    rate = node.create_rate(10)
+    thread = threading.Thread(target=node.executor.spin_until_future_complete, args=(never(), 0.75), daemon=True)
+    thread.start()
+    for _ in range(3):
+        node.get_clock().sleep_for(Duration(seconds=0.15), node.context)
+        rate.sleep()
+        record()
+    thread.join()
+    assert record.times == [150, 300, 450]
+
+
+def test_who_sleeps_on_a_rate_wakes_when_it_is_destroyed(stepped_ros: Any) -> None:
+    node = stepped_ros.node()
+    rate = node.create_rate(0.001)
+    threading.Timer(0.2, node.destroy_rate, (rate,)).start()
+    rate.sleep()
+    with pytest.raises(RuntimeError, match="Rate cannot sleep because it has been destroyed"):
+        rate.sleep()
 
 
 def never() -> Any:
