@@ -11,7 +11,7 @@ from rclpy.callback_groups import CallbackGroup
 from rclpy.clock_type import ClockType
 from rclpy.exceptions import ROSInterruptException
 from rclpy.impl.destroyable import Destroyable
-from rclpy.impl.entity import DESTROYED, TIMER, Entity
+from rclpy.impl.entity import TIMER, Entity
 from rclpy.impl.reexports import reexporting
 
 NANO = 1_000_000_000
