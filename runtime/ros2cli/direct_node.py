@@ -118,10 +118,14 @@ def call(node: Node, kind: Any, service: str, request: Any) -> Any:
 def answer(node: Node, client: Any, future: Any) -> Any:
     """Wait for the answer to a request, for as long as it takes, as upstream does.
 
-    Raises `NoAnswer` where the server's process is stopped, which upstream waits for for good.
+    Raises `NoAnswer` where the server's process is stopped or has left, which upstream waits for for good.
     """
     service = client.service_name
+    there = True
     while not spin_until(node, future.done, LOOK):
+        before, there = there, client.service_is_ready()
+        if not (before or there):  # two looks: one may fall into a moment in which a link is made anew
+            raise NoAnswer(f"nobody answers {service}: its node has ended since it was asked; see what it printed")
         for pid, nodes in node.context.bus.stopped().items():
             for name in nodes:
                 if _serves(node, name, service):

@@ -15,6 +15,7 @@ class Asking:
 
     def __init__(self, *, answers: bool) -> None:
         self.looks = 0
+        self.gone_at: tuple[int, ...] = ()
         self.frozen: dict[int, list[str]] = {}
         self.context = SimpleNamespace(bus=SimpleNamespace(stopped=lambda: self.frozen))
         self.service_name = "/robot/get"
@@ -22,6 +23,9 @@ class Asking:
 
     def get_service_names_and_types_by_node(self, name: str, namespace: str) -> list[tuple[str, list[str]]]:
         return {("robot", "/"): [("/robot/get", [])], ("arm", "/left"): [("/left/arm/get", [])]}[name, namespace]
+
+    def service_is_ready(self) -> bool:
+        return self.looks not in self.gone_at
 
     def done(self) -> bool:
         self.looks += 1
@@ -52,3 +56,17 @@ def test_a_frozen_process_is_named() -> None:
     it.frozen = {7: ["/left/arm", "/robot"]}
     with pytest.raises(NoAnswer, match=r"^/robot does not answer: its process 7 is stopped$"):
         asked(it)
+
+
+def test_a_node_that_ends_while_it_is_asked_is_told() -> None:
+    it = Asking(answers=False)
+    it.gone_at = (3, 4)
+    with pytest.raises(NoAnswer, match=r"^nobody answers /robot/get: its node has ended"):
+        asked(it)
+    assert it.looks == 4
+
+
+def test_an_answer_is_waited_for_where_the_node_is_not_seen_once() -> None:
+    it = Asking(answers=True)
+    it.gone_at = (1,)
+    assert asked(it) == "answer"
