@@ -56,6 +56,21 @@ def test_a_bool_toggles_and_a_text_that_is_no_value_is_explained() -> None:
     run(live(), play)
 
 
+def test_what_is_wrong_with_a_value_is_read_whole_beside_what_was_typed() -> None:
+    async def play(session: Session) -> None:
+        await session.press("1")
+        await go_to(session, "max_speed")
+        await session.press("e")
+        await session.type("2 2")
+        await session.press("enter")
+        lines = [" ".join(each.strip("│ ").split()) for each in session.text().splitlines()]
+        assert any("m/s) 2 2 " in each for each in lines), lines
+        assert "an operator is expected" in " ".join(lines)
+        await session.press("escape")
+
+    run(live(), play)
+
+
 def test_a_refusal_snaps_back_and_says_who_refused_and_why() -> None:
     async def play(session: Session) -> None:
         session.console.refusals["/robot_navigator", "max_speed"] = "too fast for indoors"

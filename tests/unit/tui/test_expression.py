@@ -61,6 +61,11 @@ def test_a_unit_that_does_not_fit_is_told(text: str, unit: str) -> None:
         typed_value(text, of(Kind.DOUBLE, unit))
 
 
+def test_a_decimal_comma_is_told_with_the_number_that_is_meant() -> None:
+    with pytest.raises(ValueError, match=r"^decimals have a point: 2\.5$"):
+        typed_value("2,5", of(Kind.DOUBLE, "m"))
+
+
 def test_integers_stay_whole() -> None:
     assert typed_value("360/4*2", of(Kind.INTEGER, "", value=1)) == 180
     with pytest.raises(ValueError, match="no integer"):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias
 
@@ -15,6 +16,8 @@ Number: TypeAlias = "int | float"
 
 LARGEST = 400
 """Bits that a whole number may have, so that no typing error keeps the console busy."""
+
+DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+")
 
 FUNCTIONS: Mapping[str, Any] = {
     **{"abs": abs, "min": min, "max": max, "round": round, "sqrt": math.sqrt, "hypot": math.hypot},
@@ -39,7 +42,9 @@ def evaluate(text: str, names: Mapping[str, Number] | None = None) -> Number:
     try:
         tree = parse(text)
     except ValueError as error:
-        raise ValueError(f"'{cut(text, 24)}' is no number and no expression such as 0.5*2: {error}") from None
+        if DECIMAL_COMMA.fullmatch(text.strip()):
+            raise ValueError(f"decimals have a point: {text.strip().replace(',', '.')}") from None
+        raise ValueError(f"'{cut(text, 24)}' is no number: {error}") from None
     return value_of(tree, names or {}, cut(text, 24))
 
 

@@ -7,11 +7,15 @@ from typing import ClassVar
 from bot_console.tui import keymap
 from bot_console.tui.format import harmless
 from bot_console.tui.widgets.prompt.question import Asker, Line
+from rich.cells import cell_len
 from textual.binding import BindingType
 from textual.containers import Horizontal
 from textual.suggester import SuggestFromList
 from textual.widget import Widget
 from textual.widgets import Input, Label
+
+AROUND = 5
+"""Columns around the label and at the end of the text."""
 
 
 class Prompt(Asker[str], Horizontal):
@@ -21,12 +25,12 @@ class Prompt(Asker[str], Horizontal):
     """
 
     DEFAULT_CSS = """
-    Prompt { height: 1; display: none; background: $panel; }
+    Prompt { height: auto; max-height: 3; display: none; background: $panel; }
     Prompt.open { display: block; }
-    Prompt Label { color: $text-muted; padding: 0 1; width: auto; }
+    Prompt Label { color: $text-muted; padding: 0 1; width: auto; max-width: 48%; }
     Prompt Input { border: none; height: 1; padding: 0; background: $panel; width: 1fr; }
     Prompt Input:focus { border: none; }
-    Prompt .wrong { color: $warning; padding: 0 1; }
+    Prompt .wrong { color: $warning; padding: 0 1; width: auto; }
     """
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("prompt")]
 
@@ -62,7 +66,14 @@ class Prompt(Asker[str], Horizontal):
         wrong = self._line.check(text) if self._line else ""
         said = wrong or (self._line.outlook(text) if self._line else "")
         self._wrong.update(harmless(said))
+        self._wrong.styles.max_width = self._room_beside(text)
         return wrong
+
+    def _room_beside(self, text: str) -> int:
+        """Columns for what is said of the text: what it and the label leave, and a third of the line at least."""
+        width = self.parent.content_size.width if isinstance(self.parent, Widget) else 0
+        taken = cell_len(self._line.label if self._line else "") + cell_len(text) + AROUND
+        return max(width - taken, width // 3, 1)
 
     def on_input_changed(self, event: Input.Changed) -> None:
         """Check while typing."""
