@@ -7,6 +7,9 @@ from collections.abc import Callable
 Explain = Callable[[BaseException], "str | None"]
 """Names cause and mend of an exception, or gives None for one that it does not know."""
 
+MEND = "mend"
+"""Attribute of an exception that brings its own explanation: cause and mend, as a text."""
+
 _explainers: list[Explain] = []
 
 
@@ -17,7 +20,9 @@ def explain_with(explain: Explain) -> None:
 
 
 def explanation(exception: BaseException) -> str | None:
-    """The first explanation that somebody has; None where nobody has one."""
+    """The exception's own explanation, else the first that somebody has; None where nobody has one."""
+    if own := getattr(exception, MEND, ""):
+        return str(own)
     for explain in _explainers:
         text = explain(exception)
         if text:

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from types import FunctionType, ModuleType
 from typing import Any
 
-from .crashes import explain_with
+from .crashes import MEND, explain_with
 from .node.thread_state import local
 from .virtual.fresh_import import FreshModules
 
@@ -21,12 +21,6 @@ NO_MAIN = (
 
 NO_ENTRY = "The line of 'console_scripts' in setup.py that starts this names {0}, which is not there{1}. Mend that line"
 """Said of an entry point that leads nowhere, with what the module has instead."""
-ENTRY = "entry_point"
-"""Attribute of an exception that came of looking up an entry point: what to say of it."""
-
-
-def _no_entry(exception: BaseException) -> str | None:
-    return vars(exception).get(ENTRY)
 
 
 def _no_main(exception: BaseException) -> str | None:
@@ -36,7 +30,6 @@ def _no_main(exception: BaseException) -> str | None:
 
 
 explain_with(_no_main)
-explain_with(_no_entry)
 
 
 def file_program(path: str, modules: FreshModules | None = None) -> Callable[[], None]:
@@ -98,16 +91,18 @@ class _EntryPoint:
             module: Any = importlib.import_module(self._module) if modules is None else modules.load(self._module)
         except ModuleNotFoundError as error:
             if error.name and f"{self._module}.".startswith(f"{error.name}."):  # else a module that this one imports
-                setattr(error, ENTRY, NO_ENTRY.format(f"the module {self._module}", ""))
+                setattr(error, MEND, NO_ENTRY.format(f"the module {self._module}", ""))
             raise
         found = module
         for name in self._function.split("."):
             try:
                 found = getattr(found, name)
             except AttributeError as error:
+                if name == "main":
+                    raise  # which has an explanation of its own
                 functions = _functions(module)
                 has = f"; it has {', '.join(functions)}" if functions else ""
-                setattr(error, ENTRY, NO_ENTRY.format(f"{self._function}() of {self._module}", has))
+                setattr(error, MEND, NO_ENTRY.format(f"{self._function}() of {self._module}", has))
                 raise
         return found
 

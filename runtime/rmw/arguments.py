@@ -19,7 +19,11 @@ SEVERITIES = {"UNSET": 0, "DEBUG": 10, "INFO": 20, "WARN": 30, "ERROR": 40, "FAT
 
 
 class ArgumentsError(ValueError):
-    """A command line cannot be parsed; the message has the words of rcl."""
+    """A command line cannot be parsed; the message has the words of rcl. `mend` says more than they do."""
+
+    def __init__(self, text: str, mend: str = "") -> None:
+        super().__init__(text)
+        self.mend = mend
 
 
 @dataclass
@@ -118,7 +122,7 @@ def _parameters_file(word: str, value: str, parsed: Arguments) -> None:
     try:
         parsed.parameters.add_file(value)
     except ParameterYamlError as error:
-        raise ArgumentsError(f"Couldn't parse params file: '{word} {value}'. Error: {error}") from None
+        raise ArgumentsError(f"Couldn't parse params file: '{word} {value}'. Error: {error}", error.mend) from None
 
 
 def _remap(word: str, value: str, parsed: Arguments) -> None:

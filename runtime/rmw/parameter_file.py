@@ -46,8 +46,33 @@ def read_parameter_file(path: str, overrides: ParameterOverrides) -> None:
             handler = handlers.get(event.__class__)
             if handler is not None:
                 handler(event)
-    except yaml.YAMLError:
-        raise ParameterYamlError(f"Error parsing a event near line {reader.line}") from None
+    except yaml.YAMLError as error:
+        text = f"Error parsing a event near line {reader.line}"
+        raise ParameterYamlError(text, _not_yaml(path, content, error)) from None
+    except ParameterYamlError as error:
+        error.mend = _underscore(path, content)
+        raise
+
+
+def _not_yaml(path: str, content: bytes, error: Exception) -> str:
+    """Where and why a text is no YAML; a tab is named, which YAML does not."""
+    mark = getattr(error, "problem_mark", None)
+    if mark is None:
+        return ""
+    number: int = mark.line
+    problem: str = getattr(error, "problem", "")
+    lines = content.decode("utf-8", "replace").splitlines()
+    line = lines[number] if number < len(lines) else ""
+    tab = "\t" in line[: len(line) - len(line.lstrip())]
+    why = "it is indented by a tab, and YAML takes spaces alone" if tab else problem
+    return f"{path}:{number + 1}: {why}"
+
+
+def _underscore(path: str, content: bytes) -> str:
+    for number, line in enumerate(content.decode("utf-8", "replace").splitlines(), 1):
+        if line.strip().startswith("ros_parameters:"):
+            return f"{path}:{number}: ros_parameters has one underscore, ros__parameters has two"
+    return ""
 
 
 class _Levels:

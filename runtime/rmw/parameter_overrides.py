@@ -25,7 +25,11 @@ def chosen(slots: Slots) -> Any:
 
 
 class ParameterYamlError(ValueError):
-    """A parameter file or value is refused; the message has the words of rcl."""
+    """A parameter file or value is refused; the message has the words of rcl. `mend` says more than they do."""
+
+    def __init__(self, text: str, mend: str = "") -> None:
+        super().__init__(text)
+        self.mend = mend
 
 
 class NodeOverrides:

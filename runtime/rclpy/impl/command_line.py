@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from bot_console.runtime.process.crashes import MEND
 from bot_console.runtime.rmw import arguments
 from bot_console.runtime.rmw.arguments import Arguments, ArgumentsError
 from rclpy._rclpy_pybind11 import RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
@@ -19,7 +20,9 @@ def parse_global(words: Sequence[str]) -> Arguments:
         parsed = _parse(words)
     except ArgumentsError as error:
         RcutilsLogger("rcl").error("Failed to parse global arguments")
-        raise RCLError(f"failed to initialize rcl: {error}") from None
+        refused = RCLError(f"failed to initialize rcl: {error}")
+        setattr(refused, MEND, error.mend)
+        raise refused from None
     _refuse_unknown(parsed)
     state().obey(parsed)
     return parsed

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 import rclpy
 import rclpy.utilities
+from bot_console.runtime.process.crashes import explanation
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError, UnknownROSArgsError
 from rclpy.context import Context
 from rclpy.exceptions import NotInitializedException
@@ -254,3 +255,11 @@ def test_removing_ros_arguments_refuses_what_ros_does_not_know() -> None:
     assert rclpy.utilities.remove_ros_args(["p", "--ros-args", "-r", "a:=b", "--", "x"]) == ["p", "x"]
     with pytest.raises(UnknownROSArgsError, match="--nope"):
         rclpy.utilities.remove_ros_args(["p", "--ros-args", "--nope"])
+
+
+def test_a_refused_parameter_file_is_explained_in_more_words_than_those_of_rcl(tmp_path):
+    path = tmp_path / "p.yaml"
+    path.write_text("n:\n\tros__parameters:\n")
+    with pytest.raises(RCLError) as refused:
+        rclpy.init(args=["--ros-args", "--params-file", str(path)], context=Context())
+    assert explanation(refused.value) == f"{path}:2: it is indented by a tab, and YAML takes spaces alone"

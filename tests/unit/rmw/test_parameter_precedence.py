@@ -224,6 +224,23 @@ def test_files_that_are_refused(case: str, tmp_path: Path) -> None:
     assert str(refused.value) == expected
 
 
+@pytest.mark.parametrize(
+    ("content", "mend"),
+    [
+        (section("\ta: 1\n"), ":3: it is indented by a tab, and YAML takes spaces alone"),
+        (section("    a: @x\n"), ":3: found character"),
+        ("n:\n  ros_parameters:\n    a: 1\n", ":2: ros_parameters has one underscore, ros__parameters has two"),
+        (section("    [1]: 2\n"), ""),
+    ],
+)
+def test_what_rcl_does_not_say_of_a_refused_file(content: str, mend: str, tmp_path: Path) -> None:
+    path = tmp_path / "p.yaml"
+    path.write_text(content)
+    with pytest.raises(ParameterYamlError) as refused:
+        ParameterTable().add_file(str(path))
+    assert refused.value.mend.startswith(f"{path}{mend}") if mend else refused.value.mend == ""
+
+
 def test_a_file_that_cannot_be_read(tmp_path: Path) -> None:
     with pytest.raises(ParameterYamlError, match=r"^Error opening YAML file$"):
         ParameterTable().add_file(str(tmp_path / "none.yaml"))
