@@ -8,7 +8,6 @@ from __future__ import annotations
 import threading
 import weakref
 from collections.abc import Callable
-from enum import IntEnum
 from types import TracebackType
 from typing import Any
 
@@ -17,6 +16,7 @@ from rclpy.clock_type import ClockType
 from rclpy.duration import Duration
 from rclpy.exceptions import NotInitializedException
 from rclpy.impl.any_clock import AnyClock
+from rclpy.impl.named_enum import NamedIntEnum
 from rclpy.impl.reexports import reexporting
 from rclpy.time import Time
 from rclpy.utilities import get_default_context
@@ -32,7 +32,7 @@ __all__ = [
 ]
 
 
-class ClockChange(IntEnum):
+class ClockChange(NamedIntEnum):
     """How the source of ROS time changed in a jump."""
 
     ROS_TIME_NO_CHANGE = 1
@@ -167,9 +167,12 @@ class Clock(AnyClock):
         pre_callback: Callable[[], Any] | None = None,
         post_callback: Callable[[Any], Any] | None = None,
     ) -> JumpHandle:
-        """Be told of jumps beyond a threshold, before and after."""
+        """Be told of jumps beyond a threshold, before and after; raises `ValueError` for what cannot be called."""
         if pre_callback is None and post_callback is None:
             raise ValueError("One of pre_callback or post_callback must be callable")
+        for name, callback in (("pre_callback", pre_callback), ("post_callback", post_callback)):
+            if callback is not None and not callable(callback):  # pyright: ignore[reportUnnecessaryComparison] -- a user's argument
+                raise ValueError(f"{name} must be callable if given")
         return JumpHandle(self, threshold, pre_callback, post_callback)
 
     def sleep_until(self, until: Time, context: Any = None) -> bool:
@@ -231,14 +234,13 @@ class ROSClock(Clock):
     def _set_ros_time_is_active(self, enabled: bool) -> None:
         if enabled == self._active:
             return
-        before = self._now_ns()
-        after = self._ros_time if enabled else self._source.system_ns()
         change = ClockChange.ROS_TIME_ACTIVATED if enabled else ClockChange.ROS_TIME_DEACTIVATED
 
         def switch() -> None:
             self._active = enabled
 
-        self._jump(TimeJump(change, Duration(nanoseconds=after - before)), switch)
+        # Of a change of the source rcl tells no time, however far apart the two sources are.
+        self._jump(TimeJump(change, Duration()), switch)
         for timer in list(self._timers):
             timer.time_jumped(True)
 

@@ -1,18 +1,12 @@
 """Kinds of clocks."""
 
-from enum import IntEnum
+from rclpy.impl.named_enum import NamedIntEnum
 
 
-class ClockType(IntEnum):
+class ClockType(NamedIntEnum):
     """The clock types of rcl with their numbers."""
 
     UNINITIALIZED = 0
     ROS_TIME = 1
     SYSTEM_TIME = 2
     STEADY_TIME = 3
-
-    def __str__(self) -> str:
-        return f"ClockType.{self.name}"
-
-    def __format__(self, format_spec: str) -> str:
-        return format(str(self), format_spec)

@@ -40,8 +40,13 @@ class Context:
         self.lingering: set[Thing] = set()
         """Endpoints that stay in the graph although their node was destroyed."""
 
-    def init(self, args: Sequence[str] | None = None, *, domain_id: int | None = None) -> None:
-        """Begin; raises `RuntimeError` the second time and `RCLError` for arguments that cannot be parsed."""
+    def init(
+        self, args: Sequence[str] | None = None, *, initialize_logging: bool = True, domain_id: int | None = None
+    ) -> None:
+        """Begin; raises `RuntimeError` the second time and `RCLError` for arguments that cannot be parsed.
+
+        The log is there whatever `initialize_logging` says: all contexts of a process share it.
+        """
         import sys
 
         from rclpy.impl.command_line import parse_global

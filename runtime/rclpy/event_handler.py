@@ -221,4 +221,7 @@ def limit(duration: Any) -> int | None:
     return duration.nanoseconds if 0 < duration.nanoseconds < INFINITE_NS else None
 
 
+QoSEventHandler = EventHandler
+"""The class's older name."""
+
 __getattr__ = reexporting(__name__, "CallbackGroup NumberOfEntities Waitable get_logger qos_policy_name_from_kind")

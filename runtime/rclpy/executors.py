@@ -175,7 +175,7 @@ class Executor(ReadyCallbacks):
         """Serve until the future is done or cancelled, or time is over."""
         future._when_settled(self.wake)
         timeout = timeout_sec_to_nsec(timeout_sec)
-        deadline = None if timeout is None else self._clock.steady_ns() + timeout
+        deadline = None if timeout < 0 else self._clock.steady_ns() + timeout
         while self._context.ok() and not future._settled() and not self._is_shutdown:
             left = None if deadline is None else max(0, deadline - self._clock.steady_ns()) * 1e-9
             self._spin_once(left, future._settled)
@@ -187,8 +187,8 @@ class Executor(ReadyCallbacks):
 
     def _take(self, timeout_sec: float | None, condition: Condition | None) -> Any:
         """The next entity or task, with its callback group begun; raises what says why there is none."""
-        timeout = None if timeout_sec is None else timeout_sec_to_nsec(timeout_sec)
-        deadline = None if timeout is None else self._clock.steady_ns() + timeout
+        timeout = -1 if timeout_sec is None else timeout_sec_to_nsec(timeout_sec)
+        deadline = None if timeout < 0 else self._clock.steady_ns() + timeout
         batch, context = self._batch, self._context
         if self._polled:
             self._polled = False

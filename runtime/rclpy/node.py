@@ -108,6 +108,8 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         problem = names.validate_node_name(name)
         if problem:
             raise InvalidNodeNameException(name, *problem)
+        if not isinstance(namespace, str):  # pyright: ignore[reportUnnecessaryIsInstance] -- as above
+            raise TypeError(f"namespace must be a string, not {type(namespace).__name__}")
         namespace = namespace if namespace.startswith("/") else f"/{namespace}"
         problem = names.validate_namespace(namespace)
         if problem:
@@ -179,6 +181,10 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
     def handle(self) -> Destroyable:
         """What upstream's node wraps."""
         return Destroyable(self, self._ros_use)
+
+    @handle.setter
+    def handle(self, value: object) -> None:
+        raise AttributeError("handle cannot be modified after node creation")
 
     def _ros_use(self) -> None:
         if self._ros_destroyed:

@@ -168,6 +168,7 @@ def _ask(client: Any, request: Any, callback: Callback | None) -> Future[Any]:
 
 __getattr__ = reexporting(
     __name__,
-    "CallbackGroup Client DescribeParameters GetParameterTypes GetParameters ListParameters Node ParameterMsg "
-    "SetParameters SetParametersAtomically",
+    "CallbackGroup Client DescribeParameters GetParameterTypes GetParameters ListParameters Node "
+    "ParameterEvent ParameterMsg QoSOverridingOptions SetParameters SetParametersAtomically Subscription "
+    "SubscriptionEventCallbacks",
 )

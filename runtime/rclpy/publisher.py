@@ -152,4 +152,4 @@ class Publisher:
         self.destroy()
 
 
-__getattr__ = reexporting(__name__, "CallbackGroup EventHandler MsgType QoSProfile")
+__getattr__ = reexporting(__name__, "CallbackGroup EventHandler MsgType PublisherEventCallbacks QoSProfile")

@@ -31,6 +31,11 @@ BEST_AVAILABLE_NS = 9223372036854775806
 """The duration that rmw reserves for "best available"."""
 
 
+DeadlineBestAvailable = Duration(nanoseconds=BEST_AVAILABLE_NS)
+LivelinessLeaseDurationeBestAvailable = Duration(nanoseconds=BEST_AVAILABLE_NS)
+"""The name is upstream's, its spelling too."""
+
+
 class InvalidQoSProfileException(Exception):
     """A profile lacks history or depth."""
 
@@ -58,8 +63,8 @@ class QoSProfile:
     __hash__ = None  # type: ignore[assignment] -- not hashable, as upstream
 
     def __init__(self, **policies: Any) -> None:
-        unknown = [name for name in policies if f"_{name}" not in self.__slots__]
-        assert not unknown, f"Invalid arguments passed to constructor: {', '.join(sorted(unknown))}"
+        known = all(f"_{name}" in self.__slots__ for name in policies)
+        assert known, f"Invalid arguments passed to constructor: {policies.keys()}"
         if "history" not in policies:
             if "depth" not in policies:
                 raise InvalidQoSProfileException("History and/or depth settings are required.")
@@ -213,9 +218,7 @@ qos_profile_sensor_data = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST
 qos_profile_services_default = _reliable(DEFAULT_DEPTH)
 qos_profile_parameters = _reliable(1000)
 qos_profile_parameter_events = _reliable(1000)
-qos_profile_best_available = _all(
-    "BEST_AVAILABLE", DEFAULT_DEPTH, HistoryPolicy.KEEP_LAST, Duration(nanoseconds=BEST_AVAILABLE_NS)
-)
+qos_profile_best_available = _all("BEST_AVAILABLE", DEFAULT_DEPTH, HistoryPolicy.KEEP_LAST, DeadlineBestAvailable)
 qos_profile_action_status_default = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 

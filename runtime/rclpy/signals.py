@@ -5,13 +5,13 @@ from __future__ import annotations
 import signal
 import weakref
 from collections.abc import Callable
-from enum import IntEnum
 from typing import Any
 
 from bot_console.runtime.process import ProcessLocal, current
+from rclpy.impl.named_enum import NamedIntEnum
 
 
-class SignalHandlerOptions(IntEnum):
+class SignalHandlerOptions(NamedIntEnum):
     """Which signals rclpy handles."""
 
     NO = 0

@@ -160,4 +160,4 @@ class Subscription(Entity):
         self.destroy()
 
 
-__getattr__ = reexporting(__name__, "CallbackGroup EventHandler MsgType QoSProfile")
+__getattr__ = reexporting(__name__, "CallbackGroup EventHandler MsgType QoSProfile SubscriptionEventCallbacks")

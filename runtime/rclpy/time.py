@@ -81,6 +81,8 @@ class Time:
             total = self._nanoseconds - other.nanoseconds
             if total < 0:
                 raise ValueError("Subtraction leads to negative time.")
+            if total >= LIMIT:
+                raise OverflowError("Total nanoseconds value is too large to store in C time point.")
             return Time._of(total, self._clock_type)
         return NotImplemented
 

@@ -110,4 +110,4 @@ class TimeSource:
         return SetParametersResult(successful=True, check_fields=False)
 
 
-__getattr__ = reexporting(__name__, "Clock")
+__getattr__ = reexporting(__name__, "Clock ClockType")

@@ -5,7 +5,8 @@ from __future__ import annotations
 from enum import IntEnum
 from typing import Any
 
-from rclpy.qos import HistoryPolicy, QoSProfile
+from rclpy.qos import HistoryPolicy, QoSPresetProfiles, QoSProfile
+from rclpy.type_hash import TypeHash
 
 
 class TopicEndpointTypeEnum(IntEnum):
@@ -37,10 +38,10 @@ class TopicEndpointInfo:
         self.node_name = kwargs.get("node_name", "")
         self.node_namespace = kwargs.get("node_namespace", "")
         self.topic_type = kwargs.get("topic_type", "")
-        self.topic_type_hash = kwargs.get("topic_type_hash")
+        self.topic_type_hash = kwargs.get("topic_type_hash", TypeHash())
         self.endpoint_type = kwargs.get("endpoint_type", TopicEndpointTypeEnum.INVALID)
         self.endpoint_gid = kwargs.get("endpoint_gid", [])
-        self.qos_profile = kwargs.get("qos_profile", QoSProfile(history=HistoryPolicy.UNKNOWN, depth=0))
+        self.qos_profile = kwargs.get("qos_profile", QoSPresetProfiles.UNKNOWN.value)
 
     @property
     def node_name(self) -> str:
@@ -88,6 +89,7 @@ class TopicEndpointInfo:
 
     @endpoint_type.setter
     def endpoint_type(self, value: TopicEndpointTypeEnum | int) -> None:
+        assert isinstance(value, int)  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
         self._endpoint_type = TopicEndpointTypeEnum(value)
 
     @property

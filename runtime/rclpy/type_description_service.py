@@ -75,7 +75,7 @@ class TypeDescriptionService:
 
     def _types(self) -> Iterator[Any]:
         node = self._node
-        for entity in (*node.publishers, *node.subscriptions):
+        for entity in (*node._ros_publishers, *node.subscriptions):
             yield entity.msg_type
         for entity in (*node.services, *node.clients):
             yield entity.srv_type

@@ -65,10 +65,10 @@ def get_available_rmw_implementations() -> set[str]:
     return {get_rmw_implementation_identifier()}
 
 
-def timeout_sec_to_nsec(timeout_sec: float | None) -> int | None:
-    """A time-out in ns; None (for ever) for None and for negative ones."""
+def timeout_sec_to_nsec(timeout_sec: float | None) -> int:
+    """A time-out in ns; -1 (for ever) for None and for negative ones."""
     if timeout_sec is None or timeout_sec < 0:
-        return None
+        return -1
     return int(float(timeout_sec) * NANO)
 
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from enum import IntEnum
+from rclpy.impl.named_enum import NamedIntEnum
 
 
-class QoSPublisherEventType(IntEnum):
+class QoSPublisherEventType(NamedIntEnum):
     """Events of publishers."""
 
     RCL_PUBLISHER_OFFERED_DEADLINE_MISSED = 0
@@ -15,7 +15,7 @@ class QoSPublisherEventType(IntEnum):
     RCL_PUBLISHER_MATCHED = 4
 
 
-class QoSSubscriptionEventType(IntEnum):
+class QoSSubscriptionEventType(NamedIntEnum):
     """Events of subscriptions."""
 
     RCL_SUBSCRIPTION_REQUESTED_DEADLINE_MISSED = 0

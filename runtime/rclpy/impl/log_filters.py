@@ -14,6 +14,8 @@ NANO = 1_000_000_000
 def detect(options: dict[str, Any]) -> tuple[str, ...]:
     """The filters that a call asks for, in their order; raises `TypeError` for other options."""
     for name in options:
+        if name == "severity":
+            raise TypeError("RcutilsLogger.log() got multiple values for argument 'severity'")
         if name not in OPTIONS:
             raise TypeError(f'parameter "{name}" is not one of the recognized logging options "{list(OPTIONS)}"')
     found: list[str] = []
@@ -34,10 +36,11 @@ def detect(options: dict[str, Any]) -> tuple[str, ...]:
 class Site:
     """What is remembered of one place in a program that logs."""
 
-    __slots__ = ("_clock", "_done", "_last", "_skipped", "filters", "options", "severity")
+    __slots__ = ("_clock", "_done", "_last", "_skipped", "filters", "name", "options", "severity")
 
-    def __init__(self, severity: int, filters: tuple[str, ...], options: dict[str, Any]) -> None:
+    def __init__(self, severity: int, name: str, filters: tuple[str, ...], options: dict[str, Any]) -> None:
         self.severity = severity
+        self.name = name
         self.filters = filters
         self.options = options
         self._skipped = self._done = False

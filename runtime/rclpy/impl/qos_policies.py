@@ -6,6 +6,8 @@ import warnings
 from enum import EnumMeta, IntEnum
 from typing import Any
 
+from rclpy.impl.named_enum import NamedIntEnum
+
 
 class QoSPolicyEnumMeta(EnumMeta):
     """Still answers to the names of ROS 2 Dashing, with a warning."""
@@ -103,7 +105,7 @@ def qos_policy_name_from_kind(policy_kind: QoSPolicyKind | int) -> str:
     return QoSPolicyKind(policy_kind).name
 
 
-class QoSCompatibility(IntEnum):
+class QoSCompatibility(NamedIntEnum):
     """Outcome of a check of two profiles."""
 
     OK = 0

@@ -80,6 +80,7 @@ class RcutilsLogger:
 
     def _log(self, message: str, severity: int, options: dict[str, Any]) -> bool:
         shared = state()
+        name = self.name
         if severity < (shared.effective.get(self.name) or shared.effective_level(self.name)):
             return False
         # The caller of `info` and the like, which call this.
@@ -89,10 +90,14 @@ class RcutilsLogger:
         # With `f_lasti`, as two calls may stand on one line.
         key = (code.co_name, code.co_filename, line, frame.f_lasti)
         site = self._sites.get(key)
+        if options:
+            name = options.pop("name", name)
         if site is None:
-            site = self._sites[key] = Site(severity, detect(options), options)
+            site = self._sites[key] = Site(severity, name, detect(options), options)
         elif site.severity != severity:
             raise ValueError("Logger severity cannot be changed between calls.")
+        elif site.name != name:
+            raise ValueError("Logger name cannot be changed between calls.")
         elif options or site.options:
             _check_unchanged(site, options)
         if site.filters and not site.allows():
@@ -100,7 +105,7 @@ class RcutilsLogger:
         if type(message) is not str:
             message = _text(message)
         stamp = current().clock.system_ns()
-        shared.say(severity, self.name, message, code.co_filename, code.co_name, line, stamp)
+        shared.say(severity, name, message, code.co_filename, code.co_name, line, stamp)
         return True
 
 

@@ -50,6 +50,7 @@ class NodeEntities:
     _ros_publishers: dict[Any, None]
     _ros_waitables: dict[Any, None]
     _ros_rates: dict[Any, Any]
+    _ros_rosout: Any
     _ros_use: Callable[[], None]
     context: Any
     default_callback_group: Any
@@ -177,6 +178,7 @@ class NodeEntities:
         group = self._ros_group(callback_group)
         self._ros_may_create("service")
         check_is_valid_srv_type(srv_type)
+        _check_service_qos(qos_profile)
         name = checked(self, srv_name, service=True)
         service = Service(self, srv_type, srv_name, callback, group, qos_profile)
         service.endpoint = ServiceEndpoint(self._ros_id, name, type_name(srv_type), service.notify, srv_type)
@@ -196,6 +198,7 @@ class NodeEntities:
         group = self._ros_group(callback_group)
         self._ros_may_create("client")
         check_is_valid_srv_type(srv_type)
+        _check_service_qos(qos_profile)
         name = checked(self, srv_name, service=True)
         client = Client(self, srv_type, srv_name, qos_profile, group)
         client.endpoint = ClientEndpoint(self._ros_id, name, type_name(srv_type), client.notify, srv_type)
@@ -296,8 +299,9 @@ class NodeEntities:
 
     @property
     def publishers(self) -> Any:
-        """The node's publishers."""
-        yield from list(self._ros_publishers)
+        """The node's publishers, without that of its log lines."""
+        rosout = None if self._ros_rosout is None else self._ros_rosout.publisher
+        yield from [each for each in self._ros_publishers if each is not rosout]
 
     @property
     def subscriptions(self) -> Any:
@@ -328,6 +332,12 @@ class NodeEntities:
     def waitables(self) -> Any:
         """The node's waitables."""
         yield from list(self._ros_waitables)
+
+
+def _check_service_qos(profile: object) -> None:
+    """Raise where a service's QoS is no profile: a number stands for a depth with topics only."""
+    if not isinstance(profile, QoSProfile):
+        raise AttributeError(f"'{type(profile).__name__}' object has no attribute 'get_c_qos_profile'")
 
 
 def _teller(handlers: list[Any]) -> OnEvent:

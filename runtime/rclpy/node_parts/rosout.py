@@ -22,8 +22,8 @@ class Rosout:
 
         self._log = Log
         self._name = node.get_logger().name
-        self._publisher = node.create_publisher(Log, "/rosout", ROSOUT)
-        self._endpoint = self._publisher._endpoint
+        self.publisher = node.create_publisher(Log, "/rosout", ROSOUT)
+        self._endpoint = self.publisher._endpoint
         logging.register_rosout(self._name, self._say)
 
     def _say(self, severity: int, name: str, text: str, file: str, function: str, line: int, stamp_ns: int) -> bool:

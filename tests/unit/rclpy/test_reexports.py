@@ -26,7 +26,12 @@ TAKEN_FROM = {
     "rclpy.qos": {"Duration": "rclpy.duration"},
     "rclpy.lifecycle.node": {"Publisher": "rclpy.publisher", "TransitionCallbackReturn": "rclpy.lifecycle"},
     "rclpy.action.client": {"GoalStatus": "action_msgs.msg"},
+    "rclpy.event_handler": {"QoSEventHandler": "rclpy.qos_event"},
     "rclpy.parameter": {"ParameterType": "rcl_interfaces.msg"},
+    "rclpy.parameter_client": {"ParameterEvent": "rcl_interfaces.msg"},
+    "rclpy.publisher": {"PublisherEventCallbacks": "rclpy.event_handler"},
+    "rclpy.subscription": {"SubscriptionEventCallbacks": "rclpy.event_handler"},
+    "rclpy.time_source": {"ClockType": "rclpy.clock_type"},
 }
 
 
