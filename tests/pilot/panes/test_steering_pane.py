@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
+from bot_console.tui.console.model import Endpoint, NodeInfo
 from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.panes.steering.pane import SteeringPane
 from bot_console.tui.panes.steering.state import DEAD_MAN
@@ -346,3 +347,17 @@ def test_the_mouse_moves_sliders_and_the_pad_as_a_stick() -> None:
         assert pane.state.armed
 
     run(live(), play, (120, 50))
+
+
+def test_nodes_that_publish_on_the_pane_s_topic_are_named() -> None:
+    async def play(session: Session) -> None:
+        await session.press("6")
+        assert "obeys whoever was last" not in session.text(), "the safety monitor chooses"
+        graph = session.console.current.graph
+        end = Endpoint("/cmd_vel", ("geometry_msgs/msg/Twist",))
+        own = (NodeInfo("/robot_navigator", publishers=(end,)), NodeInfo("/_bot_console", publishers=(end,)))
+        session.console.change(graph=replace(graph, nodes=own), drive=replace(driving(), topic="/cmd_vel"))
+        await session.settle()
+        assert "/robot_navigator on /cmd_vel too: the robot obeys whoever was last" in session.text()
+
+    run(live(), play)

@@ -34,11 +34,12 @@ class SteeringPane(Pane):
 
     TITLE = "Steering"
     HELP = (
-        "Enter arms; then w s a d or the arrow keys drive, Shift takes ten steps, x and z zero one velocity and Space\n"
-        "stops. While armed only a person's commands count. When no key comes for the dead-man time, when the pane is\n"
-        "left, and when this console is frozen or gone, the robot stands, locked: Enter steers on, ! hands it back to\n"
-        "its own program (h does so while armed). The limits are max_speed and turn_rate. Below stands what became of\n"
-        "the command, and what has limited it."
+        "Enter arms; then w s a d or the arrow keys drive, Shift takes ten steps, x and c zero one velocity and\n"
+        "Space stops. While armed only a person's commands count, where a safety monitor chooses between them;\n"
+        "without one the robot obeys whoever was last, and the other nodes are named. When no key comes for the\n"
+        "dead-man time, when the pane is left, and when this console is frozen or gone, the robot stands, locked:\n"
+        "Enter steers on, ! hands it back to its own program (h does so while armed). The limits are max_speed and\n"
+        "turn_rate. Below stands what became of the command, and what has limited it."
     )
     BINDINGS = keymap.bindings("steering")
 
@@ -76,8 +77,14 @@ class SteeringPane(Pane):
         picture = self.query_one(Picture)
         width, height = picture.size
         left = self.state.left(self.clock())
-        picture.set_lines(lines(self.state, self._snapshot.drive, left, width, height))
+        picture.set_lines(lines(self.state, self._snapshot.drive, left, width, height, self._others()))
         self.set_class(self.state.armed, "armed")
+
+    def _others(self) -> list[str]:
+        """Nodes that publish commands on the topic of this pane; the console's own is a hidden one."""
+        topic = self._snapshot.drive.topic
+        nodes = (each for each in self._snapshot.graph.nodes if not each.hidden)
+        return [each.name for each in nodes if any(end.name == topic for end in each.publishers)]
 
     def _limit(self) -> None:
         """The limits that were typed, else those of the robot's parameters."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.format import harmless
 from bot_console.tui.panes.steering.state import Steering, stands_after_steering
@@ -18,9 +20,14 @@ FOR_BUTTONS = 60
 """Cells of width from which on there is room for them."""
 
 
-def lines(state: Steering, drive: DriveInfo, left: float, width: int, height: int) -> list[Line]:
-    """Switch, dead-man time, sliders, and what became of the command; the least important lines go first."""
-    top = [_switch(state, drive, width)]
+def lines(
+    state: Steering, drive: DriveInfo, left: float, width: int, height: int, others: Sequence[str] = ()
+) -> list[Line]:
+    """Switch, dead-man time, sliders, and what became of the command; the least important lines go first.
+
+    `others` are nodes that publish commands where this pane does.
+    """
+    top = [_switch(state, drive, width), *_others(others, drive.topic)]
     sliders = [
         _slider("linear", state.linear, state.greatest[0], "m/s", width),
         _slider("angular", -state.angular, state.greatest[1], "rad/s", width, turned=True),
@@ -56,6 +63,14 @@ def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
     if state.armed:
         return ((" ● ARMED ", "warn"), (f" keys drive, h hands back  {topic}", "dim"))
     return ((" ○ disarmed ", "dim"), (" enter arms  " if width >= 34 else " ", "strong"), (topic, "dim"))
+
+
+def _others(nodes: Sequence[str], topic: str) -> list[Line]:
+    """That nobody chooses between the pane's commands and those of other nodes."""
+    if not nodes:
+        return []
+    who = f"{harmless(nodes[0])} and {len(nodes) - 1} more" if len(nodes) > 1 else harmless(nodes[0])
+    return [((f" {who} on {harmless(topic)} too: the robot obeys whoever was last", "warn"),)]
 
 
 def _looked_on(drive: DriveInfo, topic: str) -> Line:
