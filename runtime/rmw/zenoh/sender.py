@@ -21,8 +21,8 @@ The thread gives the interpreter back with each message that it sends, and gets 
 publishes without a pause: next to nothing went out while a burst was published, and of images most found no room.
 """
 LET_SEND = WAIT_BEFORE_DROP * 1e-6
-"""Seconds for which it does so at most: as long as other publishers wait for a link that is full. Once, and then not
-before nothing waits any more.
+"""Seconds for which it does so at most: as long as other publishers wait for a link that is full. After a vain wait it
+goes on without until nothing waits any more, or more than half of the room is taken and the thread has sent something.
 """
 
 
@@ -45,8 +45,8 @@ class Sender:
         self._emptied = threading.Event()
         self._emptied.set()
         """Set by the thread where nothing is left, cleared by who waits for that."""
-        self._is_late = False
-        """Whether the thread was let send all that waited, and did not in time."""
+        self._late: int | None = None
+        """What `_begun` was when the thread was let send all that waited in vain."""
         self._waits = False
         self._ended = False
         self._thread: threading.Thread | None = None
@@ -67,8 +67,8 @@ class Sender:
                     self._start()
                 waiting = self._taken - self._begun
         if fits:
-            if (len(queue) >= MANY or waiting >= MUCH) and not self._is_late:
-                self._is_late = not self._is_emptied(LET_SEND)
+            if len(queue) >= MANY or waiting >= MUCH:
+                self._let_send(waiting)
         else:
             notify(
                 self._process,
@@ -76,6 +76,11 @@ class Sender:
                 "that do not take them; publish less often, or end the reader that hangs",
             )
         return fits
+
+    def _let_send(self, waiting: int) -> None:
+        """Give the thread time to send all that waits, `waiting` bytes, unless that was in vain."""
+        if self._late is None or (waiting > ROOM // 2 and self._begun != self._late):
+            self._late = None if self._is_emptied(LET_SEND) else self._begun
 
     def _start(self) -> None:
         """Have the thread look at the queue, which has something now; with the lock held."""
@@ -121,7 +126,7 @@ class Sender:
             with self._lock:
                 if self._queue:
                     return True
-                self._is_late = False
+                self._late = None
                 self._emptied.set()
                 if self._ended:
                     return False

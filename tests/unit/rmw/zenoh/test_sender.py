@@ -27,6 +27,18 @@ class Slow:
         self.sent.append("undeclared")
 
 
+class Stepwise:
+    """A publisher whose link takes one message each time it is let."""
+
+    def __init__(self):
+        self.reached = threading.Semaphore(0)
+        self.free = threading.Semaphore(0)
+
+    def put_surely(self, payload, attachment):
+        self.reached.release()
+        assert self.free.acquire(timeout=PATIENCE)
+
+
 class Awaited(threading.Event):
     """Set, and calls back before each wait for it."""
 
@@ -132,3 +144,22 @@ def test_beside_a_full_link_it_lets_the_thread_send_once_until_nothing_waits(sen
         assert waits == ["once"] * burst
         sender._emptied.on_wait = publisher.free.set
         assert sender._is_emptied(PATIENCE)
+
+
+def test_beyond_half_of_the_room_it_lets_the_thread_send_again_where_that_gets_on(sender, monkeypatch):
+    monkeypatch.setattr(module, "MUCH", 4)
+    monkeypatch.setattr(module, "ROOM", 20)
+    monkeypatch.setattr(module, "LET_SEND", 0.0)
+    waits, publisher = [], Stepwise()
+    sender._emptied = Awaited(lambda: waits.append("once"))
+    sender.send(publisher, "/t", b"12", b"a")
+    assert publisher.reached.acquire(timeout=PATIENCE)
+    for _ in range(6):
+        assert sender.send(publisher, "/t", b"12", b"a")
+    assert waits == ["once"]
+    publisher.free.release()
+    assert publisher.reached.acquire(timeout=PATIENCE)
+    for _ in range(2):
+        assert sender.send(publisher, "/t", b"12", b"a")
+    assert waits == ["once"] * 2
+    publisher.free.release(8)
