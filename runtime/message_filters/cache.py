@@ -28,7 +28,7 @@ class Cache(SimpleFilter):
 
     def add(self, msg: Any) -> None:
         """Take a message; the oldest one goes where there are too many."""
-        stamp = stamp_of(msg, self.allow_headerless)
+        stamp = stamp_of(msg, self.allow_headerless, "cache")
         if stamp is None:
             return
         if self.cache_msgs and len(self.cache_msgs) >= self.cache_size:

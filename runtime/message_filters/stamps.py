@@ -9,19 +9,26 @@ from rclpy.logging import get_logger
 from rclpy.time import Time
 
 HEADERLESS = (
-    "can not use message filters messages without timestamp infomation when 'allow_headerless' is disabled. "
+    "can not use message filters {}messages without timestamp infomation when 'allow_headerless' is disabled. "
     "auto assign ROSTIME to headerless messages once enabling constructor option of 'allow_headerless'."
 )
+WORDS = {"approx": HEADERLESS.format("for "), "cache": HEADERLESS.format("")}
+"""What is said of a message without a stamp, by the kind of filter that cannot use it."""
 
 
-def stamp_of(message: Any, allow_headerless: bool) -> Time | None:
+def header_stamp(message: Any) -> Time:
+    """The time of a message's header; raises `AttributeError` for a message without."""
+    stamp = message.header.stamp
+    return stamp if isinstance(stamp, Time) else Time.from_msg(stamp)
+
+
+def stamp_of(message: Any, allow_headerless: bool, kind: str) -> Time | None:
     """The time of a message's header; of one without, now where that is allowed, else None with a warning."""
     header = getattr(message, "header", None)
     if header is not None and hasattr(header, "stamp"):
-        stamp = header.stamp
-        return stamp if isinstance(stamp, Time) else Time.from_msg(stamp)
+        return header_stamp(message)
     if allow_headerless:
         clock: Clock = ROSClock()
         return clock.now()
-    get_logger("message_filters").warning(HEADERLESS)
+    get_logger(f"message_filters_{kind}").warning(WORDS[kind])
     return None

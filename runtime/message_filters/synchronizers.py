@@ -7,7 +7,7 @@ import threading
 from typing import Any
 
 from message_filters.simple_filter import SimpleFilter
-from message_filters.stamps import stamp_of
+from message_filters.stamps import header_stamp, stamp_of
 from rclpy.duration import Duration
 
 Queue = dict[int, Any]
@@ -38,12 +38,10 @@ class TimeSynchronizer(SimpleFilter):
             del queue[min(queue)]
 
     def add(self, msg: Any, my_queue: Queue, my_queue_index: int | None = None) -> None:
-        """Take a message of one filter."""
-        stamp = stamp_of(msg, allow_headerless=False)
-        if stamp is None:
-            return
+        """Take a message of one filter; raises `AttributeError` for one without a header."""
+        stamp = header_stamp(msg).nanoseconds
         with self.lock:
-            self._keep(stamp.nanoseconds, msg, my_queue)
+            self._keep(stamp, msg, my_queue)
             common = set(self.queues[0]).intersection(*self.queues[1:])
             for each in sorted(common):
                 messages = [queue[each] for queue in self.queues]
@@ -73,7 +71,8 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
 
     def add(self, msg: Any, my_queue: Queue, my_queue_index: int | None = None) -> None:
         """Take a message of one filter."""
-        stamp = stamp_of(None if self.sync_arrival_time else msg, self.allow_headerless or self.sync_arrival_time)
+        by_arrival = self.sync_arrival_time
+        stamp = stamp_of(None if by_arrival else msg, self.allow_headerless or by_arrival, "approx")
         if stamp is None:
             return
         with self.lock:

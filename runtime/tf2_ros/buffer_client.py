@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any
 
 from bot_console.runtime.process import current
+from builtin_interfaces.msg import Time as TimeMessage
 from geometry_msgs.msg import TransformStamped
 from rclpy.action import ActionClient
 from rclpy.duration import Duration
@@ -25,6 +27,10 @@ from tf2_ros.buffer_interface import NOW, BufferInterface
 
 PADDING = Duration(seconds=2)
 """How much longer than a look-up's own time-out the server may take to answer."""
+MESSAGE_TIME = (
+    "Passing a builtin_interfaces.msg.Time argument is deprecated, and will be removed in the near future. "
+    "Use rclpy.time.Time instead."
+)
 ERRORS: dict[int, type[TransformException]] = {
     TF2Error.LOOKUP_ERROR: LookupException,
     TF2Error.CONNECTIVITY_ERROR: ConnectivityException,
@@ -52,7 +58,9 @@ class BufferClient(BufferInterface):
         self, target_frame: str, source_frame: str, time: Time, timeout: Duration = NOW
     ) -> TransformStamped:
         """What takes points of `source_frame` to `target_frame` at a time; the server waits as long as `timeout`."""
-        if not isinstance(time, Time):
+        if isinstance(time, TimeMessage):
+            warnings.warn(MESSAGE_TIME, stacklevel=2)
+        elif not isinstance(time, Time):
             raise TypeError("Must pass a rclpy.time.Time object.")
         goal = LookupTransform.Goal(target_frame=target_frame, source_frame=source_frame, advanced=False)
         goal.source_time, goal.timeout = _stamp(time), timeout.to_msg()

@@ -83,7 +83,17 @@ def test_messages_without_a_time(capfd: pytest.CaptureFixture[str]) -> None:
     one.signalMessage(String())
     two.signalMessage(String())
     assert (len(strict), len(relaxed)) == (0, 1)
-    assert "allow_headerless" in capfd.readouterr().err
+    assert "[message_filters_approx]: can not use message filters for messages" in capfd.readouterr().err
+    Cache(one, 10)
+    one.signalMessage(String())
+    assert "[message_filters_cache]: can not use message filters messages" in capfd.readouterr().err
+
+
+def test_exact_times_need_a_header() -> None:
+    one, two = SimpleFilter(), SimpleFilter()
+    TimeSynchronizer([one, two], 10)
+    with pytest.raises(AttributeError, match="'String' object has no attribute 'header'"):
+        one.signalMessage(String())
 
 
 def heard_count(of: Any) -> list[int]:
