@@ -6,8 +6,8 @@ import functools
 import inspect
 import threading
 import unittest
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any, cast
 
 from launch.actions import IncludeLaunchDescription, RegisterEventHandler
 from launch.event_handlers import OnProcessExit, OnProcessIO, OnProcessStart
@@ -89,7 +89,7 @@ class TestRun:
                 setattr(own, name, known[name])
         for name in ("setUpClass", "tearDownClass"):
             setattr(own, name, _given(getattr(own, name), known))
-        for test in unittest.defaultTestLoader.loadTestsFromTestCase(own):
+        for test in cast("Iterable[unittest.TestCase]", unittest.defaultTestLoader.loadTestsFromTestCase(own)):
             for name in (test._testMethodName, "setUp", "tearDown"):
                 setattr(test, name, _given(getattr(test, name), known))
             if self.name:

@@ -14,6 +14,7 @@ from ros2cli.command import Command, Result, Verb
 
 COMMANDS: Mapping[str, tuple[str, str]] = {
     "action": ("ros2cli.verbs.action", "Various action related sub-commands"),
+    "component": ("ros2cli.verbs.component", "Various component related sub-commands"),
     "interface": ("ros2cli.verbs.interface", "Show information about ROS interfaces"),
     "launch": ("ros2cli.verbs.launch", "Run a launch file"),
     "lifecycle": ("ros2cli.verbs.lifecycle", "Various lifecycle related sub-commands"),

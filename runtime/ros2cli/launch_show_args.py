@@ -16,17 +16,22 @@ def show_args(path: str) -> int:
         description = get_launch_description_from_any_launch_file(path)
     except Exception as error:  # a launch file is a program: what it raises is told without a traceback
         return _failed(error)
+    print(HEADER)
     try:
-        print_arguments(description)
+        arguments = description.get_launch_arguments()
     except Exception as error:
         return _failed(error)
+    _print(arguments)
     return 0
 
 
 def print_arguments(description: Any) -> None:
     """Print the arguments of a launch description with their defaults; raises what an included file raises."""
     print(HEADER)
-    arguments = description.get_launch_arguments()
+    _print(description.get_launch_arguments())
+
+
+def _print(arguments: list[Any]) -> None:
     if not arguments:
         print("\n  No arguments.")
     for each in arguments:

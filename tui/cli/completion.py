@@ -174,6 +174,8 @@ _OUR_SOURCES: dict[str, Source] = {
 
 _PLACES: dict[tuple[str, str], Sequence[Source]] = {
     ("action", "*"): (_ACTION,),
+    ("component", "*"): (_running("component", "list", "--containers-only"), _PACKAGE),
+    ("component", "types"): (_PACKAGE,),
     ("interface", "package"): (_names("interface", "packages"),),
     ("interface", "*"): (_TYPE,),
     ("interface", "list"): (),

@@ -94,17 +94,20 @@ class _Printer:
         self._arguments = arguments
         self._limit = None if arguments.full_length else arguments.truncate_length
         self._passes = _filter(arguments.filter_expr)
+        self._field = ".".join(filter(None, (arguments.field or "").split(".")))
+        if arguments.field is not None and not self._field:
+            raise RuntimeError(f"Invalid field value '{arguments.field}'")
         self.problem = ""
         self.done = False
 
     def show(self, message: Any, info: Any) -> None:
         """Print one message, or its field; the filter sees what would be printed."""
         chosen = self._arguments
-        if chosen.field:
+        if self._field:
             try:
-                message = attrgetter(chosen.field)(message)
+                message = attrgetter(self._field)(message)
             except AttributeError as error:
-                self.problem = f"Invalid field '{chosen.field}': {error}"
+                self.problem = f"Invalid field '{self._field}': {error}"
                 self.done = True
                 return
         if not self._passes(message):

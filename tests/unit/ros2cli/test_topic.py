@@ -212,6 +212,20 @@ def test_echo_filters_by_what_is_printed(ros) -> None:
     assert ros.ask(*words, "--csv").stdout == "['a', 'b']\n---\n"
 
 
+@pytest.mark.parametrize(
+    ("field", "stdout", "stderr"),
+    [
+        ("header..frame_id.", "\n---\n", ""),  # empty parts do not count
+        ("header.nope", "", "Invalid field 'header.nope': 'Header' object has no attribute 'nope'\n"),
+        (".", "", "Invalid field value '.'\n"),
+    ],
+)
+def test_echo_of_one_field(ros, field: str, stdout: str, stderr: str) -> None:
+    ros.node(JOINTS)
+    asked = ros.ask("topic", "echo", "/joints", "--once", "--field", field)
+    assert (asked.stdout, asked.stderr, asked.exit) == (stdout, stderr, int(bool(stderr)))
+
+
 def test_echo_with_the_message_s_times(ros) -> None:
     ros.node(COUNTER)
     block = ros.ask("topic", "echo", "/count", "--once", "-i").stdout.split("---\n")

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from bot_console.tui.cli.system.domain import take_part
 from bot_console.tui.cli.system.reaching import reach_system, reach_when_asked
 
-VERBS = ("action", "interface", "lifecycle", "node", "param", "pkg", "service", "topic")
+VERBS = ("action", "component", "interface", "lifecycle", "node", "param", "pkg", "service", "topic")
 ALONE = ("interface", "pkg")
 """These answer from files, and ask a running system only for what is in none."""
 

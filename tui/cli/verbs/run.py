@@ -16,6 +16,10 @@ def run(words: list[str]) -> int:
     given, rest = parser.parse_known_args(words[: _operand(words)])
     rest += words[_operand(words) :]
     tell_whose(rest[0] if rest else "")
+    if given.prefix is not None:
+        if given.watch or given.headless:
+            parser.error("--prefix is for a program in this terminal: leave out --watch and --headless")
+        return _prefixed(given.prefix, rest)
     if not (given.watch or given.headless):
         from bot_console.runtime.run import main
         from bot_console.tui.cli.system.domain import take_part
@@ -41,6 +45,18 @@ def run(words: list[str]) -> int:
     return show(options)
 
 
+def _prefixed(prefix: str, words: list[str]) -> int:
+    """Run an executable behind a command, in a process of its own."""
+    from bot_console.tui.cli.system.domain import take_part
+    from bot_console.tui.cli.verbs import ros2
+
+    problem = take_part()
+    if problem:
+        print(problem, file=sys.stderr)
+        return 1
+    return ros2.main(["run", f"--prefix={prefix}", *words])
+
+
 def _hint(text: str) -> None:
     print(f"[WARN] [bot-console]: {text}", file=sys.stderr)
 
@@ -62,7 +78,7 @@ def _operand(words: list[str]) -> int:
     """How many words stand before the file or package."""
     index = 0
     while index < len(words) and words[index].startswith("-") and words[index] != "--ros-args":
-        index += 2 if words[index] in ("--duration", "--seed", "--world") else 1
+        index += 2 if words[index] in ("--duration", "--prefix", "--seed", "--world") else 1
     return index
 
 
@@ -73,6 +89,7 @@ def _parser() -> argparse.ArgumentParser:
         description="Run a node, alone in this terminal or with the console on it.",
     )
     add = parser.add_argument
+    add("--prefix", metavar="COMMAND", help="a command to put before the executable, in quotes where it has spaces")
     add("--watch", action="store_true", help="open the console on it")
     add("--headless", action="store_true", help="no screen: logs on stderr, a JSON report on stdout at the end")
     add("--fast", action="store_true", help="with --headless: simulated time, as fast as it goes, repeatable")

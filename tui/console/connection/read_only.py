@@ -20,6 +20,7 @@ WHY = "this console only looks on (--read-only)"
 
 READING: Mapping[str, frozenset[str]] = {
     "action": frozenset(("info", "list", "type")),
+    "component": frozenset(("list", "types")),
     "interface": frozenset(("list", "package", "packages", "proto", "show")),
     "lifecycle": frozenset(("get", "list", "nodes")),
     "node": frozenset(("info", "list")),

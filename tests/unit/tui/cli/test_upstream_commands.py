@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+
 import pytest
 from bot_console.tui.cli.completion import candidates
 from bot_console.tui.cli.main import main
@@ -22,6 +25,24 @@ def test_nor_one_to_start(capsys: pytest.CaptureFixture[str]) -> None:
 def test_doctor_looks_at_this_machine(capsys: pytest.CaptureFixture[str], words: tuple[str, ...]) -> None:
     main(["ros2", *words])
     assert "python" in capsys.readouterr().out
+
+
+def test_a_command_before_the_executable() -> None:
+    """What `--prefix` names gets the executable and its arguments, in a process of its own."""
+    words = ["--prefix", "echo 'with this'", "demo_nodes_py", "talker", "--ros-args", "-r", "__node:=t"]
+    code = "import sys; from bot_console.tui.cli.main import main; sys.exit(main(sys.argv[1:]))"
+    ended = subprocess.run(
+        [sys.executable, "-c", code, "ros2", "run", *words], capture_output=True, text=True, check=False
+    )
+    assert ended.returncode == 0, ended.stderr
+    assert ended.stdout.startswith("with this ")
+    assert ended.stdout.endswith(" demo_nodes_py talker --ros-args -r __node:=t\n")
+
+
+def test_nothing_stands_before_a_program_of_the_console(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["run", "--watch", "--prefix=echo", "demo_nodes_py", "talker"])
+    assert "leave out --watch and --headless" in capsys.readouterr().err
 
 
 def test_they_are_completed() -> None:

@@ -1,0 +1,71 @@
+"""`ros2 component` against a container of ours."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+from rclpy.node import Node
+
+CONTAINER = """
+from launch_ros.component_container import ComponentContainer
+from rclpy.executors import SingleThreadedExecutor
+manager = Node('ComponentManager', namespace='box')
+executor = SingleThreadedExecutor()
+container = ComponentContainer(manager, executor)
+executor.add_node(manager)
+executor.spin()
+"""
+BOX = "/box/ComponentManager"
+BIT = ("bits", "bits::Bit")
+
+
+class Bit(Node):
+    """A component."""
+
+    def __init__(self) -> None:
+        super().__init__("bit")
+
+
+def test_components_are_loaded_listed_and_unloaded(ros, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "bits", SimpleNamespace(Bit=Bit))  # pyright: ignore[reportArgumentType]
+    ros.node(CONTAINER)
+    ros.node("node = Node('other')")
+    assert ros.ask("component", "list").stdout == f"{BOX}\n"
+    loaded = ros.ask("component", "load", BOX, *BIT, "-n", "one", "--node-namespace", "/a", "-p", "use_sim_time:=true")
+    assert loaded.stdout == f"Loaded component 1 into '{BOX}' container node as '/a/one'\n"
+    assert ros.ask("param", "get", "/a/one", "use_sim_time", "--hide-type").stdout == "True\n"
+    assert ros.ask("component", "load", "-q", BOX, *BIT, "-r", "__node:=two").stdout == "2\n"
+    assert ros.ask("component", "list").stdout == f"{BOX}\n  1  /a/one\n  2  /two\n"
+    assert ros.ask("component", "list", BOX).stdout == "1  /a/one\n2  /two\n"
+    assert ros.ask("component", "list", "--containers-only").stdout == f"{BOX}\n"
+    assert ros.ask("component", "unload", BOX, "1").stdout == f"Unloaded component 1 from '{BOX}' container node\n"
+    again = ros.ask("component", "unload", "-q", BOX, "2", "1")
+    assert (again.exit, again.stdout) == (1, "2\n")
+    assert again.stderr == (
+        f"Failed to unload component 1 from '{BOX}' container node\n    No node found with unique_id: 1\n"
+    )
+
+
+def test_what_cannot_be_loaded(ros) -> None:
+    ros.node(CONTAINER)
+    failed = ros.ask("component", "load", BOX, "composition", "composition::Talker")
+    assert failed.exit == 1
+    assert failed.stderr.startswith("Failed to load component: Failed to find class with the requested plugin name.")
+    for verb in (("list",), ("load", *BIT), ("unload", "1")):
+        missing = ros.ask("component", verb[0], "/box", *verb[1:])
+        assert (missing.exit, missing.stderr) == (1, "Unable to find container node '/box'\n")
+
+
+def test_types_that_packages_name(ros, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for kind, text in (("rclcpp_components", "some::Talker;lib/libtalker.so\n"), ("packages", "")):
+        folder = tmp_path / "share/ament_index/resource_index" / kind
+        folder.mkdir(parents=True)
+        (folder / "some").write_text(text)
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
+    assert "some\n  some::Talker\n" in ros.ask("component", "types").stdout
+    assert ros.ask("component", "types", "some").stdout == "some::Talker\n"
+    missing = ros.ask("component", "types", "other")
+    assert (missing.exit, missing.stderr) == (1, "Unable to find package 'other'\n")
