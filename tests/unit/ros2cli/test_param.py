@@ -179,14 +179,15 @@ node.add_on_set_parameters_callback(lambda parameters: SetParametersResult(succe
     assert ros.ask("param", "get", "/strict", "x", "--hide-type").stdout == "1\n"
 
 
-def test_a_node_that_ends_in_its_callback_leaves_the_verb_waiting(ros) -> None:
+def test_a_node_that_ends_in_its_callback_is_told_of(ros) -> None:
     node = ros.node("""
 node = Node('careless')
 node.declare_parameter('x', 1)
 node.add_on_set_parameters_callback(lambda parameters: None)
 """)
     asked = ros.ask("param", "set", "/careless", "x", "2", stop_after=5.0)
-    assert (asked.exit, asked.stdout) == (2, "")
+    assert (asked.exit, asked.stdout) == (1, "")
+    assert "/careless" in asked.stderr and "ended" in asked.stderr
     assert node.exit == 1
     assert "AttributeError: 'NoneType' object has no attribute 'successful'\n" in node.stderr
     assert "return SetParametersResult(successful=True)" in node.stderr.splitlines()[-1]
