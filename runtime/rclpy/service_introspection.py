@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from enum import IntEnum
 from typing import Any
 
 from bot_console.runtime.rmw.endpoints import ClientEndpoint
+from rclpy.impl.named_enum import NamedIntEnum
 
 EVENT_TOPIC = "/_service_event"
 
 
-class ServiceIntrospectionState(IntEnum):
+class ServiceIntrospectionState(NamedIntEnum):
     """How much is published."""
 
     OFF = 0

@@ -12,6 +12,7 @@ from rclpy.duration import Duration
 from rclpy.event_handler import QoSPublisherEventType
 from rclpy.logging import get_logger
 from rclpy.qos import QoSCompatibility, QoSPresetProfiles, QoSProfile
+from rclpy.service_introspection import ServiceIntrospectionState
 from rclpy.signals import SignalHandlerOptions
 from rclpy.time import Time
 from rclpy.topic_endpoint_info import TopicEndpointInfo
@@ -27,6 +28,7 @@ from std_srvs.srv import Trigger
         ClockType.ROS_TIME,
         QoSCompatibility.WARNING,
         QoSPublisherEventType.RCL_PUBLISHER_MATCHED,
+        ServiceIntrospectionState.CONTENTS,
         SignalHandlerOptions.ALL,
     ],
 )
