@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import inspect
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import pytest
@@ -14,17 +14,34 @@ RUNNING: dict[str, Any] = {}
 _OPTIONS = "_launch_pytest_options"
 
 
-def fixture(decorated: Callable[..., Any] | None = None, *, shutdown_when_idle: bool = True, **options: Any) -> Any:
-    """Make a fixture of a function that returns a launch description, or a sequence that begins with one."""
+def fixture(
+    decorated: Callable[..., Any] | None = None,
+    *,
+    shutdown_when_idle: bool = True,
+    auto_shutdown: bool = True,
+    **options: Any,
+) -> Any:
+    """Make a fixture of a function that returns a launch description, or a sequence that begins with one.
+
+    Without `auto_shutdown` the launch has to end itself, and what comes after it waits for that.
+    """
     if decorated is None:
-        return functools.partial(fixture, shutdown_when_idle=shutdown_when_idle, **options)
+        more = {"shutdown_when_idle": shutdown_when_idle, "auto_shutdown": auto_shutdown}
+        return functools.partial(fixture, **more, **options)
     name = options.get("name") or decorated.__name__
 
     def described(*args: Any, **kwargs: Any) -> Iterator[Any]:
         from launch_pytest.running import Running
 
+        from launch import LaunchDescription
+
         made = decorated(*args, **kwargs)
-        running = Running(made[0] if isinstance(made, (list, tuple)) else made, shutdown_when_idle)
+        description = made[0] if isinstance(made, Sequence) and made else made
+        assert isinstance(description, LaunchDescription), (
+            f"When running launch_pytest fixture '{name}': return value must be either a launch description "
+            "or a sequence which first item is a launch description"
+        )
+        running = Running(description, shutdown_when_idle, auto_shutdown)
         RUNNING[name] = running
         try:
             yield made

@@ -16,6 +16,12 @@ _AFTER = pytest.StashKey[bool]()
 _FIRST = pytest.StashKey[Any]()
 _STARTED = pytest.StashKey[Any]()
 _SUFFIX = "[shutdown_test]"
+NO_FIXTURE = '"fixture" keyword argument is required in a pytest.mark.launch() decorator'
+AFTER_ALONE = "generator or async generator based launch test items cannot be marked with shutdown=True"
+
+
+class LaunchTestWarning(pytest.PytestWarning):
+    """A mark says too little."""
 
 
 def _is_generator(function: Any) -> bool:
@@ -34,15 +40,22 @@ def pytest_pycollect_makeitem(collector: Any, name: str, obj: Any) -> Any:
     marks = [*own, *collector.iter_markers("launch")]
     if not marks or not inspect.isfunction(obj) or not collector.istestfunction(obj, name):
         return None
-    fixture, scope = options_of(marks[0].kwargs.get("fixture"))
+    if marks[0].kwargs.get("fixture") is None:
+        return _skipped(list(collector._genfunctions(name, obj)))
+    fixture, scope = options_of(marks[0].kwargs["fixture"])
     shutdown = bool(marks[0].kwargs.get("shutdown"))
-    if shutdown and _is_generator(obj):
-        raise collector.CollectError(f"{name}: a generator cannot be marked with shutdown=True")
     pytest.mark.usefixtures(fixture)(obj)
     items = list(collector._genfunctions(name, obj))
     for item in items:
         item.stash[_AFTER] = shutdown
     return [*items, *_second_halves(collector, name, obj, items)] if scope != "function" else items
+
+
+def _skipped(items: list[Any]) -> list[Any]:
+    for item in items:
+        item.warn(LaunchTestWarning(NO_FIXTURE))
+        item.add_marker(pytest.mark.skip(NO_FIXTURE))
+    return items
 
 
 def _second_halves(collector: Any, name: str, obj: Any, items: list[Any]) -> list[Any]:
@@ -71,9 +84,11 @@ def pytest_pyfunc_call(pyfuncitem: Any) -> bool | None:
     running = _running(pyfuncitem)
     if running is None:
         return None
-    if pyfuncitem.stash.get(_AFTER, False):
-        running.shutdown()
     first = pyfuncitem.stash.get(_FIRST, None)
+    if pyfuncitem.stash.get(_AFTER, False):
+        if first is None and _is_generator(pyfuncitem.obj):
+            pytest.fail(AFTER_ALONE, pytrace=False)
+        running.shutdown()
     if first is not None:
         _finish(running, first.stash.get(_STARTED, None))
         return True
@@ -110,7 +125,8 @@ def _finish(running: Any, generator: Any) -> None:
         _step(running, generator)
     except (StopIteration, StopAsyncIteration):
         return
-    pytest.fail("launch_pytest: a test has to have one yield", pytrace=False)
+    kind = "a generator" if inspect.isgenerator(generator) else "an async generator"
+    pytest.fail(f"launch tests using {kind} function must stop iteration after yielding once", pytrace=False)
 
 
 def _part(request: Any) -> Any:

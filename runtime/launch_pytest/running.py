@@ -21,14 +21,20 @@ END_LIMIT = 30.0
 class Running:
     """Starts in the constructor and returns when the launch is ready; `close` ends its loop."""
 
-    def __init__(self, description: LaunchDescription, shutdown_when_idle: bool = True) -> None:
+    def __init__(
+        self, description: LaunchDescription, shutdown_when_idle: bool = True, auto_shutdown: bool = True
+    ) -> None:
         marks = [each for each in entities_of(description) if isinstance(each, ReadyToTest)]
+        if len(marks) > 1:
+            raise RuntimeError(
+                "launch_pytest fixtures must return a LaunchDescription containing only one ReadyToTest action"
+            )
         if not marks:
             marks = [ReadyToTest()]
             description.add_action(marks[0])
         ready: Future[None] = Future()
-        for mark in marks:
-            mark._add_callback(lambda: None if ready.done() else ready.set_result(None))
+        marks[0]._add_callback(lambda: None if ready.done() else ready.set_result(None))
+        self._ends_itself = not auto_shutdown
         self.loop = new_event_loop()
         self.service = LaunchService(noninteractive=True)
         self.service.include_launch_description(description)
@@ -48,8 +54,9 @@ class Running:
         return self._submit(work).result()
 
     def shutdown(self) -> None:
-        """End what runs, and wait for it; the loop goes on."""
-        self.service.shutdown()
+        """End what runs, unless it does that itself, and wait for it; the loop goes on."""
+        if not self._ends_itself:
+            self.service.shutdown()
         self._ended.result(END_LIMIT)
 
     def close(self) -> None:

@@ -65,9 +65,16 @@ def _handlers(
     if "log" in anywhere:
         yield launch_config.get_log_file_handler(main_log_file_name)
     if "own_log" in places.get(source, ()):
-        yield launch_config.get_log_file_handler(f"{process_name}-{source}.log")
+        yield _own(f"{process_name}-{source}.log")
     if "own_log" in places.get("both", ()):
-        yield launch_config.get_log_file_handler(f"{process_name}.log")
+        yield _own(f"{process_name}.log")
+
+
+def _own(file_name: str) -> logging.Handler:
+    """A file with the lines of one process, without the times that the main log has."""
+    handler = launch_config.get_log_file_handler(file_name)
+    handler.setFormatter(logging.Formatter())
+    return handler
 
 
 def _normalized(config: Any) -> Mapping[str, frozenset[str]]:

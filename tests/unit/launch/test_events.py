@@ -78,6 +78,20 @@ def test_output(run: Launch, output: Any, shown: set[str], logged: str) -> None:
         assert bool(re.search(rf"^\d+\.\d{{7}} \[p-\d+\] {word}$", log, re.M)) is (word in logged.split())
 
 
+def test_own_files_have_the_lines_alone(run: Launch) -> None:
+    import launch.logging
+
+    name = next(each for each in run([python(OUT, output="own_log")]).lines if "process started" in each)
+    name = name.partition("[INFO] [")[2].partition("]")[0]
+    for file, lines in (
+        (f"{name}-stdout.log", {"out"}),
+        (f"{name}-stderr.log", {"err"}),
+        (f"{name}.log", {"out", "err"}),
+    ):
+        text = Path(launch.logging.launch_config.get_log_file_path(file)).read_text()
+        assert set(text.splitlines()) == {f"[{name}] {line}" for line in lines}
+
+
 def test_the_environment_overrules_the_output(run: Launch, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("OVERRIDE_LAUNCH_PROCESS_OUTPUT", "screen")
     assert "[p] out" in of_process(run([python(OUT, output="nonsense")]))

@@ -123,7 +123,44 @@ def test_never():
 
 
 UNMARKED = "@pytest.mark.launch\ndef test_it(): pass\n"
-FILES = {"beside": BESIDE, "common": COMMON, "bad": BAD, "unmarked": UNMARKED}
+FOREIGN = "@pytest.fixture\ndef plain(): pass\n@pytest.mark.launch(fixture=plain)\ndef test_it(): pass\n"
+REFUSED = """
+@launch_pytest.fixture
+def no_description():
+    return object()
+
+@pytest.mark.launch(fixture=no_description)
+def test_no_description():
+    pass
+
+@launch_pytest.fixture
+def ready_twice():
+    return launch.LaunchDescription([launch_pytest.actions.ReadyToTest(), launch_pytest.actions.ReadyToTest()])
+
+@pytest.mark.launch(fixture=ready_twice)
+def test_ready_twice():
+    pass
+
+@launch_pytest.fixture
+def ends_at_once():
+    return launch.LaunchDescription([launch_pytest.actions.ReadyToTest()])
+
+@pytest.mark.launch(fixture=ends_at_once, shutdown=True)
+def test_two_halves_afterwards():
+    yield
+"""
+BY_ITSELF = """
+@launch_pytest.fixture(auto_shutdown=False)
+def by_itself():
+    ends = ExecuteProcess(cmd=[sys.executable, '-c', 'import time; time.sleep(0.3)'])
+    return launch.LaunchDescription([ends, launch_pytest.actions.ReadyToTest()]), ends
+
+@pytest.mark.launch(fixture=by_itself, shutdown=True)
+def test_by_itself(by_itself):
+    assert by_itself[1].return_code == 0
+"""
+FILES = {"beside": BESIDE, "common": COMMON, "bad": BAD, "unmarked": UNMARKED, "foreign": FOREIGN}
+FILES |= {"refused": REFUSED, "itself": BY_ITSELF}
 
 
 class Done:
@@ -163,10 +200,30 @@ def test_a_fixture_of_a_module_runs_once_and_what_comes_after_it_is_last(done: D
 
 def test_failures_are_told_with_their_own_assertion(done: Done) -> None:
     assert sorted(kind for _, kinds in done.cases["bad"] for kind in kinds) == ["error", *["failure"] * 3]
-    for text in ("something else", "it has ended", "has to have one yield", "before it was ready: no such thing"):
+    for text in (
+        "something else",
+        "it has ended",
+        "must stop iteration after yielding once",
+        "before it was ready: no such thing",
+    ):
         assert text in done.printed
 
 
 def test_the_mark_wants_a_fixture_of_its_own(done: Done) -> None:
     assert done.code == 1
     assert "pytest.mark.launch takes fixture=" in done.printed
+    assert done.cases["unmarked"] == [("test_it", ["skipped"])]
+    assert '"fixture" keyword argument is required in a pytest.mark.launch() decorator' in done.printed
+
+
+def test_what_a_fixture_may_not_be(done: Done) -> None:
+    cases = dict(done.cases["refused"])
+    assert cases["test_no_description"] == cases["test_ready_twice"] == ["error"]
+    assert "fixture 'no_description': return value must be either a launch description" in done.printed
+    assert "containing only one ReadyToTest action" in done.printed
+    assert cases["test_two_halves_afterwards"] == ["failure"]
+    assert "launch test items cannot be marked with shutdown=True" in done.printed
+
+
+def test_a_launch_may_end_itself(done: Done) -> None:
+    assert done.cases["itself"] == [("test_by_itself", [])], done.printed
