@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from bot_console.runtime.process.crashes import MEND
@@ -12,6 +13,9 @@ from rclpy.impl.log_routing import state
 from rclpy.impl.rcutils_logger import RcutilsLogger
 
 DEPRECATED = "Found remap rule '{0}'. This syntax is deprecated. Use '--ros-args --remap {0}' instead."
+NOT_OBEYED = "'{0}' stands outside of --ros-args and is left to the program. A parameter is set by --ros-args -p {0}"
+"""rcl says nothing of it: `-p speed:=2.5` without the flag is a word like any other."""
+ASSIGNED = re.compile(r"[A-Za-z_][\w./]*:=.")
 
 
 def parse_global(words: Sequence[str]) -> Arguments:
@@ -25,6 +29,8 @@ def parse_global(words: Sequence[str]) -> Arguments:
         raise refused from None
     _refuse_unknown(parsed)
     state().obey(parsed)
+    for word in filter(ASSIGNED.match, parsed.unparsed):
+        RcutilsLogger("rcl").warning(NOT_OBEYED.format(word))
     return parsed
 
 

@@ -263,3 +263,12 @@ def test_a_refused_parameter_file_is_explained_in_more_words_than_those_of_rcl(t
     with pytest.raises(RCLError) as refused:
         rclpy.init(args=["--ros-args", "--params-file", str(path)], context=Context())
     assert explanation(refused.value) == f"{path}:2: it is indented by a tab, and YAML takes spaces alone"
+
+
+def test_a_parameter_before_the_flag_is_told(capfd):
+    context = Context()
+    rclpy.init(args=["node", "-p", "speed:=2.5", "file", "--ros-args", "-p", "rate:=1.0"], context=context)
+    context.shutdown()
+    told = [line for line in capfd.readouterr().err.splitlines() if "[rcl]" in line]
+    assert len(told) == 1
+    assert "'speed:=2.5' stands outside of --ros-args" in told[0] and told[0].endswith("--ros-args -p speed:=2.5")
