@@ -11,6 +11,8 @@ from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 SHARED = ("/rosout", "/parameter_events", "/tf", "/tf_static", "/diagnostics", "/clock", "/statistics")
 """Topics that many nodes publish, or that nobody has to, without anything being wrong."""
 
+ON_OCCASION = ("/initialpose", "/emergency_stop/request", "/emergency_stop/arbiter")
+"""Ends of topics that are listened to for those who may publish them: a person now and then, a safety monitor."""
 
 SILENT = "has not answered for a second: it was killed, it hangs, or it is busy"
 
@@ -54,7 +56,7 @@ def _topics(info: GraphInfo) -> Iterator[Finding]:
             yield Finding(topic, f"{topic} {why}: nothing arrives from {publisher} at {subscriber}", True)
         if topic in SHARED:
             continue
-        if takes and not gives:
+        if takes and not gives and not topic.endswith(ON_OCCASION):
             yield Finding(topic, f"nobody publishes {topic}, which {_list(takes)} {_listens(takes)} to")
         if len(gives) > 1:
             yield Finding(topic, f"{_number(len(gives))} publishers on {topic}: {_list(gives)}")

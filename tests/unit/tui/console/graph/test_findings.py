@@ -69,3 +69,9 @@ def test_nodes_of_one_name_are_a_fault() -> None:
     found = findings(GraphInfo((NodeInfo("/a", copies=2, services=(OWN, Endpoint("/go", ("T",)))),)))
     assert [(each.subject, each.fault) for each in found] == [("/a", True)]
     assert found[0].text.startswith("two nodes are called /a")
+
+
+def test_what_is_published_on_occasion_needs_no_publisher() -> None:
+    topics = ("/initialpose", "/robot1/emergency_stop/arbiter", "/scan")
+    base = NodeInfo("/base", (), tuple(Endpoint(each, ("T",)) for each in topics))
+    assert said(base) == ["nobody publishes /scan, which /base listens to"]
