@@ -8,7 +8,6 @@ from bot_console.runtime.process import current
 from rclpy.impl.any_clock import AnyClock
 
 OPTIONS = ("throttle_duration_sec", "throttle_time_source_type", "skip_first", "once")
-NANO = 1_000_000_000
 
 
 def detect(options: dict[str, Any]) -> tuple[str, ...]:
@@ -53,7 +52,7 @@ class Site:
 
     def _throttle(self) -> bool:
         now = self._clock.now().nanoseconds if self._clock is not None else current().clock.system_ns()
-        if now < self._last + self.options["throttle_duration_sec"] * NANO:
+        if now < self._last + int(self.options["throttle_duration_sec"] * 1e9):
             return False
         self._last = now
         return True

@@ -130,6 +130,11 @@ def test_a_severity_is_given_once() -> None:
         get_logger("l").fatal("text", severity=10)
 
 
+def test_a_throttle_is_a_number() -> None:
+    with pytest.raises(TypeError, match="can't multiply sequence by non-int of type 'float'"):
+        get_logger("l").info("text", throttle_duration_sec="1")
+
+
 def test_an_endpoint_that_nothing_is_known_of() -> None:
     info = TopicEndpointInfo()
     assert info.qos_profile == QoSPresetProfiles.UNKNOWN.value
