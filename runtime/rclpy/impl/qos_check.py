@@ -7,6 +7,8 @@ from typing import Any
 from rclpy.impl.qos_policies import DurabilityPolicy, LivelinessPolicy, ReliabilityPolicy
 
 UNSURE = ("SYSTEM_DEFAULT", "UNKNOWN")
+_MISSPELT = {"durability": "durabilty"}
+"""Words of rmw_dds_common as it spells them."""
 
 
 def errors(publisher: Any, subscription: Any) -> list[str]:
@@ -18,22 +20,22 @@ def errors(publisher: Any, subscription: Any) -> list[str]:
     durability = publisher.durability, subscription.durability
     if durability == (DurabilityPolicy.VOLATILE, DurabilityPolicy.TRANSIENT_LOCAL):
         found.append("Volatile publisher and transient local subscription")
-    found += _duration(publisher.deadline, subscription.deadline, "deadline", "deadline")
+    found += _duration(publisher.deadline, subscription.deadline, "deadline", "publisher deadline")
     liveliness = publisher.liveliness, subscription.liveliness
     if liveliness == (LivelinessPolicy.AUTOMATIC, LivelinessPolicy.MANUAL_BY_TOPIC):
         found.append("Publisher's liveliness is automatic and subscription's is manual by topic")
     lease = publisher.liveliness_lease_duration, subscription.liveliness_lease_duration
-    found += _duration(*lease, "liveliness lease duration", "liveliness lease duration")
+    found += _duration(*lease, "liveliness lease duration", "publisher")
     return found
 
 
-def _duration(offered: Any, requested: Any, short: str, long: str) -> list[str]:
+def _duration(offered: Any, requested: Any, what: str, other: str) -> list[str]:
     if not requested.nanoseconds:
         return []
     if not offered.nanoseconds:
-        return [f"Subscription has a {short}, but publisher does not"]
+        return [f"Subscription has a {what}, but publisher does not"]
     if requested.nanoseconds < offered.nanoseconds:
-        return [f"Subscription {long} is less than publisher {long}"]
+        return [f"Subscription {what} is less than {other}"]
     return []
 
 
@@ -46,12 +48,17 @@ def warnings(publisher: Any, subscription: Any) -> list[str]:
 
 
 def _unsure(what: str, offered: Any, requested: Any, strict: str, loose: str) -> list[str]:
+    gives, wants = offered.short_key, requested.short_key
     if offered.name in UNSURE and requested.name in UNSURE:
-        return [f"Publisher {what} is {offered.short_key} and subscription {what} is {requested.short_key}"]
+        return [f"Publisher {_MISSPELT.get(what, what)} is {gives} and subscription {what} is {wants}"]
     if requested.name == strict and offered.name in UNSURE:
-        return [f"{_words(strict)} subscription, but publisher {what} is {offered.short_key}"]
+        if what == "liveliness":
+            return [f"Subscription's liveliness is {_words(strict).lower()}, but publisher's is {gives}"]
+        return [f"{_words(strict)} subscription, but publisher is {gives}"]
     if offered.name == loose and requested.name in UNSURE:
-        return [f"{_words(loose)} publisher, but subscription {what} is {requested.short_key}"]
+        if what == "liveliness":
+            return [f"Publisher's liveliness is {_words(loose).lower()}, but subscription's is {wants}"]
+        return [f"{_words(loose)} publisher, but subscription is {wants}"]
     return []
 
 

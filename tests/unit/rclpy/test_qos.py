@@ -149,13 +149,31 @@ BEST_EFFORT, LATCHED = {"reliability": ReliabilityPolicy.BEST_EFFORT}, {"durabil
             {"reliability": ReliabilityPolicy.SYSTEM_DEFAULT},
             {},
             "WARNING",
-            "WARNING: Reliable subscription, but publisher reliability is system_default;",
+            "WARNING: Reliable subscription, but publisher is system_default;",
+        ),
+        (
+            {"durability": DurabilityPolicy.SYSTEM_DEFAULT},
+            {"durability": DurabilityPolicy.UNKNOWN},
+            "WARNING",
+            "WARNING: Publisher durabilty is system_default and subscription durability is unknown;",
+        ),
+        (
+            {"liveliness": LivelinessPolicy.SYSTEM_DEFAULT},
+            {"liveliness": LivelinessPolicy.MANUAL_BY_TOPIC},
+            "WARNING",
+            "WARNING: Subscription's liveliness is manual by topic, but publisher's is system_default;",
+        ),
+        (
+            {"liveliness_lease_duration": ms(2)},
+            {"liveliness_lease_duration": ms(1)},
+            "ERROR",
+            "ERROR: Subscription liveliness lease duration is less than publisher;",
         ),
     ],
 )
 def test_compatibility(offered: dict[str, Any], requested: dict[str, Any], verdict: str, words: str) -> None:
     alive = {"depth": 1, "liveliness": LivelinessPolicy.AUTOMATIC}
-    found = qos_check_compatible(QoSProfile(**alive, **offered), QoSProfile(**alive, **requested))
+    found = qos_check_compatible(QoSProfile(**{**alive, **offered}), QoSProfile(**{**alive, **requested}))
     assert found == (QoSCompatibility[verdict], words)
 
 
