@@ -11,6 +11,8 @@ from launch.child import PythonProgram
 
 NEEDS_SHELL = re.compile(r"[;&|<>()`$*?#~\n]|\[[^\]]*\]")
 """What a shell would do something with, outside of quotes."""
+APART = ("bag", "daemon", "doctor", "wtf")
+"""Commands of `ros2` that are programs of their own, and no verbs of this runtime's."""
 QUOTED = re.compile(r"'[^']*'|\"[^\"`$\\]*\"")
 
 
@@ -21,7 +23,10 @@ def ros2_program(command: Sequence[str], shell: bool) -> PythonProgram | None:
 
 
 def ros2_words(command: Sequence[str], shell: bool) -> list[str] | None:
-    """The words behind `ros2` of a command that is nothing but a `ros2` command line; None for all others."""
+    """The words behind `ros2` of a command that is nothing but a `ros2` command line; None for all others.
+
+    Also None where the command is a program of its own, such as `ros2 bag`: that is started as any other.
+    """
     words = list(command)
     if shell:
         line = " ".join(command)
@@ -31,7 +36,9 @@ def ros2_words(command: Sequence[str], shell: bool) -> list[str] | None:
             words = shlex.split(line)
         except ValueError:  # the shell says better what is wrong with it
             return None
-    return words[1:] if words and os.path.basename(words[0]) == "ros2" else None
+    if not words or os.path.basename(words[0]) != "ros2" or (words[1:2] and words[1] in APART):
+        return None
+    return words[1:]
 
 
 def verb(words: Sequence[str]) -> Callable[[], object]:

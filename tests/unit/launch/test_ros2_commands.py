@@ -9,6 +9,9 @@ ROWS: list[tuple[list[str], bool, list[str] | None]] = [
     (["ros2", "topic", "list"], False, ["topic", "list"]),
     (["/opt/ros/bin/ros2", "node", "list"], False, ["node", "list"]),
     (["echo", "ros2"], False, None),
+    (["ros2", "bag", "record", "-a"], False, None),  # a program of its own
+    (["ros2 daemon stop"], True, None),
+    (["ros2"], False, []),
     (
         ["ros2 service call /spawn a/srv/B \"{x: 2, name: 'a b'}\""],
         True,
