@@ -16,7 +16,7 @@ from bot_console.tui.keys.taking import ends_at_once
 from bot_console.tui.terminal.clipboard import osc52, within
 from bot_console.tui.terminal.closing import let_go
 from bot_console.tui.terminal.composing.compositor import PartwiseCompositor
-from bot_console.tui.terminal.composing.cuts import keep_few_cuts
+from bot_console.tui.terminal.composing.kept import keep_few_answers, keep_few_cuts
 from bot_console.tui.terminal.difference import ShownScreen
 from bot_console.tui.terminal.gate import AnswerGate
 from bot_console.tui.terminal.gone import LastingFile
@@ -219,6 +219,7 @@ class HoldingScreen(Screen[None]):
 
     def __init__(self) -> None:
         super().__init__()
+        keep_few_answers(self)
         self._compositor = PartwiseCompositor()
 
     def _compositor_refresh(self) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, cast
 
+from bot_console.tui.terminal.composing.kept import keep_few_answers
 from bot_console.tui.terminal.output import SUPPORTED
 from textual.compose import compose  # pyright: ignore[reportUnknownVariableType] -- Textual's App is generic
 from textual.containers import Container
@@ -20,6 +21,10 @@ class LateParts(Container):
     _late = False
     """Whether the parts come by `make_parts`, also when that was before the mount is over."""
     _missing = False
+
+    def __init__(self, *children: Widget, **how: Any) -> None:
+        super().__init__(*children, **how)
+        keep_few_answers(self)
 
     @property
     def has_parts(self) -> bool:

@@ -1,0 +1,22 @@
+"""What screen and panes look for among their widgets is kept for a while, not for hours."""
+
+from __future__ import annotations
+
+import pytest
+from bot_console.tui.terminal.composing import kept
+from piloting import Session, run
+from samples import live
+
+FEW = 3
+
+
+def test_few_answers_are_kept_however_often_panes_are_changed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(kept, "ANSWERS", FEW)
+
+    async def play(session: Session) -> None:
+        await session.press(*"12345678123")
+        most = {type(each).__name__: len(each._query_one_cache) for each in session.app.screen.walk_children()}
+        most["the screen"] = len(session.app.screen._query_one_cache)
+        assert max(most.values()) == FEW, most
+
+    run(live(), play)
