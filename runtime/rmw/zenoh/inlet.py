@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Container
 from dataclasses import dataclass
 
@@ -65,6 +66,8 @@ class Inlet:
         self._subscription = subscription
         self._raw = subscription.raw
         self._counted = subscription.endpoint.topic in PATIENT_TOPICS
+        self._opened = 0
+        """When messages began to be received (system time, ns); of those before, as many as there is room for come."""
         self._tap = tap
         self._own = own
         self.message_class = subscription.endpoint.message_class
@@ -78,6 +81,7 @@ class Inlet:
 
     def open(self) -> None:
         """Begin to receive."""
+        self._opened = time.time_ns()
         qos = self._subscription.endpoint.qos
         history = (depth(qos) or ALL_KEPT) if self._latched else None
         reliable = qos.reliability.name != "BEST_EFFORT"
@@ -107,7 +111,7 @@ class Inlet:
         message = payload if self._raw else Arrived(self, payload)
         expires = None if publisher.lifespan is None else stamp + publisher.lifespan
         queue = subscription.queue
-        if self._counted and len(queue) == queue.maxlen:
+        if self._counted and stamp >= self._opened and len(queue) == queue.maxlen:
             self._overrun()
         queue.append((message, stamp, number, expires))
         subscription.notify()

@@ -29,8 +29,8 @@ def received(topic):
     return Inlet(SimpleNamespace(lost=0), subscription, "key", set(), Tap()), subscription.queue, events
 
 
-def give(inlet, number):
-    inlet.received(serialize_message(String(data=str(number))), pack(number, 5, GID))
+def give(inlet, number, stamp=5):
+    inlet.received(serialize_message(String(data=str(number))), pack(number, stamp, GID))
 
 
 def test_a_gap_in_the_numbers_is_an_event(received, notices):
@@ -54,6 +54,18 @@ def test_lines_of_a_log_that_make_room_are_counted_and_told_once(received, notic
     assert inlet._session.lost == lost and events == [("lost", 1)] * lost
     told = "messages of '/rosout' come faster than they are taken; of more than 10 the oldest go"
     assert notices == [told] * (lost > 0)
+
+
+@pytest.mark.parametrize("topic", ["/rosout"])
+def test_lines_of_before_that_find_no_room_are_not_told(received, notices, topic):
+    inlet, queue, events = received
+    inlet._session.declare_subscriber = lambda *what, **how: None
+    inlet.open()
+    for number in range(1, 13):
+        give(inlet, number)
+    assert len(queue) == 10 and events == [] and notices == []
+    give(inlet, 13, 2**62)
+    assert events == [("lost", 1)]
 
 
 def test_bytes_that_are_no_message_are_dropped_when_they_are_taken(received, notices):
