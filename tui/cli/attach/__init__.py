@@ -40,6 +40,13 @@ def _network(options: AttachOptions) -> int:
 
 
 def _ros(options: AttachOptions, place: str) -> int:
+    from bot_console.tui.cli.attach.console_needs import lend_missing, missing_messages
+
+    missing = missing_messages()
+    if missing:
+        print(missing, file=sys.stderr)
+        return 1
+    lend_missing()
     from bot_console.tui.cli.attach.ros import run_ros
 
     return run_ros(options, place)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import threading
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -13,9 +14,11 @@ PATIENCE = 2.0
 
 
 def launch_files() -> Sequence[str]:
-    """The launch files of all packages that the environment has."""
+    """The launch files of all packages that the environment has; none where no prefix is sourced."""
     from ament_index_python.packages import get_packages_with_prefixes
 
+    if not os.environ.get("AMENT_PREFIX_PATH"):
+        return ()  # the index raises OSError then: an rclpy installed by pip has no prefix
     found: list[str] = []
     for name, prefix in sorted(get_packages_with_prefixes().items()):
         share = Path(prefix) / "share" / name

@@ -3,6 +3,7 @@
 import threading
 from pathlib import Path
 
+import pytest
 from bot_console.tui.cli.attach.launch_files import LaunchFiles, launch_files
 
 PATIENCE = 10.0
@@ -21,6 +22,15 @@ def test_all_spellings_are_found_and_nothing_else(tmp_path: Path, monkeypatch) -
     monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path))
     found = [Path(each).name for each in launch_files() if each.startswith(str(tmp_path))]
     assert found == ["b.launch.xml", "a.launch.py", "bringup_launch.py", "c.launch.yaml"]
+
+
+def test_without_a_prefix_there_are_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    def index() -> dict[str, str]:
+        raise OSError("Environment variable 'AMENT_PREFIX_PATH' is not set or empty")  # as that of ROS 2 does
+
+    monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
+    monkeypatch.setattr("ament_index_python.packages.get_packages_with_prefixes", index)
+    assert launch_files() == ()
 
 
 def test_who_asks_waits_for_the_first_look_alone() -> None:

@@ -1,0 +1,51 @@
+"""What the console needs of the machine's ROS 2 beside `rclpy`, which alone brings few message packages."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import sys
+from collections.abc import Iterable, Sequence
+from importlib.machinery import ModuleSpec, PathFinder
+from types import ModuleType
+
+from bot_console.tui.cli.attach.machine_ros import RUNTIME
+
+MESSAGES = ("diagnostic_msgs", "geometry_msgs", "nav_msgs", "rcl_interfaces", "sensor_msgs")
+LENT = "rosidl_runtime_py"
+"""Comes with `ros2` and not with `rclpy`; ours is plain Python over the machine's `rosidl_parser`."""
+
+
+class LentPackage:
+    """A finder for the end of `sys.meta_path`: our package of one name, where the machine has none."""
+
+    def find_spec(
+        self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
+    ) -> ModuleSpec | None:
+        """The spec of that package; None for every other name."""
+        if fullname != LENT:
+            return None
+        folder = RUNTIME / LENT
+        return importlib.util.spec_from_file_location(
+            LENT, folder / "__init__.py", submodule_search_locations=[str(folder)]
+        )
+
+
+def lend_missing() -> None:
+    """Let `rosidl_runtime_py` be found on a machine without the packages of `ros2`; its own goes first."""
+    if not any(isinstance(each, LentPackage) for each in sys.meta_path):
+        sys.meta_path.append(LentPackage())
+
+
+def missing_messages(path: Iterable[str] | None = None) -> str:
+    """One line on the message packages that the console cannot do without; empty where all are there."""
+    where = None if path is None else list(path)
+    missing = [each for each in MESSAGES if PathFinder.find_spec(each, where) is None]
+    if not missing:
+        return ""
+    distro = os.environ.get("ROS_DISTRO", "") or "<distro>"
+    packages = " ".join(f"ros-{distro}-{each.replace('_', '-')}" for each in missing)
+    return (
+        f"this ROS 2 lacks {', '.join(missing)}, which the console needs: install the packages {packages}, or, where "
+        "they are built, source the workspace that has them"
+    )
