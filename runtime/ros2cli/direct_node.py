@@ -19,6 +19,8 @@ from rclpy.parameter import Parameter
 HIDDEN = "_"
 LOOK = 0.5
 """Seconds without an answer after which it is looked whether there can be one, again and again."""
+GONE = 20
+"""Looks for which whoever was asked has to be gone: links are made anew meanwhile, and upstream waits for good."""
 
 
 class NodeName(NamedTuple):
@@ -121,10 +123,10 @@ def answer(node: Node, client: Any, future: Any) -> Any:
     Raises `NoAnswer` where the server's process is stopped or has left, which upstream waits for for good.
     """
     service = client.service_name
-    there = True
+    gone = 0
     while not spin_until(node, future.done, LOOK):
-        before, there = there, client.service_is_ready()
-        if not (before or there):  # two looks: one may fall into a moment in which a link is made anew
+        gone = 0 if client.service_is_ready() else gone + 1
+        if gone > GONE:
             raise NoAnswer(f"nobody answers {service}: its node has ended since it was asked; see what it printed")
         for pid, nodes in node.context.bus.stopped().items():
             for name in nodes:

@@ -54,17 +54,12 @@ def run(tmp_path: Path) -> Iterator[Runs]:
         (("--ros-args", "--param", "talker:x:=2.5"), "/talker 2.5"),
         (("--ros-args", "-r", "__ns:=/a", "-r", "__node:=b", "-p", "x:=3.0"), "/a/b 3.0"),
         (("other", "--ros-args", "--remap", "talker:__node:=c", "--log-level", "debug", "--", "more"), "/c 1.0"),
+        (("-p", "x:=2.5"), "/talker 1.0"),
     ],
 )
 def test_a_file_takes_ros_arguments(run: Runs, words: tuple[str, ...], said: str) -> None:
     program = run.file(TALK + CALL, *words)
     assert (program.stdout, program.stderr, program.exit) == (f"{said}\n", "", 0)
-
-
-def test_what_stands_outside_of_the_ros_arguments_is_left_to_the_file_and_told(run: Runs) -> None:
-    program = run.file(TALK + CALL, "-p", "x:=2.5")
-    assert (program.stdout, program.exit) == ("/talker 1.0\n", 0)
-    assert "'x:=2.5' stands outside of --ros-args" in program.stderr
 
 
 def test_parameters_come_from_files(run: Runs, tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Sequence
 
 from bot_console.runtime.process.crashes import MEND
@@ -25,12 +26,14 @@ def parse_global(words: Sequence[str]) -> Arguments:
     except ArgumentsError as error:
         RcutilsLogger("rcl").error("Failed to parse global arguments")
         refused = RCLError(f"failed to initialize rcl: {error}")
-        setattr(refused, MEND, error.mend)
+        if _is_read():
+            setattr(refused, MEND, error.mend)
         raise refused from None
     _refuse_unknown(parsed)
     state().obey(parsed)
-    for word in filter(ASSIGNED.match, parsed.unparsed):
-        RcutilsLogger("rcl").warning(NOT_OBEYED.format(word))
+    if _is_read():
+        for word in filter(ASSIGNED.match, parsed.unparsed):
+            RcutilsLogger("rcl").warning(NOT_OBEYED.format(word))
     return parsed
 
 
@@ -54,6 +57,11 @@ def _parse(words: Sequence[str]) -> Arguments:
     for rule in parsed.deprecated_rules:
         RcutilsLogger("rcl").warning(DEPRECATED.format(rule))
     return parsed
+
+
+def _is_read() -> bool:
+    """Whether a person reads along: a program whose words go elsewhere says those of rcl, and no more."""
+    return sys.stderr.isatty()
 
 
 def _refuse_unknown(parsed: Arguments) -> None:

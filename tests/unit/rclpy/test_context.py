@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import threading
 from collections.abc import Iterator
 from typing import Any
@@ -257,7 +258,8 @@ def test_removing_ros_arguments_refuses_what_ros_does_not_know() -> None:
         rclpy.utilities.remove_ros_args(["p", "--ros-args", "--nope"])
 
 
-def test_a_refused_parameter_file_is_explained_in_more_words_than_those_of_rcl(tmp_path):
+def test_a_refused_parameter_file_is_explained_in_more_words_than_those_of_rcl(tmp_path, monkeypatch):
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     path = tmp_path / "p.yaml"
     path.write_text("n:\n\tros__parameters:\n")
     with pytest.raises(RCLError) as refused:
@@ -265,7 +267,9 @@ def test_a_refused_parameter_file_is_explained_in_more_words_than_those_of_rcl(t
     assert explanation(refused.value) == f"{path}:2: it is indented by a tab, and YAML takes spaces alone"
 
 
-def test_a_parameter_before_the_flag_is_told(capfd):
+def test_a_parameter_before_the_flag_is_told_to_who_reads_along(capfd, monkeypatch):
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    monkeypatch.setenv("RCUTILS_COLORIZED_OUTPUT", "0")
     context = Context()
     rclpy.init(args=["node", "-p", "speed:=2.5", "file", "--ros-args", "-p", "rate:=1.0"], context=context)
     context.shutdown()
