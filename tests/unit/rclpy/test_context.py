@@ -269,10 +269,9 @@ def test_a_refused_parameter_file_is_explained_in_more_words_than_those_of_rcl(t
 
 def test_a_parameter_before_the_flag_is_told_to_who_reads_along(capfd, monkeypatch):
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
-    monkeypatch.setenv("RCUTILS_COLORIZED_OUTPUT", "0")
     context = Context()
     rclpy.init(args=["node", "-p", "speed:=2.5", "file", "--ros-args", "-p", "rate:=1.0"], context=context)
     context.shutdown()
     told = [line for line in capfd.readouterr().err.splitlines() if "[rcl]" in line]
     assert len(told) == 1
-    assert "'speed:=2.5' stands outside of --ros-args" in told[0] and told[0].endswith("--ros-args -p speed:=2.5")
+    assert "'speed:=2.5' stands outside of --ros-args" in told[0] and "--ros-args -p speed:=2.5" in told[0]
