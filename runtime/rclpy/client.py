@@ -13,7 +13,7 @@ from bot_console.runtime.process import current
 from bot_console.runtime.rmw.endpoints import ClientEndpoint
 from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.entity import CLIENT, Entity
-from rclpy.impl.graph_wait import wait_until_there
+from rclpy.impl.graph_wait import require_valid, wait_until_there
 from rclpy.impl.reexports import reexporting
 from rclpy.task import Future
 
@@ -120,12 +120,13 @@ class Client(Entity):
         return None
 
     def service_is_ready(self) -> bool:
-        """Whether a server is there."""
+        """Whether a server is there; raises `RCLError` after a shutdown of the context."""
         self.use()
+        require_valid(self._node.context, "failed to check service availability")
         return self._node._ros_bus.has_server(self.endpoint)
 
     def wait_for_service(self, timeout_sec: float | None = None) -> bool:
-        """Block until a server is there; False when time (s) is over or the context was shut down."""
+        """Block until a server is there; False when time (s) is over. Raises `RCLError` once the context ends."""
         return wait_until_there(self._node, self.service_is_ready, timeout_sec)
 
     def configure_introspection(self, clock: Any, service_event_qos_profile: Any, introspection_state: Any) -> None:

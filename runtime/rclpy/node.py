@@ -75,7 +75,9 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         arguments = self._ros_read_arguments(cli_args, use_global_arguments)
         self._ros_choose_name(node_name, namespace or "", arguments)
         self._logger = get_logger(_logger_name(self._ros_namespace, self._ros_name))
-        self._ros_id = self._ros_bus.add_node(self._ros_name, self._ros_namespace, "/")
+        self._ros_id = self._ros_bus.add_node(
+            self._ros_name, self._ros_namespace, self.context.arguments.enclave or "/"
+        )
         self.context.track_node(self)
         if enable_rosout and self.context.arguments.rosout_enabled:
             self._ros_rosout = Rosout(self)

@@ -6,6 +6,7 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
+from bot_console.runtime.process import current
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.callback_groups import CallbackGroup
 from rclpy.clock_type import ClockType
@@ -157,8 +158,6 @@ class Rate:
         self._timer = timer
         self._context = context
         self._clock = timer.clock
-        from bot_console.runtime.process import current
-
         self._wakeup = current().clock.wakeup()
         self._lock = threading.Lock()
         self._is_shutdown = False
@@ -194,8 +193,6 @@ class Rate:
             self._sleepers -= 1
             if not self._sleepers:
                 self._wakeup.clear()
-        if self._is_shutdown:
-            raise ROSInterruptException
 
     def sleep(self) -> None:
         """Block until the next tick, not at all where one has come since the last sleep.
@@ -207,6 +204,9 @@ class Rate:
             self._wakeup.wait()
         finally:
             self._postsleep()
+        if self._is_shutdown:
+            current().deliver_signals()  # Ctrl-C shuts down, too: its sleeper is to see `KeyboardInterrupt`
+            raise ROSInterruptException
 
 
 __getattr__ = reexporting(__name__, "Clock Context get_default_context")

@@ -20,7 +20,7 @@ from rclpy.action.endpoints import ClientEndpoints, action_names
 from rclpy.action.entity import ActionEntity, call, take
 from rclpy.action.goal_state import TERMINAL
 from rclpy.action.pending_requests import PendingRequests
-from rclpy.impl.graph_wait import wait_until_there
+from rclpy.impl.graph_wait import require_valid, wait_until_there
 from rclpy.impl.reexports import reexporting
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 from rclpy.task import Future
@@ -179,12 +179,13 @@ class ActionClient(ActionEntity):
         self.use()
 
     def server_is_ready(self) -> bool:
-        """Whether a server is there."""
+        """Whether a server is there; raises `RCLError` after a shutdown of the context."""
         self.use()
+        require_valid(self._node.context, "Failed to check if action server is available")
         return self._endpoints.server_is_there()
 
     def wait_for_server(self, timeout_sec: float | None = None) -> bool:
-        """Block until a server is there; False when time (s) is over or the context was shut down."""
+        """Block until a server is there; False when time (s) is over. Raises `RCLError` once the context ends."""
         return wait_until_there(self._node, self.server_is_ready, timeout_sec)
 
 

@@ -17,6 +17,8 @@ DEPRECATED = "Found remap rule '{0}'. This syntax is deprecated. Use '--ros-args
 NOT_OBEYED = "'{0}' stands outside of --ros-args and is left to the program. A parameter is set by --ros-args -p {0}"
 """rcl says nothing of it: `-p speed:=2.5` without the flag is a word like any other."""
 ASSIGNED = re.compile(r"[A-Za-z_][\w./]*:=.")
+NO_LOG_CONFIG = "spdlog logging backend doesn't currently support external configuration"
+"""Upstream's usual backend takes no file either; a program that gave one would not start there."""
 
 
 def parse_global(words: Sequence[str]) -> Arguments:
@@ -30,6 +32,8 @@ def parse_global(words: Sequence[str]) -> Arguments:
             setattr(refused, MEND, error.mend)
         raise refused from None
     _refuse_unknown(parsed)
+    if parsed.log_config_file:
+        raise RCLError(f"failed to initialize logging: {NO_LOG_CONFIG}")
     state().obey(parsed)
     if _is_read():
         for word in filter(ASSIGNED.match, parsed.unparsed):

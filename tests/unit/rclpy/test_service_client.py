@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from example_interfaces.srv import AddTwoInts
-from rclpy._rclpy_pybind11 import InvalidHandle
+from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from std_srvs.srv import Trigger
@@ -153,7 +153,8 @@ def test_readiness(stepped_ros: Any) -> None:
 def test_waiting_ends_with_the_context(stepped_ros: Any) -> None:
     client = stepped_ros.node().create_client(AddTwoInts, "add")
     threading.Timer(1.0, stepped_ros.context.shutdown).start()
-    assert not client.wait_for_service()
+    with pytest.raises(RCLError, match="rcl node's context is invalid"):
+        client.wait_for_service()
 
 
 def test_call_waits_for_its_answer(stepped_ros: Any) -> None:

@@ -1,0 +1,70 @@
+"""What programs get that go on, or wait, while their context is shut down."""
+
+from __future__ import annotations
+
+import threading
+from typing import Any
+
+import pytest
+from example_interfaces.action import Fibonacci
+from rclpy._rclpy_pybind11 import RCLError
+from rclpy.action import ActionClient
+from rclpy.context import Context
+from rclpy.exceptions import ROSInterruptException
+from std_srvs.srv import Trigger
+
+INVALID = "rcl node's context is invalid"
+
+
+def test_a_loop_that_waits_for_a_service_ends_with_the_context(ros: Any) -> None:
+    client = ros.node().create_client(Trigger, "nobody")
+    ros.context.shutdown()
+    for ask in (client.service_is_ready, client.wait_for_service, lambda: client.wait_for_service(timeout_sec=1.0)):
+        with pytest.raises(RCLError, match=f"failed to check service availability: {INVALID}"):
+            ask()
+
+
+def test_a_loop_that_waits_for_an_action_server_ends_with_the_context(ros: Any) -> None:
+    client = ActionClient(ros.node(), Fibonacci, "nobody")
+    ros.context.shutdown()
+    for ask in (client.server_is_ready, client.wait_for_server, lambda: client.wait_for_server(timeout_sec=1.0)):
+        with pytest.raises(RCLError, match=f"Failed to check if action server is available: {INVALID}"):
+            ask()
+
+
+def test_who_sleeps_at_a_rate_sees_the_interrupt_that_shuts_down(ros: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    rate = ros.node().create_rate(1)
+
+    class Interrupted:
+        """A wait in which Ctrl-C comes."""
+
+        def set(self) -> None: ...
+        def clear(self) -> None: ...
+
+        def wait(self) -> None:
+            ros.context.shut_down_by_signal()
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(rate, "_wakeup", Interrupted())
+    with pytest.raises(KeyboardInterrupt) as told:
+        rate.sleep()
+    assert told.value.__context__ is None
+
+
+def test_who_sleeps_at_a_rate_is_told_of_a_shutdown_without_an_interrupt(ros: Any) -> None:
+    rate = ros.node().create_rate(1)
+    ender = threading.Timer(0, ros.context.shutdown)
+    ender.start()
+    with pytest.raises(ROSInterruptException):
+        rate.sleep()
+    ender.join()
+
+
+def test_the_enclave_of_the_command_line_is_that_of_the_nodes(ros: Any) -> None:
+    node = ros.node(args=["--enclave", "/robots/first"])
+    assert node.get_node_names_and_namespaces_with_enclaves() == [("n", "/", "/robots/first")]
+
+
+def test_a_log_configuration_file_is_refused_as_upstream_does() -> None:
+    with pytest.raises(RCLError, match="failed to initialize logging: spdlog logging backend"):
+        Context().init(["--ros-args", "--log-config-file", "log.conf"])
