@@ -50,6 +50,15 @@ def is_rqt(words: Sequence[str]) -> bool:
     return _program(words)[0] in RQT_PANES
 
 
+def names_system(words: Sequence[str]) -> bool:
+    """Whether the command line of a program of rqt also says what is to run, before options of the console's own, as
+    `rqt_plot /a/b outdoor` does.
+
+    Raises `ValueError` where the words name no program of rqt.
+    """
+    return any(not each.startswith("-") for each in rqt_opening(words)[1][:1])
+
+
 def rqt_opening(words: Sequence[str]) -> tuple[Opening, list[str]]:
     """What the command line of a program of rqt asks for, and the words that are not rqt's.
 

@@ -59,11 +59,11 @@ def main(argv: Sequence[str] | None = None) -> int:
         print(f"bot-console {__version__}")
         return 0
     from bot_console.runtime.terse import help_tells_faults
-    from bot_console.tui.opening import is_rqt
+    from bot_console.tui.opening import is_rqt, names_system
 
     help_tells_faults()
     if is_rqt(words):
-        if others_take_part():
+        if others_take_part() or not names_system(words):
             return _attach(words)
     elif words:
         if words[0] in _COMMANDS:

@@ -4,8 +4,29 @@ from __future__ import annotations
 
 import pytest
 from bot_console.tui.cli import main as program
+from bot_console.tui.cli import show
 
 
 @pytest.mark.parametrize("place", sorted({*program._COMMANDS.values(), *program._ROS2.values()}))
 def test_what_a_command_names_is_there(place: str) -> None:
     assert callable(program._imported(place))
+
+
+@pytest.mark.parametrize(
+    ("line", "attached"),
+    [
+        ("rqt", True),
+        ("ros2 run rqt_plot rqt_plot /a/b", True),
+        ("rqt_plot --theme=dark", True),
+        ("rqt_plot outdoor", False),
+    ],
+)
+def test_a_program_of_rqt_brings_no_robot_unless_it_is_asked_for(
+    line: str, attached: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shown: list[str] = []
+    monkeypatch.setattr(program, "others_take_part", lambda: False)
+    monkeypatch.setattr(program, "_attach", lambda words: shown.append("attached") or 0)
+    monkeypatch.setattr(show, "run", lambda options: shown.append("own") or 0)
+    assert program.main(line.split()) == 0
+    assert shown == ["attached" if attached else "own"]
