@@ -17,8 +17,8 @@ def test_what_a_command_names_is_there(place: str) -> None:
     [
         ("rqt", True),
         ("ros2 run rqt_plot rqt_plot /a/b", True),
-        ("rqt_plot --theme=dark", True),
-        ("rqt_plot outdoor", False),
+        ("rqt_plot --theme dark", True),
+        ("rqt_plot /a/b outdoor", False),
     ],
 )
 def test_a_program_of_rqt_brings_no_robot_unless_it_is_asked_for(
