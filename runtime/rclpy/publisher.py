@@ -104,11 +104,11 @@ class Publisher:
         else:
             raise TypeError(f"Expected {self.msg_type}, got {type(msg)}")
 
-    def _refuse(self) -> None:
+    def _refuse(self, what: str = "Failed to publish") -> None:
         self._use()
         # An interrupt shuts the context down on its way: the interrupt is what the caller is to see, not this refusal.
         current().deliver_signals()
-        raise RCLError("Failed to publish: publisher's context is invalid")
+        raise RCLError(f"{what}: publisher's context is invalid")
 
     def _explain(self, error: FieldTypeError) -> None:
         """One ERROR that names field, type and the line that published."""
@@ -119,9 +119,9 @@ class Publisher:
         self._node.get_logger().error(f"cannot publish on '{self._endpoint.endpoint.topic}': {error}, at {where}")
 
     def get_subscription_count(self) -> int:
-        """How many subscriptions receive."""
-        if self.destroyed:
-            self._use()
+        """How many subscriptions receive; raises `RCLError` after a shutdown of the context."""
+        if self.destroyed or self._context.ended:
+            self._refuse("failed to get subscription count")
         return self._endpoint.matched_count()
 
     def _is_heard(self) -> bool:

@@ -9,7 +9,7 @@ from bot_console.runtime.rmw.bus import Bus
 from bot_console.runtime.rmw.endpoints import Endpoint, NodeId, Owner
 from bot_console.runtime.rmw.graph_tables import NamesAndTypes, collect
 from rclpy._rclpy_pybind11 import NodeNameNonExistentError, RCLError
-from rclpy.impl.graph_wait import wait_until_there
+from rclpy.impl.graph_wait import require_valid, wait_until_there
 from rclpy.node_parts.topic_names import expand_name, remapped
 
 if TYPE_CHECKING:
@@ -42,12 +42,12 @@ class NodeGraph:
 
     def _ros_use_graph(self, what: str) -> None:
         self._ros_use()
-        if not self.context.ok():
-            raise RCLError(f"Failed to get {what} names and types: rcl node's context is invalid")
+        require_valid(self.context, f"Failed to get {what} names and types")
 
     def get_node_names(self) -> list[str]:
         """The names of all nodes, without namespaces."""
         self._ros_use()
+        require_valid(self.context, "Failed to get node names")
         return [each.name for each in self._ros_nodes()]
 
     def get_fully_qualified_node_names(self) -> list[str]:
@@ -57,11 +57,13 @@ class NodeGraph:
     def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
         """Name and namespace of all nodes."""
         self._ros_use()
+        require_valid(self.context, "Failed to get node names")
         return [(each.name, each.namespace) for each in self._ros_nodes()]
 
     def get_node_names_and_namespaces_with_enclaves(self) -> list[tuple[str, str, str]]:
         """Name, namespace and enclave of all nodes."""
         self._ros_use()
+        require_valid(self.context, "Failed to get node names")
         return [(each.name, each.namespace, each.enclave) for each in self._ros_nodes()]
 
     def get_publisher_names_and_types_by_node(
@@ -94,6 +96,7 @@ class NodeGraph:
     def _ros_who(self, what: str, name: str, namespace: str) -> Owner:
         """Whom a question is about; raises `RCLError` for what can be no node, and `NodeNameNonExistentError`."""
         self._ros_use()
+        require_valid(self.context, f"failed to get {what} names and types")
         owner = name, namespace or "/"
         if any(each.has(owner) for each in self._ros_bus.tables()):
             return owner
@@ -107,21 +110,25 @@ class NodeGraph:
 
     def count_publishers(self, topic_name: str) -> int:
         """How many publishers a topic has; the name is expanded but not remapped."""
+        require_valid(self.context, "Error in rcl_count_publishers")
         name = expand_name(self, topic_name)
         return sum(len(each.publishers.on(name)) for each in self._ros_bus.tables())
 
     def count_subscribers(self, topic_name: str) -> int:
         """How many subscriptions a topic has; the name is expanded but not remapped."""
+        require_valid(self.context, "Error in rcl_count_subscribers")
         name = expand_name(self, topic_name)
         return sum(len(each.subscriptions.on(name)) for each in self._ros_bus.tables())
 
     def count_clients(self, service_name: str) -> int:
         """How many clients a service has; the name is expanded but not remapped."""
+        require_valid(self.context, "Error in rcl_count_clients")
         name = expand_name(self, service_name, service=True)
         return sum(len(each.clients.on(name)) for each in self._ros_bus.tables())
 
     def count_services(self, service_name: str) -> int:
         """How many servers a service has; the name is expanded but not remapped."""
+        require_valid(self.context, "Error in rcl_count_services")
         name = expand_name(self, service_name, service=True)
         return sum(len(each.servers.on(name)) for each in self._ros_bus.tables())
 
@@ -137,6 +144,9 @@ class NodeGraph:
         from rclpy.node_parts.qos_in_effect import in_effect
         from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 
+        require_valid(
+            self.context, f"Failed to get information by topic for {'publishers' if publisher else 'subscriptions'}"
+        )
         name = topic if no_mangle else remapped(self, expand_name(self, topic))
         tables = [each.publishers if publisher else each.subscriptions for each in self._ros_bus.tables()]
         kind = TopicEndpointTypeEnum.PUBLISHER if publisher else TopicEndpointTypeEnum.SUBSCRIPTION

@@ -11,6 +11,7 @@ from rclpy._rclpy_pybind11 import RCLError
 from rclpy.action import ActionClient
 from rclpy.context import Context
 from rclpy.exceptions import ROSInterruptException
+from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 INVALID = "rcl node's context is invalid"
@@ -68,3 +69,38 @@ def test_the_enclave_of_the_command_line_is_that_of_the_nodes(ros: Any) -> None:
 def test_a_log_configuration_file_is_refused_as_upstream_does() -> None:
     with pytest.raises(RCLError, match="failed to initialize logging: spdlog logging backend"):
         Context().init(["--ros-args", "--log-config-file", "log.conf"])
+
+
+@pytest.mark.parametrize(
+    ("question", "words", "problem"),
+    [
+        ("count_publishers", ["t"], "Error in rcl_count_publishers"),
+        ("count_subscribers", ["t"], "Error in rcl_count_subscribers"),
+        ("count_clients", ["t"], "Error in rcl_count_clients"),
+        ("count_services", ["t"], "Error in rcl_count_services"),
+        ("get_node_names", [], "Failed to get node names"),
+        ("get_node_names_and_namespaces", [], "Failed to get node names"),
+        ("get_node_names_and_namespaces_with_enclaves", [], "Failed to get node names"),
+        ("get_fully_qualified_node_names", [], "Failed to get node names"),
+        ("wait_for_node", ["n", 1.0], "Failed to get node names"),
+        ("get_publishers_info_by_topic", ["t"], "Failed to get information by topic for publishers"),
+        ("get_subscriptions_info_by_topic", ["t"], "Failed to get information by topic for subscriptions"),
+        ("get_publisher_names_and_types_by_node", ["n", "/"], "failed to get publisher names and types"),
+        ("get_service_names_and_types_by_node", ["n", "/"], "failed to get service names and types"),
+    ],
+)
+def test_a_loop_that_asks_who_is_there_ends_with_the_context(
+    ros: Any, question: str, words: list[Any], problem: str
+) -> None:
+    node = ros.node()
+    ros.context.shutdown()
+    with pytest.raises(RCLError, match=f"^{problem}: {INVALID}$"):
+        getattr(node, question)(*words)
+
+
+def test_a_loop_that_waits_for_a_first_subscription_ends_with_the_context(ros: Any) -> None:
+    publisher = ros.node().create_publisher(String, "t", 1)
+    assert publisher.get_subscription_count() == 0
+    ros.context.shutdown()
+    with pytest.raises(RCLError, match=r"^failed to get subscription count: publisher's context is invalid$"):
+        publisher.get_subscription_count()
