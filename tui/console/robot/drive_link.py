@@ -174,7 +174,7 @@ class DriveLink:
         self._seen[token] = velocity
         if token == FINAL:
             self._heard = time.monotonic()
-        if token == FINAL and self._zeros and velocity != (0.0, 0.0):
+        if token == FINAL and self._holds_by_zeros and velocity != (0.0, 0.0):
             # Somebody else drives on; without an arbiter the last word counts, so ours follows at once.
             self._send(FINAL, 0.0, 0.0)
 
@@ -264,9 +264,14 @@ class DriveLink:
         self._stop.repeat()
         if self._stop.info.locks:
             self._zeros = False  # a lock needs no zeros, and they would keep a robot that somebody else has released
-        if self._zeros:
+        if self._holds_by_zeros:
             for robot in self._each_robot():
                 self._publish(robot.get(TELEOP) or robot.get(FINAL), 0.0, 0.0)
+
+    @property
+    def _holds_by_zeros(self) -> bool:
+        """Whether nobody else holds the robot: no lock was there, or all ended before they acknowledged our stop."""
+        return self._zeros or (self._stop.stopping and not self._stop.info.locks)
 
     def _send(self, token: str, linear: float, angular: float) -> None:
         self._publish(self._robot.get(token), linear, angular)

@@ -149,6 +149,11 @@ class StopLink:
             self._send(STEER, "")
 
     @property
+    def stopping(self) -> bool:
+        """Whether a stop was asked for that is not acknowledged yet."""
+        return self._wanted == STOP
+
+    @property
     def releasing(self) -> bool:
         """Whether a release was asked for that is not acknowledged yet."""
         return self._wanted == RELEASE

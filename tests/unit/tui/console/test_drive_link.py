@@ -156,6 +156,28 @@ def test_a_robot_whose_arbiter_has_left_is_not_driven_past_it():
     assert (bench.link.topic, bench.link.info(WorldInfo()).limited_by) == ("/cmd_vel_teleop", "")
 
 
+def test_a_stop_that_its_lock_did_not_live_to_acknowledge_goes_on_as_zeros_until_it_is_taken_back():
+    bench = Bench("/cmd_vel")
+    lock = Endpoint("/emergency_stop/arbiter", ("diagnostic_msgs/msg/DiagnosticStatus",))
+    listened = (Endpoint("/cmd_vel_teleop", (TWIST,)),)
+    arbiter = NodeInfo("/arbiter", publishers=(lock,), subscriptions=listened)
+    bench.link.follow(GraphInfo(nodes=(*_listening("/cmd_vel").nodes, arbiter)))
+    bench.link.stop(True, "ALL STOP")
+    bench.link._repeat()
+    bench.link.follow(_listening("/cmd_vel"))  # the arbiter was killed
+    bench.settle()
+    bench.got.clear()
+    bench.link._repeat()
+    bench.settle()
+    assert bench.got and set(bench.got) == {("/cmd_vel", 0.0)}
+    bench.link.stop(False, "")
+    bench.settle()
+    bench.got.clear()
+    bench.link._repeat()
+    bench.settle()
+    assert bench.got == []
+
+
 def test_the_next_robot_needs_no_arbiter():
     bench = Bench("/cmd_vel", "/cmd_vel_teleop")
     bench.link.follow(_listening())
