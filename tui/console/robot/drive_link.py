@@ -264,14 +264,16 @@ class DriveLink:
         self._stop.repeat()
         if self._stop.info.locks:
             self._zeros = False  # a lock needs no zeros, and they would keep a robot that somebody else has released
-        if self._holds_by_zeros:
+            if self._stop.stopping:
+                self._zero_all()  # until it says that it has locked: it may hang, or be gone without having left
+        elif self._holds_by_zeros:
             for robot in self._each_robot():
                 self._publish(robot.get(TELEOP) or robot.get(FINAL), 0.0, 0.0)
 
     @property
     def _holds_by_zeros(self) -> bool:
-        """Whether nobody else holds the robot: no lock was there, or all ended before they acknowledged our stop."""
-        return self._zeros or (self._stop.stopping and not self._stop.info.locks)
+        """Whether nobody else holds the robot: no lock was there, or none has acknowledged our stop."""
+        return self._zeros or self._stop.stopping
 
     def _send(self, token: str, linear: float, angular: float) -> None:
         self._publish(self._robot.get(token), linear, angular)

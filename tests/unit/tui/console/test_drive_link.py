@@ -13,7 +13,9 @@ from geometry_msgs.msg import Twist, TwistStamped
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
 
+LATCHED = DurabilityPolicy.TRANSIENT_LOCAL
 _domains = itertools.count(3000)
 TWIST = "geometry_msgs/msg/Twist"
 
@@ -176,6 +178,27 @@ def test_a_stop_that_its_lock_did_not_live_to_acknowledge_goes_on_as_zeros_until
     bench.link._repeat()
     bench.settle()
     assert bench.got == []
+
+
+def test_a_stop_goes_on_as_zeros_until_its_lock_acknowledges_it():
+    bench = Bench("/cmd_vel", "/cmd_vel_teleop")
+    topic, kind = "/emergency_stop/arbiter", "diagnostic_msgs/msg/DiagnosticStatus"
+    says = bench.robot.create_publisher(DiagnosticStatus, topic, QoSProfile(depth=1, durability=LATCHED))
+    arbiter = NodeInfo("/arbiter", publishers=(Endpoint(topic, (kind,)),))
+    bench.link.follow(GraphInfo(nodes=(*_listening("/cmd_vel", "/cmd_vel_teleop").nodes, arbiter)))
+    bench.link.stop(True, "ALL STOP")
+    for _ in range(3):  # it hangs
+        bench.settle()
+        bench.got.clear()
+        bench.link._repeat()
+        bench.settle()
+        assert sorted(bench.got) == [("/cmd_vel", 0.0), ("/cmd_vel_teleop", 0.0)]
+    says.publish(DiagnosticStatus(values=[KeyValue(key="locked", value="true")]))
+    bench.settle()
+    bench.got.clear()
+    bench.link._repeat()
+    bench.settle()
+    assert bench.got == [] and bench.link.info(WorldInfo()).stop_confirmed
 
 
 def test_the_next_robot_needs_no_arbiter():
