@@ -185,7 +185,7 @@ node = Node('careless')
 node.declare_parameter('x', 1)
 node.add_on_set_parameters_callback(lambda parameters: None)
 """)
-    asked = ros.ask("param", "set", "/careless", "x", "2", stop_after=5.0)
+    asked = ros.ask("param", "set", "/careless", "x", "2", stop_after=20.0)
     assert (asked.exit, asked.stdout) == (1, "")
     assert "/careless" in asked.stderr and "ended" in asked.stderr
     assert node.exit == 1
