@@ -13,7 +13,7 @@ from typing import Any
 from bot_console_robot.climbing import Climber
 from bot_console_robot.common.parameters import fixed, number, plain
 from bot_console_robot.common.running import CannotStart, run
-from bot_console_robot.common.scans import nearest_return
+from bot_console_robot.common.scans import SCANS, nearest_return
 from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
 from rcl_interfaces.msg import ParameterType
@@ -66,7 +66,7 @@ class AutoTune(Node):
         self._count: int | None = None
         self._forget()
         self.create_subscription(Odometry, "odom", self._on_odometry, 10)
-        self.create_subscription(LaserScan, "scan", self._on_scan, 10)
+        self.create_subscription(LaserScan, "scan", self._on_scan, SCANS)
         self.create_subscription(UInt32, "collisions", self._on_collisions, LATCHED)
         self.create_subscription(DiagnosticArray, "diagnostics", self._on_diagnostics, 10)
         self.create_timer(0.5, self._look, self._group, clock=self._steady)

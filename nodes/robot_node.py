@@ -10,7 +10,7 @@ from bot_console_robot.avoidance import Avoidance, Rules
 from bot_console_robot.common.checking import offer_check
 from bot_console_robot.common.parameters import accepted, number, plain, refused, whole
 from bot_console_robot.common.running import run
-from bot_console_robot.common.scans import intensities_of, ranges_of
+from bot_console_robot.common.scans import SCANS, intensities_of, ranges_of
 from geometry_msgs.msg import Twist
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.node import Node
@@ -42,7 +42,7 @@ class RobotNavigator(Node):
         self._name = str(self.get_parameter("robot_name").value)
         self._was_blocked = False
         self._commands = self.create_publisher(Twist, "cmd_vel", 10)
-        self.create_subscription(LaserScan, "scan", self._on_scan, 10)
+        self.create_subscription(LaserScan, "scan", self._on_scan, SCANS)
         self.create_timer(1.0, self._report)
         self._introduce()
 

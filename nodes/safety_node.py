@@ -12,6 +12,7 @@ from bot_console_robot.common.diagnostics import ERROR, OK, WARN, status
 from bot_console_robot.common.parameters import accepted, number, plain, proposed, refused
 from bot_console_robot.common.robot_time import RobotTime
 from bot_console_robot.common.running import CannotStart, run
+from bot_console_robot.common.scans import SCANS
 from bot_console_robot.safety.arbitration import Arbiter, Command, Verdict, limit
 from bot_console_robot.safety.emergency_stop import ARBITER, BASE, EmergencyStop
 from bot_console_robot.safety.latch import NODE, Lock, Stop
@@ -59,7 +60,7 @@ class SafetyMonitor(Node):
         self._diagnostics = self.create_publisher(DiagnosticArray, "diagnostics", 10)
         for topic in (TELEOP, NAVIGATION):
             self.create_subscription(Twist, topic, self._listener(topic), 10)
-        self.create_subscription(LaserScan, "scan", self._on_scan, 10)
+        self.create_subscription(LaserScan, "scan", self._on_scan, SCANS)
         began = Stop(NODE, "safety_monitor", "its parameter start_locked is true", 1)
         locked = Lock((began,), 1) if self._start_locked else None
         self._stop = EmergencyStop(self, self._steady, ARBITER, BASE, self._decide, locked)

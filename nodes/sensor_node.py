@@ -8,7 +8,7 @@ from bot_console_robot.common.diagnostics import ERROR, OK
 from bot_console_robot.common.health import Health, HealthReport
 from bot_console_robot.common.parameters import number, plain, whole
 from bot_console_robot.common.running import run
-from bot_console_robot.common.scans import intensities_of, packed, ranges_of
+from bot_console_robot.common.scans import SCANS, intensities_of, packed, ranges_of
 from bot_console_robot.detection import Detection, find, median_of_three, strong
 from geometry_msgs.msg import Pose, PoseArray
 from rclpy.node import Node
@@ -30,7 +30,7 @@ class SensorHandler(Node):
         self._newest: LaserScan | None = None
         self._scans = self.create_publisher(LaserScan, "scan_filtered", 10)
         self._detections = self.create_publisher(PoseArray, "detections", 10)
-        self.create_subscription(LaserScan, "scan", self._on_scan, 10)
+        self.create_subscription(LaserScan, "scan", self._on_scan, SCANS)
         self._count = 0
         self._beams = (0, 0)
         self._health = HealthReport(self, "scan", self._look)

@@ -6,7 +6,7 @@ from __future__ import annotations
 from bot_console_robot.common.diagnostics import OK, WARN, status
 from bot_console_robot.common.parameters import number, plain
 from bot_console_robot.common.running import run
-from bot_console_robot.common.scans import nearest_return
+from bot_console_robot.common.scans import SCANS, nearest_return
 from bot_console_robot.trip import Trip
 from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
@@ -40,7 +40,7 @@ class TelemetryPublisher(Node):
         }
         self._diagnostics = self.create_publisher(DiagnosticArray, "diagnostics", 10)
         self.create_subscription(Odometry, "odom", self._on_odometry, 10)
-        self.create_subscription(LaserScan, "scan", self._on_scan, 10)
+        self.create_subscription(LaserScan, "scan", self._on_scan, SCANS)
         self.create_subscription(UInt32, "collisions", self._on_collisions, LATCHED)
         self._start_timer()
 

@@ -7,9 +7,12 @@ from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
+from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import LaserScan
 
 Floats: TypeAlias = "npt.NDArray[np.float32]"
+SCANS = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+"""How scans are listened to: drivers of real LIDARs offer best effort, and none of that comes to who asks for more."""
 
 
 def ranges_of(scan: LaserScan) -> Floats:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from bot_console_robot.common.scans import ranges_of
+from bot_console_robot.common.scans import SCANS, ranges_of
 from bot_console_robot.navigation.driving import Limits, Point, Pose
 from bot_console_robot.navigation.planner import Grid, NoWay, Planner
 from bot_console_robot.navigation.tasks import Seen
@@ -41,7 +41,7 @@ class Knowledge:
         node.create_subscription(OccupancyGrid, "map", self._on_map, LATCHED)
         node.create_subscription(Odometry, "ground_truth", self._on_truth, 10)
         node.create_subscription(Odometry, "odom", self._on_odometry, 10)
-        node.create_subscription(LaserScan, "scan", self._on_scan, 10)
+        node.create_subscription(LaserScan, "scan", self._on_scan, SCANS)
         self._told = node.create_publisher(PoseWithCovarianceStamped, "amcl_pose", LATCHED)
 
     def _on_map(self, message: OccupancyGrid) -> None:
