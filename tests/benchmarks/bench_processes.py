@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import statistics
 import subprocess
 import sys
@@ -234,7 +235,8 @@ def compared(pairs: Mapping[str, Pair]) -> dict[str, Any]:
 
 
 def main(count: int) -> None:
-    os.environ["BOT_CONSOLE_SOCKET_DIR"] = os.path.join(tempfile.mkdtemp(prefix="bc-", dir="/tmp"), "s")
+    folder = tempfile.mkdtemp(prefix="bc-", dir="/tmp")
+    os.environ["BOT_CONSOLE_SOCKET_DIR"] = os.path.join(folder, "s")
     others = {way: Other(way) for way in ("bare", "ros")}
     ros, bare = Ros(), Bare()
     ros.serve()
@@ -252,6 +254,7 @@ def main(count: int) -> None:
     print(json.dumps(figures, indent=2), flush=True)
     for each in others.values():
         each.process.kill()
+    shutil.rmtree(folder, ignore_errors=True)
     os._exit(0)  # as the verbs end: without waiting for the sessions
 
 
