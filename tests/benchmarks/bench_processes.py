@@ -1,14 +1,15 @@
 """What messages cost between two processes: `python tests/benchmarks/bench_processes.py [COUNT]`, JSON out.
 
-Each kind of message goes as bytes that are made once through a bare Zenoh session, which neither writes nor reads CDR,
-and through rclpy, which writes each one on this side and reads it on the other. Both in the same run and with nothing
-dropped (KEEP_ALL): messages/s until the last one is there, processor time of each process for one (us), and the round
-trip (us); medians of alternating rounds. What rclpy does beyond the bare session is all in its figures: its executor's
-thread on the way in, and with KEEP_ALL a thread on the way out, for nobody who publishes may wait for a reader.
-Bare Zenoh calls back in two ways: `bare` is its default for a plain function, which a thread of Python's calls for all
-that has come meanwhile, and `direct` is at once from Zenoh's own threads, as rclpy's subscriptions are told. `share` is
-rclpy's throughput as a part of theirs, `longer` its round trip in theirs; `ros_10` is rclpy with a depth of 10, as
-nodes use it, where nothing waits to be sent.
+Each kind of message goes through a bare Zenoh session and through rclpy, which writes each one as CDR on this side and
+reads it on the other. Both in the same run and with nothing dropped (KEEP_ALL): messages/s until the last one is there,
+processor time of each process for one (us), and the round trip (us); medians of alternating rounds. What rclpy does
+beyond the bare session is all in its figures: its executor's thread on the way in, and with KEEP_ALL a thread on the
+way out, for nobody who publishes may wait for a reader.
+The bare session is used in three ways. `bare` sends bytes that are made once and reads nothing; it calls back as Zenoh
+does by default for a plain function, from a thread of Python's for all that has come meanwhile. `written` does the same
+and writes and reads the CDR of each message, as rclpy must. `direct` is `bare` called back at once from Zenoh's own
+threads, as rclpy's subscriptions are. `share` is rclpy's throughput as a part of theirs, `longer` its round trip in
+theirs; `ros_10` is rclpy with a depth of 10, as nodes use it, where nothing waits to be sent.
 A service call costs the processor time of both sides (us, the median of ten times fifty).
 """
 
@@ -38,7 +39,7 @@ from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
 from example_interfaces.srv import AddTwoInts
 from geometry_msgs.msg import Twist
 from rclpy.qos import HistoryPolicy, QoSProfile
-from rclpy.serialization import serialize_message
+from rclpy.serialization import deserialize_message, serialize_message
 from sensor_msgs.msg import Image, LaserScan
 from std_msgs.msg import String
 
@@ -51,7 +52,7 @@ SAMPLES = {
 """Messages, and by how much their number is divided."""
 
 ALL = QoSProfile(history=HistoryPolicy.KEEP_ALL, depth=0)
-BARE = ("bare", "direct")
+BARE = ("bare", "written", "direct")
 PROFILES = {"ros": ALL, "ros_10": QoSProfile(depth=10)}
 """Bare Zenoh's ways, and the profiles of rclpy's."""
 BARE_DOMAIN, ROS_DOMAIN = 1, 0
@@ -63,26 +64,33 @@ Send = Callable[[], Any]
 
 
 class Bare:
-    """Bytes through Zenoh's own Python API, in a session with the settings and links of ours."""
+    """Messages through Zenoh's own Python API, in a session with the settings and links of ours."""
 
     def __init__(self) -> None:
         self.session = open_session(BARE_DOMAIN)
         self.declared: list[Any] = []
 
     def publisher(self, kind: str, name: str, topic: str) -> Send:
-        payload = serialize_message(SAMPLES[name][0])
+        message = SAMPLES[name][0]
+        payload = serialize_message(message)
         publisher = self.session._zenoh.declare_publisher(
             f"{kind}/{topic}/{name}", congestion_control=zenoh.CongestionControl.BLOCK, priority=zenoh.Priority.DATA_LOW
         )
         self.declared.append(publisher)
+        if kind == "written":
+            return lambda: publisher.put(serialize_message(message))
         return lambda: publisher.put(payload)
 
     def subscribe(self, kind: str, name: str, topic: str, received: Send) -> None:
+        message_class = type(SAMPLES[name][0])
+
         def take(sample: zenoh.Sample) -> None:
-            sample.payload.to_bytes()
+            data = sample.payload.to_bytes()
+            if kind == "written":
+                deserialize_message(data, message_class)
             received()
 
-        callback = take if kind == "bare" else zenoh.handlers.Callback(take, indirect=False)
+        callback = zenoh.handlers.Callback(take, indirect=False) if kind == "direct" else take
         self.declared.append(self.session._zenoh.declare_subscriber(f"{kind}/{topic}/{name}", callback))
 
 
@@ -226,7 +234,7 @@ def service(way: Ros, there: Other) -> float:
 
 def compared(pairs: Mapping[str, Pair]) -> dict[str, Any]:
     row: dict[str, Any] = {kind: pair.figures() for kind, pair in pairs.items()}
-    for kind in ("bare", "direct"):
+    for kind in BARE:
         row[f"share of {kind}"] = round(row["ros"]["per_s"] / row[kind]["per_s"], 2)
         for ros in PROFILES:
             longer = row[ros]["round_trip_us"] / row[kind]["round_trip_us"]
