@@ -36,7 +36,8 @@ from textual.types import CSSPathType
 from textual.widgets import Static
 
 if TYPE_CHECKING:
-    from bot_console.tui.console.protocol import CommandLine, Console, Launcher
+    from bot_console.tui.console.command_line import CommandLine
+    from bot_console.tui.console.protocol import Console, Launcher
     from bot_console.tui.panes.broken import BrokenPane
     from bot_console.tui.panes.pane import Pane
 

@@ -11,9 +11,10 @@ from typing import Any
 
 from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.commanding.desk import Desk
+from bot_console.tui.console.command_line import CommandLine
 from bot_console.tui.console.connection.no_console import NoCommandLine
 from bot_console.tui.console.connection.read_only import ReadOnlyConsole
-from bot_console.tui.console.protocol import CommandLine, Console
+from bot_console.tui.console.protocol import Console
 from bot_console.tui.faults import Faults, PaneMaker
 from bot_console.tui.keymap import stops
 from bot_console.tui.opening import Opening

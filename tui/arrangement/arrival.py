@@ -20,7 +20,8 @@ from textual.app import App
 from textual.widget import MountError
 
 if TYPE_CHECKING:
-    from bot_console.tui.console.protocol import CommandLine, Console, Launcher
+    from bot_console.tui.console.command_line import CommandLine
+    from bot_console.tui.console.protocol import Console, Launcher
     from bot_console.tui.crew import Crew
     from bot_console.tui.keys.keyboard import Keyboard, Typed
     from bot_console.tui.panes.pane import Pane

@@ -11,7 +11,8 @@ from bot_console.tui.commanding.completing import Completion
 from bot_console.tui.commanding.ending_streams import which_stream
 from bot_console.tui.commanding.palette import Command, all_commands, options_for
 from bot_console.tui.commanding.runner import LineRunner
-from bot_console.tui.console.protocol import CommandLine, Console, Stream
+from bot_console.tui.console.command_line import CommandLine, Stream
+from bot_console.tui.console.protocol import Console
 from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.opening import Opening
 from bot_console.tui.own_program import own_program

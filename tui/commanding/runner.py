@@ -12,8 +12,9 @@ from typing import Any, Protocol
 
 from bot_console.tui.commanding.verbs import VERBS, places, setting_of, wrong_bag, wrong_use
 from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.command_line import CommandLine, Stream
 from bot_console.tui.console.model import ChangeSource, SetOutcome
-from bot_console.tui.console.protocol import CommandLine, Console, Stream
+from bot_console.tui.console.protocol import Console
 from bot_console.tui.format import harmless, value_text
 from bot_console.tui.opening import RQT_PANES, Opening, is_rqt, rqt_opening
 from bot_console.tui.safety.line_risk import risk_of

@@ -1,4 +1,4 @@
-"""The outcome of a command. Standard library only: below the protocols, which all answer with it."""
+"""The outcome of a command. Standard library only: the protocols build on it."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """The outcome of a command: whether it was done, and in words why not, or what was done."""
+    """The outcome of a command: whether it succeeded, and in words what was done or why it was not."""
 
     ok: bool
     text: str = ""

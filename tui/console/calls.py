@@ -32,7 +32,7 @@ READY_LOOK = 0.02
 
 
 class NoAnswer(Exception):
-    """A service did not answer in time; the text says which."""
+    """A service did not answer in time; the text says which one."""
 
 
 def _raise(why: str) -> Any:
@@ -41,14 +41,14 @@ def _raise(why: str) -> Any:
 
 @dataclass(frozen=True)
 class _Pending:
-    """How an outcome is refused, and the coroutines that are to bring it about."""
+    """How to express a refusal of the outcome, and the coroutines that are to produce it."""
 
     refused: Callable[[str], Any]
     coroutines: tuple[Coroutine[Any, Any, Any], ...]
 
 
 class Calls:
-    """Runs coroutines in the console's executor and asks services from within them."""
+    """Runs coroutines in the console's executor, and calls services from within them."""
 
     def __init__(self, node: Node, executor: Executor) -> None:
         self._node = node
@@ -59,9 +59,9 @@ class Calls:
         self._closed = ""
 
     def run(self, work: Coroutine[Any, Any, T], refused: Callable[[str], T] = _raise) -> Future[T]:
-        """Start a coroutine in the executor; from any thread.
+        """Start a coroutine in the executor, from any thread.
 
-        The future is always answered: `refused` turns the reason why the console has closed into an outcome.
+        The future always gets an answer: when the console closes, `refused` turns the reason into one.
         """
         outcome: Future[T] = Future()
 
@@ -86,7 +86,7 @@ class Calls:
         return outcome
 
     def _claim(self, outcome: Future[Any]) -> _Pending | None:
-        """What was pending, for whoever answers it first."""
+        """Take a pending entry: whoever takes it first answers it."""
         with self._lock:
             return self._pending.pop(outcome, None)
 
@@ -103,7 +103,7 @@ class Calls:
             outcome.set_exception(error)
 
     def close(self, why: str) -> None:
-        """Answer all that wait, and all that will be asked, with the reason why nothing is served any more."""
+        """Answer all pending and all later requests with the reason why nothing is served any more."""
         with self._lock:
             self._closed = why
             waiting = list(self._pending)
@@ -111,7 +111,7 @@ class Calls:
             self._refuse(outcome, why)
 
     async def ask(self, kind: Any, service: str, request: Any, patience: float = PATIENCE) -> Any:
-        """Call a service; raises `NoAnswer` when no server is there or none answers in time."""
+        """Call a service; raises `NoAnswer` when there is no server or none answers in time."""
         client = self._client(kind, service)
         if not (client.service_is_ready() or await self._gets_ready(client, service)):
             raise NoAnswer(f"no service {service} is offered; has its node ended?")
@@ -129,7 +129,7 @@ class Calls:
             self._node.destroy_timer(timer)
 
     async def _gets_ready(self, client: Any, service: str) -> bool:
-        """Wait for a server that the graph has: a client that was just made has to find it first."""
+        """Wait for a server that is in the graph: a new client has to find it first."""
         if not self._node.count_services(service):
             return False
         found: RosFuture[bool] = RosFuture()
@@ -165,6 +165,6 @@ class Calls:
         return self._clients[key]
 
     def forget(self, prefix: str) -> None:
-        """Let go of the clients of services that begin with a prefix, as of a node that has left."""
+        """Drop the clients of all services that begin with a prefix, as of a node that has left."""
         for key in [key for key in self._clients if key[0].startswith(prefix)]:
             self._node.destroy_client(self._clients.pop(key))

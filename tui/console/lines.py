@@ -1,4 +1,4 @@
-"""Command lines that go on by themselves, and what they have printed last. Standard library only."""
+"""Command lines that keep running, and what they printed last. Standard library only."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ ONCE = ("--once", "-h", "--help")
 
 
 def goes_on(words: Sequence[str]) -> bool:
-    """Whether a line of `ros2`, without that word, prints until it is interrupted."""
+    """Whether a `ros2` line (without that word) prints until it is interrupted."""
     return len(words) > 2 and words[0] == "topic" and words[1] in GOING_ON and not any(each in ONCE for each in words)
 
 
@@ -29,14 +29,14 @@ class RunningLine:
         self.ended = False
 
     def append(self, text: str) -> None:
-        """Take printed text, in whatever pieces it comes."""
+        """Add printed text, in pieces of any size."""
         with self._lock:
             *lines, self._rest = (self._rest + text).split("\n")
             self._lines.extend(lines)
             self._new = True
 
     def end(self) -> None:
-        """Nothing more comes."""
+        """Mark the line as ended."""
         with self._lock:
             if self._rest:
                 self._lines.append(self._rest)

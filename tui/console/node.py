@@ -1,4 +1,4 @@
-"""The console's own ROS node: hidden, of the public rclpy API only, so that every ROS system looks the same to it."""
+"""The console's own ROS node: hidden, and using only the public rclpy API, so that it works on every ROS system."""
 
 from __future__ import annotations
 
@@ -22,6 +22,7 @@ from bot_console.tui.console.logs.rosout import RosoutWatch
 from bot_console.tui.console.model import (
     ChangeSource,
     GraphInfo,
+    LoggerLevel,
     NodeInfo,
     ParameterTree,
     Profile,
@@ -39,7 +40,6 @@ from bot_console.tui.console.parameters.provenance import Provenance
 from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.console.parameters.setter import ParameterSetter
 from bot_console.tui.console.plot.watch import PlotWatch
-from bot_console.tui.console.protocol import LoggerLevel
 from bot_console.tui.console.robot.drive_node import DriveNode
 from bot_console.tui.console.robot.world_watch import WorldWatch
 from bot_console.tui.console.sights.room import NodeSights
@@ -53,7 +53,7 @@ NAME = "_bot_console"
 
 
 class ConsoleNode:
-    """Watches a ROS system and acts on it for the panes; its methods may be called from any thread."""
+    """Watches a ROS system and acts on it for the panes; methods may be called from any thread."""
 
     def __init__(
         self,
@@ -101,14 +101,14 @@ class ConsoleNode:
         self.graph = GraphWatch(self.node, self._graph_changed, graph_events, frozen)
 
     def spin(self) -> None:
-        """Serve until `close`; in the console's own thread."""
+        """Serve until `close`; called in the console's own thread."""
         self._drive_node.start()
         self.graph.look()
         with contextlib.suppress(ExternalShutdownException):
             self.executor.spin()
 
     def close(self, why: str) -> None:
-        """End `spin` and leave the graph; what is or will be asked is answered with the reason."""
+        """End `spin` and leave the graph; pending and later requests are answered with the reason."""
         self.graph.close()
         self.traffic.close()
         self.calls.close(why)
@@ -159,7 +159,7 @@ class ConsoleNode:
             self._log(time.time_ns(), Severity.WARN, "bot-console", text, ("", "", 0))
 
     def learn(self, kind: str, facts: Mapping[str, Any]) -> None:
-        """Take in what a program or a launch tells of itself; from any thread."""
+        """Take in a fact that a program or a launch reports about itself; from any thread."""
         node = self.provenance.learn(kind, facts)
         if node in self.parameters.trees:
             self.calls.run(self.parameters.refresh(node), lambda why: None)
@@ -188,7 +188,7 @@ class ConsoleNode:
         return Answer(bool(getattr(response, "success", True)), repr(response) if message is None else str(message))
 
     def set_logger_level(self, node: str, severity: Severity, logger: str) -> Future[Answer]:
-        """Set a logger's level through its node's logger service, where it has one."""
+        """Set a logger's level through the logger service of its node, if it has one."""
         return self.calls.run(self._levels.set(node, severity, logger), _not_done)
 
     def logger_levels(self, node: str) -> Future[tuple[LoggerLevel, ...]]:
@@ -198,38 +198,38 @@ class ConsoleNode:
     def set(
         self, node: str, values: Mapping[str, Value], source: ChangeSource, *, atomically: bool
     ) -> Future[tuple[SetOutcome, ...]]:
-        """Ask a node to take values."""
+        """Set parameters of one node."""
         wanted = [(node, name, value) for name, value in values.items()]
         return self.calls.run(self.setter.set(node, values, source, atomically=atomically), partial(refused, wanted))
 
     def set_all(
         self, values: Mapping[str, Mapping[str, Value]], source: ChangeSource, by: str
     ) -> Future[tuple[SetOutcome, ...]]:
-        """Ask nodes to take values, all of them or none."""
+        """Set parameters of several nodes, all or none."""
         wanted = [(node, name, value) for node, found in values.items() for name, value in found.items()]
         return self.calls.run(self.setter.set_all(values, source, by), partial(refused, wanted))
 
     def undo(self) -> Future[Answer]:
-        """Take the last change of this console back."""
+        """Revert the last change made by this console."""
         return self.calls.run(self.setter.undo(), _not_done)
 
     def redo(self) -> Future[Answer]:
-        """Make the last undone change again."""
+        """Repeat the change that was undone last."""
         return self.calls.run(self.setter.redo(), _not_done)
 
     def differences(self, profile: Profile) -> Sequence[ProfileDifference]:
-        """What a profile would change now."""
+        """What applying a profile now would change."""
         return differences(profile, self.parameters.trees)
 
     def profile_changes(self, profile: Profile | None) -> int:
-        """How many values of a profile the running nodes do not have; worked out anew when a parameter changed."""
+        """How many values of a profile the running nodes do not have; recounted when a parameter changes."""
         trees = self.parameters.trees
         if self._compared[0] is not profile or self._compared[1] is not trees:
             self._compared = (profile, trees, _count(profile, trees))
         return self._compared[2]
 
     def apply(self, profile: Profile, reset_world: bool) -> Future[tuple[SetOutcome, ...]]:
-        """Set what a profile changes, all or nothing, then reset the simulator when asked to."""
+        """Set what a profile changes, all or none, then reset the simulator if asked to."""
         found = [each for each in self.differences(profile) if not each.unknown]
         wanted = [(each.node, each.name, each.then) for each in found]
         return self.calls.run(self._apply(profile.name, found, reset_world), partial(refused, wanted))
@@ -255,12 +255,12 @@ class ConsoleNode:
 
 
 def refused(wanted: Iterable[tuple[str, str, Value]], why: str) -> tuple[SetOutcome, ...]:
-    """Outcomes of values (node, name, value) that could not even be sent."""
+    """Outcomes for values (node, name, value) that could not even be sent."""
     return tuple(SetOutcome(node, name, value, False, why, "console") for node, name, value in wanted)
 
 
 def _count(profile: Profile | None, trees: Mapping[str, ParameterTree]) -> int:
-    """How many values of a profile nodes do not have that could have them."""
+    """How many values of a profile differ from those of the nodes that have the parameter."""
     return sum(not each.unknown for each in differences(profile, trees)) if profile else 0
 
 

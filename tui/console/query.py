@@ -36,27 +36,27 @@ _WORD = re.compile(r'(!?)(?:(node|sev|at|time|re):)?(?:"([^"]*)"(?=\s|$)|(\S*))(
 
 @dataclass(frozen=True, slots=True)
 class NodeTerm:
-    """A part of a node's name, in the spelling with dots; or the whole of it."""
+    """Part of a node's name, in the dotted spelling, or the whole name."""
 
     part: str
     exclude: bool = False
     whole: bool = False
 
     def stands_in(self, node: str) -> bool:
-        """Whether it is a part of the name."""
+        """Whether the name contains it."""
         return self.part == dotted(node) if self.whole else self.part in dotted(node)
 
 
 @dataclass(frozen=True, slots=True)
 class PlaceTerm:
-    """A part of a file's or function's name, and a line where one was given."""
+    """Part of a file's or function's name, with a line number where one was given."""
 
     part: str
     line: int | None
     exclude: bool = False
 
     def stands_in(self, file: str, function: str, line: int) -> bool:
-        """Whether it means this place."""
+        """Whether it matches this place."""
         return (self.line is None or self.line == line) and (
             self.part in file.lower() or self.part in function.lower() if self.part else self.line is not None
         )
@@ -72,7 +72,7 @@ class SpanTerm:
 
 @dataclass(frozen=True, slots=True)
 class TextTerm:
-    """What is looked for in a text; a plain word may stand in the node's name too, a regular expression may not."""
+    """What to look for in a text; a plain word may match the node's name too, a regular expression may not."""
 
     pattern: Pattern
     name: NodeTerm | None
@@ -81,7 +81,7 @@ class TextTerm:
 
 @dataclass(frozen=True, slots=True)
 class Query:
-    """A parsed filter. Severities, places and spans say something of log lines only."""
+    """A parsed filter. Severities, places and times apply to log lines only."""
 
     nodes: tuple[NodeTerm, ...] = ()
     texts: tuple[TextTerm, ...] = ()
@@ -91,16 +91,16 @@ class Query:
 
     @property
     def terms(self) -> tuple[NodeTerm | TextTerm, ...]:
-        """All that looks at texts and names."""
+        """All terms that look at texts and names."""
         return (*self.nodes, *self.texts)
 
     def part(self, *, exclude: bool) -> Query:
-        """Only the words that exclude, or only those that do not."""
+        """Only the terms that exclude, or only those that do not."""
         nodes = tuple(each for each in self.nodes if each.exclude is exclude)
         return Query(nodes, tuple(each for each in self.texts if each.exclude is exclude))
 
     def matches(self, text: str, node: str = "") -> bool:
-        """Whether a text, belonging to a node, passes; what only log lines have is not looked at."""
+        """Whether a text of a node passes, ignoring the terms that apply to log lines only."""
         if any(term.stands_in(node) is term.exclude for term in self.nodes):
             return False
         return all(self._found(term, text, node) is not term.exclude for term in self.texts)
@@ -122,7 +122,7 @@ class Query:
 
 
 def dotted(node: str) -> str:
-    """A node's name as both spellings have it in common: `/Arm/left` and `arm.left` are `.arm.left`."""
+    """A node's name in the form both spellings share: `/Arm/left` and `arm.left` become `.arm.left`."""
     return "." + node.lower().replace("/", ".").lstrip(".")
 
 
@@ -177,7 +177,7 @@ def _plain(word: str, exclude: bool) -> TextTerm:
 
 
 def _severities(text: str) -> frozenset[Severity]:
-    """The severities that `warn`, `>=warn`, `<error` or `info,fatal` mean."""
+    """The severities that `warn`, `>=warn`, `<error` or `info,fatal` stand for."""
     found: frozenset[Severity] = frozenset()
     for each in text.split(","):
         sign = next((sign for sign in (">=", "<=", ">", "<", "=") if each.startswith(sign)), "")

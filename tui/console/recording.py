@@ -11,7 +11,7 @@ from bot_console.tui.console.answer import Answer
 
 @dataclass(frozen=True, slots=True)
 class RecordingInfo:
-    """What is recorded: into which folder (empty: nothing), and how many seconds are kept in memory (0: none)."""
+    """The state of recording: into which folder (empty: none), and how many seconds are kept in memory (0: none)."""
 
     folder: str = ""
     kept_s: float = 0.0
@@ -21,14 +21,14 @@ class RecordingInfo:
 
 @dataclass(frozen=True, slots=True)
 class RingSize:
-    """How much of what a system carries is kept in memory at most: seconds, and bytes."""
+    """The limits of what is kept in memory: seconds, and bytes."""
 
     seconds: float
     bytes: int
 
 
 class Keeper(Protocol):
-    """Keeps the last minutes of a system, wherever that is done."""
+    """Keeps the last minutes of a system in memory, in whichever process that happens."""
 
     kept_s: float
     """How many seconds."""
@@ -39,11 +39,11 @@ class Keeper(Protocol):
 
 
 class Recording(Protocol):
-    """Records all topics into a bag, and keeps the last minutes so that what has been can be saved afterwards."""
+    """Records all topics into a bag, and keeps the last minutes in memory so that they can be saved afterwards."""
 
     @property
     def info(self) -> RecordingInfo:
-        """How it stands; the same object until that changes."""
+        """The state of recording; the same object until that changes."""
         ...
 
     def start(self, folder: str) -> Future[Answer]:
@@ -51,7 +51,7 @@ class Recording(Protocol):
         ...
 
     def stop(self) -> Future[Answer]:
-        """End the bag; the answer tells how much is in it."""
+        """Close the bag; the answer tells how much it holds."""
         ...
 
     def keep(self, folder: str) -> Future[Answer]:

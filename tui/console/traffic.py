@@ -1,6 +1,6 @@
-"""What a person sees and does on topics, services and actions. Standard library only.
+"""Topics, services and actions as a person inspects and uses them. Standard library only.
 
-`Traffic` is read by pulling, as `Console` is, of which it is a part: nothing here blocks.
+`Traffic` is part of `Console` and is polled in the same way: nothing here blocks.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from bot_console.tui.console.answer import Answer
 
 
 class Payload(Enum):
-    """What is filled in: a message of a topic, the request of a service, the goal of an action."""
+    """What a form fills in: a message of a topic, the request of a service, or the goal of an action."""
 
     MESSAGE = "message"
     REQUEST = "request"
@@ -24,7 +24,7 @@ class Payload(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Measure:
-    """What was measured of a topic; None where it is not known yet, or where messages do not tell it."""
+    """Measurements of a topic; None where there is none yet, or where its messages do not tell."""
 
     rate: float | None = None
     """Hz over the last seconds; 0 where nothing came in them."""
@@ -41,7 +41,7 @@ class Measure:
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """A line of a message: a field, or an element of an array."""
+    """A row of a message: a field, or an element of an array."""
 
     path: str
     name: str
@@ -60,7 +60,7 @@ class Field:
 
 @dataclass(frozen=True, slots=True)
 class LiveMessage:
-    """The newest message of the topic that is listened to."""
+    """The newest message of the topic that is being watched."""
 
     topic: str = ""
     type: str = ""
@@ -74,7 +74,7 @@ class LiveMessage:
 
 @dataclass(frozen=True, slots=True)
 class Slot:
-    """A field of a form: what stands in it, and what it may hold."""
+    """A field of a form: its value, and which values it may hold."""
 
     path: str
     name: str
@@ -89,7 +89,7 @@ class Slot:
 
 @dataclass(frozen=True, slots=True)
 class Repeated:
-    """A message that is published again and again."""
+    """A message that is published at a rate."""
 
     type: str
     rate: float
@@ -100,7 +100,7 @@ class Repeated:
 
 @dataclass(frozen=True, slots=True)
 class Reply:
-    """What a service answered: the fields of its response, or in words why there is none."""
+    """A service's response as fields, or in words why there is none."""
 
     ok: bool
     text: str = ""
@@ -111,7 +111,7 @@ class Reply:
 
 @dataclass(frozen=True, slots=True)
 class Goal:
-    """The last goal that was sent to an action from here."""
+    """The last goal sent to an action from this console."""
 
     action: str
     status: str
@@ -133,17 +133,15 @@ class Traffic(Protocol):
     """Topics, services and actions of a ROS system, as a person uses them."""
 
     def measure(self, topics: Collection[str], asker: str = "") -> None:
-        """Measure these topics from now on and none that the same asker wanted before; each is subscribed to as it is
-        offered.
-        """
+        """Measure exactly these topics for the asker from now on, with the QoS that their publishers offer."""
         ...
 
     def measured(self) -> Mapping[str, Measure]:
-        """What is known of the topics that are measured."""
+        """What is known about the topics being measured."""
         ...
 
     def listen(self, topic: str) -> None:
-        """Keep the newest message of this topic, and of no other; an empty name ends that."""
+        """Keep the newest message of this topic and of no other; an empty name stops that."""
         ...
 
     def heard(self) -> LiveMessage:
@@ -151,19 +149,19 @@ class Traffic(Protocol):
         ...
 
     def slots(self, payload: Payload, type_name: str, values: Values) -> Sequence[Slot]:
-        """The form of a type with what was typed so far; raises `ValueError` where the type is not known here."""
+        """The form of a type, with what has been typed so far; raises `ValueError` when the type is unknown here."""
         ...
 
     def wrong(self, payload: Payload, type_name: str, path: str, text: str) -> str:
-        """Why a text cannot stand in a slot, in words; empty when it can."""
+        """Why a text is not valid in a slot; empty when it is."""
         ...
 
     def line(self, payload: Payload, name: str, type_name: str, values: Values, rate: float = 0.0) -> str:
-        """The `ros2` command that sends the same."""
+        """The `ros2` command line that sends the same."""
         ...
 
     def earlier(self, name: str) -> Sequence[Values]:
-        """What was sent to a topic, service or action from here, the newest last."""
+        """What was sent from here to a topic, service or action before, newest last."""
         ...
 
     def publish(self, topic: str, type_name: str, values: Values, rate: float = 0.0) -> Answer:
@@ -171,11 +169,11 @@ class Traffic(Protocol):
         ...
 
     def repeated(self) -> Mapping[str, Repeated]:
-        """What is being published at a rate, by topic; the same object until something changes."""
+        """The messages being published at a rate, by topic; the same object until something changes."""
         ...
 
     def stop(self, topic: str = "") -> None:
-        """Publish no more to a topic, or, without a name, to none."""
+        """Stop publishing to a topic; without a name, to all topics."""
         ...
 
     def call(self, service: str, type_name: str, values: Values) -> Future[Reply]:
@@ -183,13 +181,13 @@ class Traffic(Protocol):
         ...
 
     def send_goal(self, action: str, type_name: str, values: Values) -> Answer:
-        """Send a goal; what becomes of it is in `goals`."""
+        """Send a goal; its progress is in `goals`."""
         ...
 
     def goals(self) -> Mapping[str, Goal]:
-        """The last goal of each action to which one was sent from here."""
+        """The last goal sent from here to each action."""
         ...
 
     def cancel(self, action: str) -> Answer:
-        """Ask that the last goal be cancelled."""
+        """Ask the action to cancel its last goal."""
         ...

@@ -12,6 +12,7 @@ from typing import Any
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.connection.no_console import done, refused_profile
+from bot_console.tui.console.log_protocol import LogSource, LogView
 from bot_console.tui.console.logs.file import open_log
 from bot_console.tui.console.logs.search import matching
 from bot_console.tui.console.logs.store import LogStore
@@ -21,6 +22,7 @@ from bot_console.tui.console.model import (
     ChangeSource,
     ConsoleSnapshot,
     LogFilter,
+    LoggerLevel,
     LogRecord,
     ProfileDifference,
     SetOutcome,
@@ -31,7 +33,6 @@ from bot_console.tui.console.parameters.file.saving import save
 from bot_console.tui.console.parameters.journal import Journal, Move, Step
 from bot_console.tui.console.parameters.origin import origin_text
 from bot_console.tui.console.parameters.profiles import cannot_apply, differences
-from bot_console.tui.console.protocol import LoggerLevel, LogSource, LogView
 from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.console.values import refusal
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import pytest
-from bot_console.tui.console.protocol import Stream
+from bot_console.tui.console.command_line import Stream
 from bot_console.tui.widgets.streams.panels import StreamPanels, room
 from fakes.command_line import FakeCommandLine
 from piloting import Session, run

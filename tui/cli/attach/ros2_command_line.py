@@ -12,10 +12,10 @@ from collections.abc import Sequence
 from concurrent.futures import Future
 
 from bot_console.tui.cli.beside import beside
+from bot_console.tui.console.command_line import Stream
 from bot_console.tui.console.connection.no_console import done
 from bot_console.tui.console.lines import RunningLine, goes_on
 from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.console.protocol import Stream
 
 COMMANDS = (
     *("action", "bag", "component", "control", "daemon", "doctor", "interface", "launch", "lifecycle", "multicast"),
@@ -49,7 +49,7 @@ class _Streamed(RunningLine):
 
 
 class MachineCommandLine:
-    """Runs each line as a process; `tui.console.protocol.CommandLine`."""
+    """Runs each line as a process; `tui.console.command_line.CommandLine`."""
 
     def commands(self) -> Sequence[str]:
         """The commands that a `ros2` of any release may have."""

@@ -15,9 +15,10 @@ from bot_console.tui.cli.live.for_panes import for_panes
 from bot_console.tui.cli.look import look_of
 from bot_console.tui.cli.standstill import Standstill, stacks_kept
 from bot_console.tui.cli.system.plugins import find_plugins
+from bot_console.tui.console.command_line import CommandLine
 from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import Severity
-from bot_console.tui.console.protocol import CommandLine, Launcher
+from bot_console.tui.console.protocol import Launcher
 from bot_console.tui.files.folders import state_folder
 
 READY = 20.0

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from bot_console.tui.console.command_line import CommandLine
 from bot_console.tui.console.connection.read_only import ReadOnlyCommandLine, ReadOnlyConsole, ReadOnlyLauncher
 from bot_console.tui.console.connection.ros_console import RosConsole
 from bot_console.tui.console.model import Severity
-from bot_console.tui.console.protocol import CommandLine, Console, Launcher
+from bot_console.tui.console.protocol import Console, Launcher
 
 
 def for_panes(

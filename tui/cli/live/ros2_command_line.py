@@ -14,9 +14,10 @@ from bot_console.tui.cli.completion import candidates
 from bot_console.tui.cli.started_lines import launched_by
 from bot_console.tui.cli.verbs.colcon import answers
 from bot_console.tui.commanding.completing import live_names
+from bot_console.tui.console.command_line import Stream
 from bot_console.tui.console.lines import RunningLine, goes_on
 from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.console.protocol import Launcher, Stream
+from bot_console.tui.console.protocol import Launcher
 
 LINE_LIMIT = 15.0
 """Seconds after which a line that does not end by itself, and was not expected to go on, is interrupted."""
@@ -25,7 +26,7 @@ STARTING = 30.0
 
 
 class Ros2CommandLine:
-    """Runs each line in a node process of its own; `tui.console.protocol.CommandLine`."""
+    """Runs each line in a node process of its own; `tui.console.command_line.CommandLine`."""
 
     def __init__(self, launcher: Launcher | None = None) -> None:
         """`launcher` starts what `ros2 run` and `ros2 launch` name: it stays, and stands in the Launch pane."""

@@ -10,6 +10,7 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.contents import Contents
 from bot_console.tui.console.bags.traffic import BagTraffic
 from bot_console.tui.console.connection.no_console import NoConsole
+from bot_console.tui.console.log_protocol import LogSource, LogView
 from bot_console.tui.console.logs.file import open_log
 from bot_console.tui.console.logs.search import matching
 from bot_console.tui.console.logs.view import LogViews
@@ -28,7 +29,7 @@ from bot_console.tui.console.model import (
 from bot_console.tui.console.plot.arrays import NotPlottable
 from bot_console.tui.console.plot.paths import number_paths
 from bot_console.tui.console.plot.series import parse_path, reader
-from bot_console.tui.console.protocol import LogSource, LogView, Samples
+from bot_console.tui.console.protocol import Samples
 from bot_console.tui.console.robot.robot_model import Pose
 from bot_console.tui.console.traffic import Traffic
 from bot_console.tui.text.expression.tree import is_parameter

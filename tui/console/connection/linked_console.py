@@ -8,6 +8,7 @@ from concurrent.futures import Future
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.room import Recordings
 from bot_console.tui.console.connection.no_console import CLOSED, refused_profile
+from bot_console.tui.console.log_protocol import LogSource, LogView
 from bot_console.tui.console.logs.file import open_log
 from bot_console.tui.console.logs.search import matching
 from bot_console.tui.console.logs.store import LogStore
@@ -18,6 +19,7 @@ from bot_console.tui.console.model import (
     ChangeSource,
     ConsoleSnapshot,
     LogFilter,
+    LoggerLevel,
     LogRecord,
     Profile,
     ProfileDifference,
@@ -28,7 +30,7 @@ from bot_console.tui.console.model import (
 from bot_console.tui.console.node import ConsoleNode
 from bot_console.tui.console.parameters.profiles import cannot_apply
 from bot_console.tui.console.parameters.shelf import Shelf
-from bot_console.tui.console.protocol import LoggerLevel, LogSource, LogView, Samples
+from bot_console.tui.console.protocol import Samples
 from bot_console.tui.console.recording import Keeper, Recording
 from bot_console.tui.console.robot.robot_model import Pose
 from bot_console.tui.console.sights.model import Sights
@@ -143,15 +145,15 @@ class LinkedConsole:
     def set_all(
         self, values: Mapping[str, Mapping[str, Value]], source: ChangeSource = ChangeSource.EDIT, by: str = ""
     ) -> Future[tuple[SetOutcome, ...]]:
-        """Ask nodes to take values, all of them or none."""
+        """Set parameters of several nodes, all or none."""
         return self._node.set_all(values, source, by)
 
     def undo(self) -> Future[Answer]:
-        """Take the last change of this console back."""
+        """Revert the last change made by this console."""
         return self._node.undo()
 
     def redo(self) -> Future[Answer]:
-        """Make the last undone change again."""
+        """Repeat the change that was undone last."""
         return self._node.redo()
 
     def watch(self, path: str, asker: str = "") -> Answer:

@@ -7,26 +7,21 @@ from concurrent.futures import Future
 from typing import TypeVar
 
 from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.command_line import Stream
+from bot_console.tui.console.log_protocol import LogFindings, LogSource, LogView
 from bot_console.tui.console.model import (
     Change,
     ChangeSource,
     ConsoleSnapshot,
     LogFilter,
+    LoggerLevel,
     LogRecord,
     ProfileDifference,
     SetOutcome,
     Severity,
     Value,
 )
-from bot_console.tui.console.protocol import (
-    ConsoleReading,
-    LogFindings,
-    LoggerLevel,
-    LogSource,
-    LogView,
-    Samples,
-    Stream,
-)
+from bot_console.tui.console.protocol import ConsoleReading, Samples
 from bot_console.tui.console.recording import Recording, RecordingInfo
 from bot_console.tui.console.robot.robot_model import Pose
 from bot_console.tui.console.sights.idle import IdleSights

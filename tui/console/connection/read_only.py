@@ -8,9 +8,10 @@ from concurrent.futures import Future
 from dataclasses import replace
 
 from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.command_line import CommandLine, Stream
 from bot_console.tui.console.connection.no_console import NoConsole, done
 from bot_console.tui.console.model import ConsoleSnapshot, LaunchArgument
-from bot_console.tui.console.protocol import CommandLine, Console, Stream
+from bot_console.tui.console.protocol import Console
 from bot_console.tui.console.recording import Recording
 from bot_console.tui.console.sights.model import Sights
 from bot_console.tui.console.topics.reading import ReadingTraffic

@@ -6,18 +6,20 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import Future
 
 from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.log_protocol import LogSource, LogView
 from bot_console.tui.console.model import (
     Change,
     ChangeSource,
     ConsoleSnapshot,
     LogFilter,
+    LoggerLevel,
     LogRecord,
     ProfileDifference,
     SetOutcome,
     Severity,
     Value,
 )
-from bot_console.tui.console.protocol import Console, LoggerLevel, LogSource, LogView, Samples
+from bot_console.tui.console.protocol import Console, Samples
 from bot_console.tui.console.recording import Recording
 from bot_console.tui.console.robot.robot_model import Pose
 from bot_console.tui.console.sights.model import Sights
@@ -87,15 +89,15 @@ class ConsoleRelay:
     def set_all(
         self, values: Mapping[str, Mapping[str, Value]], source: ChangeSource = ChangeSource.EDIT, by: str = ""
     ) -> Future[tuple[SetOutcome, ...]]:
-        """Ask nodes to take values, all of them or none."""
+        """Set parameters of several nodes, all or none."""
         return self._now.set_all(values, source, by)
 
     def undo(self) -> Future[Answer]:
-        """Take the last change of this console back."""
+        """Revert the last change made by this console."""
         return self._now.undo()
 
     def redo(self) -> Future[Answer]:
-        """Make the last undone change again."""
+        """Repeat the change that was undone last."""
         return self._now.redo()
 
     def watch(self, path: str, asker: str = "") -> Answer:

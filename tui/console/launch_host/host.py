@@ -43,7 +43,7 @@ class HostedService(Protocol):
         ...
 
     def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
-        """Run one more launch file."""
+        """Run another launch file."""
         ...
 
     def close(self) -> None:

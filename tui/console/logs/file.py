@@ -8,11 +8,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO
 
+from bot_console.tui.console.log_protocol import LogView
 from bot_console.tui.console.logs.saved import SavedLines
 from bot_console.tui.console.logs.store import LogStore
 from bot_console.tui.console.logs.view import LogViews
 from bot_console.tui.console.model import LogFilter, LogRecord, LogState
-from bot_console.tui.console.protocol import LogView
 from bot_console.tui.files.save_file import NotSaved, typed_path
 
 PERIOD = 0.25
@@ -22,7 +22,7 @@ AT_ONCE = 1 << 18
 
 
 class LogFile:
-    """The records of a file; `tui.console.protocol.LogSource`."""
+    """The records of a file; `tui.console.log_protocol.LogSource`."""
 
     def __init__(self, path: Path) -> None:
         """Raises `OSError` where the file cannot be read."""
@@ -69,7 +69,7 @@ class LogFile:
         self._store.clear()
 
     def close(self) -> None:
-        """Read no more."""
+        """Stop reading."""
         self._closed.set()
         self._views.close()
 

@@ -7,8 +7,7 @@ from typing import Protocol
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.calls import Calls, NoAnswer
-from bot_console.tui.console.model import Severity
-from bot_console.tui.console.protocol import LoggerLevel
+from bot_console.tui.console.model import LoggerLevel, Severity
 from rcl_interfaces.msg import LoggerLevel as LevelMessage
 from rcl_interfaces.srv import GetLoggerLevels, SetLoggerLevels
 

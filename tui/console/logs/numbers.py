@@ -29,7 +29,7 @@ class Numbers:
         return int(self._parts[place][index - (self._ends[place - 1] if place else 0)])
 
     def place(self, number: int) -> int:
-        """The index of the first that is not below a number."""
+        """The index of the first number that is not below the given one."""
         return sum(int(np.searchsorted(each, number)) for each in self._parts)
 
     def count(self, index: int) -> int:

@@ -137,7 +137,7 @@ class LogStore:
         return LogRecord(seq, int(segment.stamp[index]), severity, node, segment.text(index), file, function, line)
 
     def clear(self) -> None:
-        """Forget all records; numbers go on."""
+        """Forget all records; numbering continues."""
         with self._lock:
             last = self.segments[-1]
             self.segments = (LogSegment(last.first + last.count, self._size),)

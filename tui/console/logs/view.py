@@ -11,11 +11,11 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+from bot_console.tui.console.log_protocol import LogFindings, LogView
 from bot_console.tui.console.logs.numbers import Block, Folded, Numbers
 from bot_console.tui.console.logs.search import LogSearch
 from bot_console.tui.console.logs.store import LogSegment, LogStore
 from bot_console.tui.console.model import LogFilter
-from bot_console.tui.console.protocol import LogFindings, LogView
 
 FIRST_SLICE = 2048
 """Records looked at before anything is shown: some screenfuls."""
@@ -47,7 +47,7 @@ class SearchedView:
             self._found = replace(self._found, problem=str(error), complete=True)
 
     def look(self) -> Found:
-        """What was found so far; the same object until there is more."""
+        """What has been found so far; the same object until there is more."""
         self._wake()
         return self._found
 

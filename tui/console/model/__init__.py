@@ -7,7 +7,7 @@ not changed since the last snapshot is the same object, so a pane redraws by com
 from bot_console.tui.console.model.changes import BEGUN_ANEW, Change, ChangeSource, JournalState, SetOutcome
 from bot_console.tui.console.model.graph import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.model.launch import LaunchArgument, LaunchEvent, LaunchInfo, ProcessInfo, ProcessState
-from bot_console.tui.console.model.logs import LogFilter, LogRecord, LogState, Severity
+from bot_console.tui.console.model.logs import LogFilter, LoggerLevel, LogRecord, LogState, Severity
 from bot_console.tui.console.model.parameters import Kind, ParameterInfo, ParameterTree, Range, Value
 from bot_console.tui.console.model.profiles import Profile, ProfileDifference
 from bot_console.tui.console.model.snapshot import Capabilities, ConsoleSnapshot, LinkInfo
@@ -29,6 +29,7 @@ __all__ = [
     "LogFilter",
     "LogRecord",
     "LogState",
+    "LoggerLevel",
     "NodeInfo",
     "ParameterInfo",
     "ParameterTree",

@@ -1,4 +1,4 @@
-"""Changes of parameters: who asked for them, what became of them, and the journal of all."""
+"""Parameter changes: who asked for them, how they ended, and the journal of all of them."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ BEGUN_ANEW = "the node came back with it"
 
 @dataclass(frozen=True, slots=True)
 class SetOutcome:
-    """What became of one value that somebody asked a node to take.
+    """The outcome of setting one parameter.
 
     `refused_by` is `console` (it could not even be sent), `descriptor` (range, type, read-only), `callback` (the node's
-    own rule), `node` (no answer, or it has no such parameter) or empty when accepted.
+    own rule), `node` (no answer, or it has no such parameter) or empty when the value was accepted.
     """
 
     node: str
@@ -62,9 +62,9 @@ class Change:
 
 @dataclass(frozen=True, slots=True)
 class JournalState:
-    """The change journal as a whole, numbered as the log is, and whether undo and redo have something to do.
+    """The change journal as a whole, numbered as the log is, and whether there is anything to undo or redo.
 
-    Changes of earlier runs are numbered below 0.
+    Changes of earlier runs have negative numbers.
     """
 
     first: int = 0

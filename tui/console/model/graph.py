@@ -1,4 +1,4 @@
-"""The ROS graph as the panes see it: nodes, and what they publish, subscribe to, serve and ask."""
+"""The ROS graph as the panes see it: nodes and their publishers, subscriptions, servers and clients."""
 
 from __future__ import annotations
 
@@ -31,13 +31,17 @@ class NodeInfo:
 
     @property
     def hidden(self) -> bool:
-        """Whether any token of the name starts with an underscore."""
+        """Whether any part of the name starts with an underscore."""
         return "/_" in self.name
 
 
 @dataclass(frozen=True, slots=True)
 class GraphInfo:
-    """The ROS graph. `unheard`: why messages do not pass; `frozen`: stopped nodes, with pids; `silent`: no answer."""
+    """The ROS graph.
+
+    `unheard`: why messages do not get through; `frozen`: stopped nodes, with their pids; `silent`: nodes that do not
+    answer.
+    """
 
     nodes: tuple[NodeInfo, ...] = ()
     topics: tuple[Endpoint, ...] = ()

@@ -1,4 +1,4 @@
-"""Launched processes as the panes see them, the timeline of a launch, and what its files can be told."""
+"""Launched processes as the panes see them, the timeline of a launch, and the arguments of a launch file."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from bot_console.tui.console.model.logs import Severity
 
 
 class ProcessState(str, Enum):
-    """Life of a launched process."""
+    """The life cycle of a launched process."""
 
     STARTING = "starting"
     RUNNING = "running"
@@ -52,7 +52,7 @@ class LaunchEvent:
 
 @dataclass(frozen=True, slots=True)
 class LaunchInfo:
-    """What the launcher knows; `problem` says why a launch file could not be run, `delayed` counts starts put off."""
+    """What the launcher knows; `problem` says why a launch file could not be run, `delayed` counts postponed starts."""
 
     files: tuple[str, ...] = ()
     processes: tuple[ProcessInfo, ...] = ()

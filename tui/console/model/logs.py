@@ -1,4 +1,4 @@
-"""The log as the panes see it: records, which of them to show, and how many there are."""
+"""The log as the panes see it: records, filters, and counts."""
 
 from __future__ import annotations
 
@@ -53,9 +53,18 @@ class LogFilter:
 
 @dataclass(frozen=True, slots=True)
 class LogState:
-    """The log as a whole: records `first` .. `end` - 1 are kept, `dropped` fell out, counts are per severity."""
+    """The log as a whole: records `first` to `end` - 1 are kept, `dropped` are gone, `counts` are per severity."""
 
     first: int = 0
     end: int = 0
     dropped: int = 0
     counts: Mapping[Severity, int] = field(default_factory=lambda: MappingProxyType({}))
+
+
+@dataclass(frozen=True, slots=True)
+class LoggerLevel:
+    """The lowest severity that a logger logs; UNSET means that it inherits its parent's level."""
+
+    node: str
+    logger: str
+    severity: Severity

@@ -1,4 +1,4 @@
-"""Parameters of nodes as the panes see them: their types, what their descriptors say, and the tree of each node."""
+"""Parameters of nodes as the panes see them: types, descriptors, and the parameters of each node."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Kind(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Range:
-    """A descriptor's range, both ends included; `step` 0 is continuous."""
+    """A descriptor's range, both ends included; `step` 0 means continuous."""
 
     low: float
     high: float
@@ -43,7 +43,7 @@ class Range:
 
 @dataclass(frozen=True, slots=True)
 class ParameterInfo:
-    """One parameter of one node: its value and what its descriptor says."""
+    """One parameter of one node: its value and its descriptor."""
 
     node: str
     name: str
@@ -74,12 +74,12 @@ class ParameterInfo:
 
 @dataclass(frozen=True, slots=True)
 class ParameterTree:
-    """The parameters of one node; `problem` says why they cannot be read, empty when they can."""
+    """The parameters of one node; `problem` says why they cannot be read, and is empty when they can."""
 
     node: str
     parameters: tuple[ParameterInfo, ...] = ()
     problem: str = ""
 
     def get(self, name: str) -> ParameterInfo | None:
-        """The parameter of that name, if the node has it."""
+        """The parameter of that name; None if the node has none."""
         return next((each for each in self.parameters if each.name == name), None)

@@ -1,4 +1,4 @@
-"""Profiles as the panes see them, and what each would change."""
+"""Profiles as the panes see them, and what applying each would change."""
 
 from __future__ import annotations
 
@@ -29,9 +29,10 @@ class Profile:
 
 @dataclass(frozen=True, slots=True)
 class ProfileDifference:
-    """What a profile would change; `refusal` says why it would be refused, empty when it would be taken.
+    """One value that applying a profile would change.
 
-    `unsafe` says what it takes from the robot's safety, empty when nothing.
+    `refusal` says why it would be refused, and is empty when it would be accepted; `unsafe` says how it makes the robot
+    less safe, and is empty when it does not.
     """
 
     node: str

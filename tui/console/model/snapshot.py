@@ -1,4 +1,4 @@
-"""The snapshot of a whole system, the link to it, and what it can do."""
+"""The snapshot of a whole system, the link to it, and what it supports."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
 
 @dataclass(frozen=True, slots=True)
 class LinkInfo:
-    """The link to a robot on a network: its other end (empty where there is none), and how it is."""
+    """The link to a robot on a network: the address of its other end (empty when there is no link), and its state."""
 
     to: str = ""
     delay_ms: int | None = None
@@ -31,7 +31,7 @@ class LinkInfo:
 
 @dataclass(frozen=True, slots=True)
 class Capabilities:
-    """What this system can tell or do; each text is empty when it can, else says why it cannot."""
+    """What this system supports: each text is empty when it does, and otherwise says why it does not."""
 
     launch: str = ""
     launched_elsewhere: str = ""
@@ -41,7 +41,7 @@ class Capabilities:
 
 @dataclass(frozen=True, slots=True)
 class ConsoleSnapshot:
-    """Everything the panes show, at one moment. `seq` grows when any part changed."""
+    """Everything the panes show, at one moment. `seq` grows whenever any part changes."""
 
     seq: int = 0
     stamp: int = 0

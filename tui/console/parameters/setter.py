@@ -168,7 +168,7 @@ class ParameterSetter:
         return Answer(False, "nothing to undo") if step is None else await self._move(step, ChangeSource.UNDO)
 
     async def redo(self) -> Answer:
-        """Make the last undone change again."""
+        """Repeat the change that was undone last."""
         step = self._journal.take_redo()
         return Answer(False, "nothing to redo") if step is None else await self._move(step, ChangeSource.REDO)
 

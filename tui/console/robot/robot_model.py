@@ -1,6 +1,6 @@
-"""What is known of the robot: the place it is in, and the way of its velocity commands.
+"""What is known about the robot: its surroundings, and the path of its velocity commands. Standard library only.
 
-Standard library only. Distances are m, angles rad, speeds m/s and rad/s.
+Distances are m, angles rad, speeds m/s and rad/s.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ class Pose:
 
 @dataclass(frozen=True, slots=True)
 class GridMap:
-    """An occupancy grid, `nav_msgs/OccupancyGrid`: row-major from the lower left, 0..100, 255 unknown."""
+    """An occupancy grid (`nav_msgs/OccupancyGrid`): row-major from the lower left, 0..100, 255 unknown."""
 
     width: int
     height: int
@@ -31,7 +31,7 @@ class GridMap:
 
 @dataclass(frozen=True, slots=True)
 class Turtle:
-    """A turtle of `turtlesim`: its pose (m, rad), velocity (m/s, rad/s), and a trail where its drawing is not known."""
+    """A turtle of `turtlesim`: its pose (m, rad), velocity (m/s, rad/s), and a trail where its drawing is unknown."""
 
     name: str
     pose: Pose
@@ -42,9 +42,9 @@ class Turtle:
 
 @dataclass(frozen=True, slots=True)
 class Drawing:
-    """What turtles have drawn: rows from the top of red, green, blue, and 255 where somebody has drawn, else 0.
+    """What turtles have drawn: rows, from the top, of red, green, blue and 255 where something is drawn, else 0.
 
-    Where nobody has, the colour is the background's.
+    Where nothing is drawn, the colour is the background's.
     """
 
     width: int
@@ -63,7 +63,7 @@ class TurtleField:
 
 @dataclass(frozen=True, slots=True)
 class WorldInfo:
-    """What is known of the place: the map, the robot in it, its trail, and where the LIDAR beams end (x, y in m)."""
+    """What is known about the surroundings: map, robot, trail, and the ends of the LIDAR beams (x, y in m)."""
 
     map: GridMap | None = None
     pose: Pose | None = None
@@ -81,10 +81,11 @@ class WorldInfo:
 
 @dataclass(frozen=True, slots=True)
 class RobotStop:
-    """One of the stops that hold the robot: the key by which it is released, who made it, and why.
+    """One of the stops that hold the robot: the key that releases it, who made it, and why.
 
-    `here` says that this console made it, `by_node` that no person did but a node of the robot, `gone` that the process
-    which made it has ended.
+    `here`: this console made it. `by_node`: a node of the robot made it, not a person. `gone`: the process that made it
+    has
+    ended.
     """
 
     key: str
@@ -96,15 +97,15 @@ class RobotStop:
 
     @property
     def who(self) -> str:
-        """Its holder; of a process that has ended that it is gone, in the place of its number."""
+        """Its holder; where that process has ended, the text says so instead of giving its number."""
         return f"{self.holder.rpartition(' (pid ')[0]} (gone)" if self.gone else self.holder
 
 
 @dataclass(frozen=True, slots=True)
 class DriveInfo:
-    """The command chain, each (m/s, rad/s) or None when unknown: asked, limited, final, actual.
+    """The command chain, each as (m/s, rad/s) or None when unknown: asked, limited, final, actual.
 
-    `limited_by` names the parameter or rule that changed the command, in words; empty when nothing did.
+    `limited_by` names, in words, the parameter or rule that changed the command; it is empty when nothing did.
     """
 
     topic: str = ""
@@ -140,5 +141,5 @@ class DriveInfo:
 
     @property
     def nothing_to_stop(self) -> bool:
-        """Whether no robot is known, so that nobody could have heard of a stop."""
+        """Whether no robot is known, so that nobody could have received a stop."""
         return not (self.lockable or self.topic or self.robots)

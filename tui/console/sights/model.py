@@ -1,6 +1,6 @@
-"""Diagnostics and images as a person sees them, and the protocol that gives them. Standard library only.
+"""Diagnostics, images and frames as a person looks at them, and the protocol that provides them. Standard library only.
 
-`Sights` is read by pulling, as `Console` is, of which it is a part: nothing here blocks.
+`Sights` is part of `Console` and is polled in the same way: nothing here blocks.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ class Level(IntEnum):
 
     @property
     def weight(self) -> int:
-        """How bad it is: an error is worse than silence, and silence worse than a warning."""
+        """How severe it is: an error is worse than stale, and stale is worse than a warning."""
         return (0, 1, 3, 2)[self]
 
 
 @dataclass(frozen=True, slots=True)
 class Told:
-    """A moment (ns since the epoch) from which a status had another level, or said something else at the same one."""
+    """The moment (ns since the epoch) at which a status changed its level, or its message at the same level."""
 
     stamp: int
     level: Level
@@ -40,7 +40,7 @@ class Told:
 
 @dataclass(frozen=True, slots=True)
 class Status:
-    """What one part of the robot last said of itself. The slashes of the name are the levels of a tree."""
+    """The latest status of one part of the robot. The slashes in its name are the levels of a tree."""
 
     name: str
     level: Level
@@ -53,13 +53,13 @@ class Status:
     """How it came to be so, the newest last."""
 
     def now(self, clock: float) -> Level:
-        """Its level, or stale where it has been silent for too long."""
+        """Its level, or stale when it has been silent for too long."""
         return Level.STALE if clock - self.heard > STALE_AFTER else self.level
 
 
 @dataclass(frozen=True, slots=True)
 class Diagnostics:
-    """The last status of each name; `problem` says why there is none, empty when nothing is wrong."""
+    """The latest status of each name; `problem` says why there is none, and is empty when nothing is wrong."""
 
     statuses: tuple[Status, ...] = ()
     topics: tuple[str, ...] = ()
@@ -75,7 +75,7 @@ IMAGE, COMPRESSED = "sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """The newest image of the topic that is looked at, scaled to the size that was asked for."""
+    """The newest image of the topic being viewed, scaled to the size asked for."""
 
     topic: str = ""
     count: int = 0
@@ -97,14 +97,14 @@ class Picture:
 
 
 class Sights(Protocol):
-    """What a robot shows of itself."""
+    """A robot's diagnostics, images and frames."""
 
     def diagnostics(self) -> Diagnostics:
-        """The newest diagnostics; the same object until something was said."""
+        """The newest diagnostics; the same object until a status changes."""
         ...
 
     def look_at(self, topic: str, columns: int, rows: int) -> None:
-        """Receive the images of a topic, and of no other, for a size in pixels; an empty name ends that."""
+        """Subscribe to one image topic only, scaled to a size in pixels; an empty name stops that."""
         ...
 
     def picture(self) -> Picture:
@@ -112,13 +112,13 @@ class Sights(Protocol):
         ...
 
     def look_at_frames(self, on: bool) -> None:
-        """Listen to what is told of frames from now on, or no more."""
+        """Listen to `/tf` and `/tf_static` from now on, or stop listening."""
         ...
 
     def look_at_nodes(self, on: bool) -> None:
-        """Find out which nodes do not answer (`GraphInfo.silent`) where nothing else tells it, or no more."""
+        """Start, or stop, finding out which nodes do not answer (`GraphInfo.silent`) where nothing else tells."""
         ...
 
     def frames(self) -> Frames:
-        """What was told of frames while they were looked at."""
+        """What was heard about frames while they were listened to."""
         ...

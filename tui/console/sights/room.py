@@ -48,7 +48,7 @@ class NodeSights:
         return self._images.picture()
 
     def look_at_frames(self, on: bool) -> None:
-        """Listen to what is told of frames from now on, or no more."""
+        """Listen to `/tf` and `/tf_static` from now on, or stop listening."""
 
         async def look() -> None:
             self._frames.look(on, self._graph().info)
@@ -64,5 +64,5 @@ class NodeSights:
         self._calls.run(look(), lambda _: None)
 
     def frames(self) -> Frames:
-        """What was told of frames while they were looked at."""
+        """What was heard about frames while they were listened to."""
         return self._frames.frames()

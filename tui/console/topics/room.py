@@ -104,7 +104,7 @@ class NodeTraffic:
         return forms.wrong(payload, type_name, path, text)
 
     def line(self, payload: Payload, name: str, type_name: str, values: Values, rate: float = 0.0) -> str:
-        """The `ros2` command that sends the same."""
+        """The `ros2` command line that sends the same."""
         verb = {Payload.MESSAGE: "topic pub", Payload.REQUEST: "service call", Payload.GOAL: "action send_goal"}[
             payload
         ]
@@ -182,7 +182,7 @@ class NodeTraffic:
         return self._goals.goals()
 
     def cancel(self, action: str) -> Answer:
-        """Ask that the last goal be cancelled."""
+        """Ask the action to cancel its last goal."""
         why_not = self._goals.why_not_cancel(action)
         if why_not:
             return Answer(False, why_not)

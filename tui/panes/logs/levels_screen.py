@@ -9,8 +9,8 @@ from typing import ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.model import GraphInfo, Severity
-from bot_console.tui.console.protocol import Console, LoggerLevel
+from bot_console.tui.console.model import GraphInfo, LoggerLevel, Severity
+from bot_console.tui.console.protocol import Console
 from bot_console.tui.format import LETTERS, cut, harmless
 from bot_console.tui.panes.pane import answer_of
 from bot_console.tui.terminal.composing.veil import VeilScreen

@@ -8,8 +8,8 @@ from typing import Any
 
 from bot_console.tui import keymap
 from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.log_protocol import LogFindings, LogSource, LogView
 from bot_console.tui.console.model import ConsoleSnapshot, LogFilter, LogState, Severity
-from bot_console.tui.console.protocol import LogFindings, LogSource, LogView
 from bot_console.tui.files.save_file import save_file
 from bot_console.tui.format import LETTERS, harmless
 from bot_console.tui.panes.logs.filtering import Filtering

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import ClassVar
 
+from bot_console.tui.console.log_protocol import LogNumbers, LogSource
 from bot_console.tui.console.model import LogRecord, Severity
-from bot_console.tui.console.protocol import LogNumbers, LogSource
 from bot_console.tui.format import LETTERS, clock_text, cut, harmless
 from bot_console.tui.panes.logs.names import NodeNames
 from bot_console.tui.panes.logs.rules import COLOURS, RuleBook

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from bot_console.tui.console.log_protocol import LogFindings, LogView
 from bot_console.tui.console.model import LogFilter
-from bot_console.tui.console.protocol import LogFindings, LogView
 
 OpenView = Callable[[LogFilter, "LogView | None"], LogView]
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from bot_console.tui.console.log_protocol import LogView
 from bot_console.tui.console.model import LogFilter, LogRecord, LogState
-from bot_console.tui.console.protocol import Console, LogView
+from bot_console.tui.console.protocol import Console
 
 
 class LiveLog:
-    """What the nodes of the system log; `tui.console.protocol.LogSource`."""
+    """What the nodes of the system log; `tui.console.log_protocol.LogSource`."""
 
     name = ""
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import ClassVar
 
-from bot_console.tui.console.protocol import Stream
+from bot_console.tui.console.command_line import Stream
 from bot_console.tui.format import harmless
 from rich.text import Text
 from textual.events import Click

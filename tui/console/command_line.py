@@ -1,0 +1,46 @@
+"""The protocol by which the console runs `ros2 ...` lines. Standard library only."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from concurrent.futures import Future
+from typing import Protocol
+
+from bot_console.tui.console.model import ConsoleSnapshot
+
+
+class Stream(Protocol):
+    """A command line that keeps printing until it is stopped."""
+
+    def lines(self) -> Sequence[str]:
+        """The last lines it has printed; the same object until there are more."""
+        ...
+
+    @property
+    def ended(self) -> bool:
+        """Whether it has ended."""
+        ...
+
+    def stop(self) -> None:
+        """Interrupt it, as Ctrl-C does."""
+        ...
+
+
+class CommandLine(Protocol):
+    """Runs `ros2 ...` lines."""
+
+    def run(self, line: str) -> Future[str]:
+        """Run a line; the future gives what it printed."""
+        ...
+
+    def stream(self, line: str) -> Stream | None:
+        """Start a line that keeps printing, as `ros2 topic hz /odom` does; None for any other, which is not run."""
+        ...
+
+    def commands(self) -> Sequence[str]:
+        """The commands a line may begin with, without `ros2` itself."""
+        ...
+
+    def complete(self, words: Sequence[str], snapshot: ConsoleSnapshot) -> Future[Sequence[str]]:
+        """Completions of the last word (empty, or the start of an option); `snapshot` says what runs."""
+        ...

@@ -1,0 +1,79 @@
+"""The protocols by which panes read logs: sources of records, and searches over them. Standard library only."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from bot_console.tui.console.model import LogFilter, LogRecord, LogState
+
+
+class LogNumbers(Protocol):
+    """Sequence numbers of log records, in ascending order."""
+
+    def __len__(self) -> int:
+        """How many there are."""
+        ...
+
+    def __getitem__(self, index: int, /) -> int:
+        """The number at an index; raises `IndexError` beyond the ends."""
+        ...
+
+    def place(self, number: int) -> int:
+        """The index of the first number that is not below the given one."""
+        ...
+
+    def count(self, index: int, /) -> int:
+        """How many equal records the entry at an index stands for."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class LogFindings:
+    """What a filter has matched so far, among the records from `begin` up to but not including `end`."""
+
+    numbers: LogNumbers
+    begin: int = 0
+    end: int = 0
+    complete: bool = False
+    """Whether everything was looked at that was there when the filter was asked for."""
+    problem: str = ""
+    """Why nothing, or not everything, was looked at; empty when all is well."""
+
+
+class LogView(Protocol):
+    """The records that match a filter; the search runs in the background, newest records first."""
+
+    def look(self) -> LogFindings:
+        """What has been found so far; the same object until there is more."""
+        ...
+
+
+class LogSource(Protocol):
+    """Records that the Logs pane can show: those of the system, or of a file."""
+
+    @property
+    def name(self) -> str:
+        """The heading of this source; empty for the system's own log."""
+        ...
+
+    @property
+    def state(self) -> LogState:
+        """Which records are kept; the same object until that changes."""
+        ...
+
+    def record(self, seq: int) -> LogRecord | None:
+        """The record with that number; None when it was dropped or has not arrived yet."""
+        ...
+
+    def view(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
+        """Start a search that follows new records; it ends the one given as `instead_of`."""
+        ...
+
+    def clear(self) -> None:
+        """Forget all records; numbering continues."""
+        ...
+
+    def close(self) -> None:
+        """Stop reading."""
+        ...
