@@ -1,4 +1,4 @@
-"""The app: panes around one snapshot, pulled on a timer."""
+"""The Textual app: panes that draw one snapshot, polled on a timer."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
             self._keyboard.passes = lambda _: False
 
     def take_up(self, system: System) -> None:
-        """Act on a system from now on."""
+        """Start acting on a system."""
         from bot_console.tui.console.model import ConsoleSnapshot
         from bot_console.tui.crew import Crew
 
@@ -115,7 +115,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
         self._reached = True
 
     async def on_event(self, event: events.Event) -> None:
-        """Keys are dealt with one after the other; those that quit from anywhere wait for nothing."""
+        """Handle keys one at a time, in order; those that quit from anywhere wait for nothing."""
         if not isinstance(event, (events.Key, events.Paste)) or event.is_forwarded:
             await self._deal(event)
         elif isinstance(event, events.Paste) and len(event.text) > LONGEST_PASTE:
@@ -135,7 +135,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
             await super().on_event(event)
 
     def compose(self) -> ComposeResult:
-        """Tabs, panes, status, footer, and a word for terminals that are too small; at first only their places."""
+        """Tabs, panes, status bar, key bar, and a notice for terminals that are too small; empty frames at first."""
         yield Tabs()
         with PaneArea(id="panes"):
             if self._reached:
@@ -149,7 +149,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
         yield Static("", id="too-small", markup=False)
 
     def on_mount(self) -> None:
-        """Choose the theme, lay out, and begin to pull."""
+        """Choose the theme, lay out, and start polling."""
         self.ask()
         self.stage.resized(self.size)
         if self._reached:
@@ -161,7 +161,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
             self.arrive(self._reach, self._all_there)
 
     def begin_to_pull(self) -> None:
-        """Take snapshots from now on."""
+        """Start polling for snapshots."""
         self.pull()
         if self._refresh_hz > 0:
             self.set_interval(1.0 / self._refresh_hz, self._beat)
@@ -171,7 +171,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
             self.open(self._opening)
 
     def is_stop(self, key: object) -> bool:
-        """Whether a key is one that stops the robot."""
+        """Whether a key stops the robot."""
         return isinstance(key, events.Key) and keymap.stops(key.key)
 
     def _all_there(self) -> None:
@@ -181,7 +181,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
         self.call_later(self._add_plugins)
 
     async def _add_plugins(self) -> None:
-        """Panes of others, looked for when the first frame has been seen, which they are not to delay."""
+        """Add panes of other packages, after the first frame so that they do not delay it."""
         found = self._plugins()
         if found:
             self.stage.plugins = [*found]
@@ -196,7 +196,7 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
             self.crew.beat()
 
     def pull(self) -> None:
-        """Take the newest snapshot and let the visible panes draw what is new."""
+        """Take the newest snapshot and let the visible panes draw what has changed."""
         snapshot = self.console_of_robot.snapshot()
         if snapshot is self._snapshot and not self._snapshot.problem:
             return
@@ -213,24 +213,24 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
             self.notify(text, severity="warning")
 
     def entries(self) -> Sequence[PaneEntry]:
-        """All panes that there are."""
+        """All available panes."""
         return self.stage.entries()
 
     def made(self, kind: type[P], id: str, **facts: Any) -> P:
-        """A pane of a class, for the system that is shown."""
+        """Make a pane of a class for the system being shown."""
         return kind(self.console_of_robot, self.launcher, id=id, time_cursor=self.time_cursor, **facts)
 
     def panes(self) -> list[Pane]:
-        """All panes, in the order in which they stand on the screen."""
+        """All panes, in screen order."""
         return self.stage.panes()
 
     def visible_panes(self) -> list[Pane]:
-        """The panes that are drawn now."""
+        """The panes being drawn."""
         return self.stage.visible()
 
     @property
     def current_pane(self) -> Pane | None:
-        """The pane that has the keyboard, else the one chosen last."""
+        """The focused pane, else the one chosen last."""
         return self.stage.current()
 
     def on_resize(self, event: events.Resize) -> None:
@@ -238,19 +238,19 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
         self.stage.resized(event.size)
 
     def on_descendant_focus(self) -> None:
-        """Another part of the screen has the keyboard: show its keys."""
+        """Show the keys of whatever has the focus now."""
         self.stage.show_keys()
 
     def on_pane_area_dragged(self, event: PaneArea.Dragged) -> None:
-        """A border between panes was moved with the mouse."""
+        """Take over a border that was moved with the mouse."""
         self.stage.arranging.dragged(event.tree, event.first)
 
     def on_tabs_chosen(self, event: Tabs.Chosen) -> None:
-        """A tab was clicked."""
+        """Show the pane whose tab was clicked."""
         self.stage.choose(event.pane)
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
-        """Letters and digits belong to a text field while one has the keyboard."""
+        """Leave letters and digits to a text field while one has the focus."""
         if self.stage.typing() and action in ("pane", "all_stop", "zoom", "next_pane", "arrange"):
             return False
         if len(self.screen_stack) > 1 and action in ("pane", "zoom", "next_pane", "help", "arrange"):
@@ -259,24 +259,24 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
         return super().check_action(action, parameters)
 
     def action_pane(self, name: str) -> None:
-        """Show a pane, or the layout."""
+        """Show one pane, or the layout."""
         self.stage.choose(name)
 
     def action_next_pane(self, step: int) -> None:
-        """The next pane: of those seen together, else of all."""
+        """Go to the next pane: among those on the screen, else among all."""
         self.stage.next(step)
 
     def action_zoom(self) -> None:
-        """One pane alone, or the layout again."""
+        """Show one pane alone, or the layout again."""
         self.stage.zoom()
 
     def action_arrange(self) -> None:
-        """Arrange the panes by key."""
+        """Arrange the panes with keys."""
         self.stage.go(OVERVIEW)
         self.crew.arrange()
 
     def action_all_stop(self) -> None:
-        """Hold the robot still, or let it go."""
+        """Stop and hold the robot, or release it."""
         if self.crew.quitting.keep_held():
             self.notify("The robot stays held.")
         else:
@@ -284,55 +284,55 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
             self.pull()
 
     async def action_quit(self) -> None:
-        """End, but ask first where values would be lost."""
+        """Quit, but ask first when values would be lost."""
         if self._reached:
             self.crew.quitting.wanted()
         else:
             self.exit()
 
     def action_help(self) -> None:
-        """Help for the pane that has the keyboard."""
+        """Show help for the focused pane."""
         pane = self.current_pane
         if pane is not None:
             self.crew.help(pane)
 
     def action_palette(self) -> None:
-        """Ask for a command: an action by its words."""
+        """Open the command palette."""
         self.desk.palette()
 
     def action_command_line(self) -> None:
-        """Ask for a line: a verb of the console, or one of `ros2`."""
+        """Open the command line, for the console's own commands and `ros2` lines."""
         self.desk.ask_line()
 
     def on_pane_alarms_hold(self, event: Pane.AlarmsHold) -> None:
-        """Name the alarms that hold in the status bar."""
+        """Name the active alarms in the status bar."""
         bar = self.crew.status
         bar.alarms = event.names
         bar.show(self._snapshot, self.gate.held_back)
 
     def action_acknowledge(self) -> None:
-        """Count only the errors that come from now on."""
+        """Reset the error count."""
         bar = self.crew.status
         bar.acknowledge(self._snapshot)
         bar.show(self._snapshot, self.gate.held_back)
 
     def action_theme(self) -> None:
-        """Show the next theme."""
+        """Switch to the next theme."""
         names = [each.name for each in THEMES.values()]
         self.theme = names[(names.index(self.theme) + 1) % len(names)]
         self.notify(f"Theme: {self.theme.removeprefix('bot-')}; `bot-console config --edit` makes it last.")
 
     def action_glyphs(self) -> None:
-        """Draw with plain letters, or with lines and braille again."""
+        """Switch between ASCII, and lines and braille."""
         self.plain = not self.plain
         self.redraw()
 
     def action_redraw(self) -> None:
-        """Draw everything anew."""
+        """Redraw everything."""
         self.redraw()
 
     def open(self, opening: Opening) -> None:
-        """Show a pane with the curves and the node that are asked for; both may come later."""
+        """Show a pane with the requested curves and node, which may appear later."""
         self.action_pane(opening.pane)
         for pane in self.panes():
             if opening.curves and pane.id == "plot":
@@ -353,28 +353,28 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
         timeout: float | None = None,
         markup: bool = False,
     ) -> None:
-        """Tell something in a corner; what nodes and people write is shown as it is written, whoever tells it."""
+        """Show a notification; the text of nodes and people is never parsed as markup."""
         if len(self._notifications) >= SEEN_AT_ONCE:
             self.clear_notifications()  # the newest, a refusal above all, must have room
         super().notify(brief(message), title=harmless(title), severity=severity, timeout=timeout, markup=False)
 
     def contain(self, error: Exception, culprits: list[DOMNode]) -> bool:
-        """A fault ends the pane, or what lies over the panes, in whose code it happened."""
+        """End only the pane or screen whose code raised; False where none can be blamed."""
         return self._running and self._reached and self.faults.contain(error, culprits)
 
     async def on_broken_pane_reopen(self, event: BrokenPane.Reopen) -> None:
-        """Open a pane again that has ended by a fault."""
+        """Reopen a pane that ended with an exception."""
         event.stop()
         await self.faults.reopen(event.pane)
 
     def panes_changed(self) -> None:
-        """A pane stands where another was, or none did: lay out, and show all of them what there is."""
+        """Lay out again, and show the snapshot in all panes, after a pane was replaced or added."""
         self._snapshot = replace(self._snapshot)
         self._keyboard.release()
         self.stage.changed()
 
     def last_words(self, error: BaseException) -> str:
-        """Stop the robot, keep what is known of the fault, and say so on one line."""
+        """Stop the robot, save the traceback, and return a one-line summary."""
         with contextlib.suppress(Exception):  # nothing may come between a fault and the restored terminal
             self.console_of_robot.all_stop(True)
         details = keep(error)
@@ -382,16 +382,16 @@ class BotConsoleApp(RecordingApp, TuningDoor, PaneWishes, ArrivingApp):
         return text + (f"; details in {details}" if details else "")
 
     def action_sleep(self) -> None:
-        """Give the terminal back to the shell; the robot is held meanwhile."""
+        """Suspend the console; the robot is held meanwhile."""
         self.crew.leaving.sleep()
 
     def on_text_selected(self) -> None:
-        """Text was selected with the mouse: it is on the clipboard."""
+        """Copy the text selected with the mouse."""
         text = self.screen.get_selected_text()
         if text:
             self.copy_to_clipboard(text)
             self.notify(f"Copied: {counted(len(text), 'letter')}.")
 
     def action_end_stream(self) -> None:
-        """End the line that goes on below the panes."""
+        """Stop the command line that is running below the panes."""
         self.desk.end_stream()

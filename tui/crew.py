@@ -1,7 +1,7 @@
-"""Who acts for the app once there is a console: on words, on the keys for safety, on faults, on the way out.
+"""The parts of the app that need a console: the command line, stopping, fault handling, quitting, suspending.
 
-The app imports this when its frame has been seen. All that knows the model hangs on it, and a start that waited for
-that would show its first frame a third later.
+The app imports this module only after its first frame: these parts import the whole model, which would delay the frame
+by a third.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ from textual.widget import Widget
 
 
 class Crew:
-    """Made for one app and one console."""
+    """Those parts, made for one app and one console."""
 
     def __init__(
         self,
@@ -51,7 +51,7 @@ class Crew:
         open: Callable[[Opening], None],
         changed: Callable[[], None],
     ) -> None:
-        """`redraw` sends every cell again, `open` shows what is asked for, `changed` is told of another pane."""
+        """`redraw` sends every cell again, `open` shows what was asked for, `changed` follows a replaced pane."""
         self._app = app
         self._stage = stage
         self.quitting = Quitting(app, console)
@@ -64,7 +64,7 @@ class Crew:
         self.status = StatusBar()
 
     def widgets(self) -> Sequence[Widget]:
-        """What stands between the panes and the keys, from above."""
+        """The widgets between the panes and the key bar, top to bottom."""
         return StreamPanels(), self.desk.field(), self.status
 
     def is_spent(self, event: events.Event, *, overtaken: bool) -> bool:
@@ -77,12 +77,12 @@ class Crew:
         return (overtaken and not stops(event.key) and self.quitting.asking) or self.late_stop.was_done(event)
 
     def beat(self) -> None:
-        """Ten times a second: take in what the line of a stream prints, show the figures that have waited."""
+        """Ten times a second: take in what running command lines print, and show figures that were held back."""
         self.desk.look()
         self.status.beat()
 
     def arrange(self) -> None:
-        """Arrange the panes by key, where there is room for that."""
+        """Arrange the panes with keys, if there is room for that."""
         if self._stage.arranging.begin():
             self._app.push_screen(ArrangeScreen(self._stage.arranging))
 
@@ -91,7 +91,7 @@ class Crew:
         self._app.push_screen(HelpScreen(pane.scopes, pane.TITLE, pane.HELP or ""))
 
     def askers(self) -> Sequence[Asker[Any]]:
-        """Whatever has a question open."""
+        """Everything that has an open question."""
         # An open prompt has the keyboard; nobody has it while the terminal has lost it. To look through all that is on
         # the screen at each snapshot takes a tenth of what the thread that draws does in a pane where nothing changes.
         screen = self._app.screen_stack[0]

@@ -1,4 +1,4 @@
-"""What becomes of a pane, or of what lies over the panes, in whose code a fault happened."""
+"""What happens to a pane or a screen whose code raises: it ends alone, with a way to reopen it."""
 
 from __future__ import annotations
 
@@ -20,19 +20,19 @@ P = TypeVar("P", bound=Pane)
 
 
 class PaneMaker(Protocol):
-    """What makes panes."""
+    """The app, as far as making panes goes."""
 
     def entries(self) -> Sequence[PaneEntry]:
-        """All panes that there are."""
+        """All available panes."""
         ...
 
     def made(self, kind: type[P], id: str, **facts: Any) -> P:
-        """A pane of a class, for the system that is shown."""
+        """Make a pane of a class for the system being shown."""
         ...
 
 
 class Faults:
-    """Ends what is at fault alone, and opens panes again."""
+    """Ends only what is at fault, and reopens panes."""
 
     def __init__(self, app: App[None], maker: PaneMaker, changed: Callable[[], None]) -> None:
         self._app = app
@@ -43,7 +43,7 @@ class Faults:
         self._ending: set[Pane] = set()
 
     def contain(self, error: Exception, culprits: list[DOMNode]) -> bool:
-        """End the innermost pane or screen of those in whose code a fault happened; False where there is none."""
+        """End the innermost pane or screen in whose code an exception was raised; False where there is none."""
         for node in culprits:
             for each in node.ancestors_with_self:
                 if isinstance(each, Pane) and not isinstance(each, BrokenPane):
@@ -76,12 +76,12 @@ class Faults:
         self._app.notify(f"{reason(error)}{f', details: {details}' if details else ''}", title="Closed")
 
     async def reopen(self, broken: BrokenPane) -> None:
-        """Put the pane itself into its place again."""
+        """Put the pane itself back in its place."""
         entry = next(each for each in self._maker.entries() if each.id == broken.id)
         await self._replace(broken, self.made(entry))
 
     async def add(self, entries: Sequence[PaneEntry]) -> None:
-        """Put panes that others bring behind the own ones; one that cannot be made says why in its place."""
+        """Add the panes of plug-ins after the built-in ones; one that cannot be made shows why in its place."""
         made = [self.made(entry) for entry in entries]
         for pane in made:
             pane.display = False
@@ -91,7 +91,7 @@ class Faults:
             self._changed()
 
     def made(self, entry: PaneEntry) -> Pane:
-        """The pane, or what says why it cannot be made."""
+        """The pane, or a placeholder that says why it cannot be made."""
         try:
             return self._maker.made(entry.load(), entry.id)
         except Exception as error:  # the border to the code of others, which may not even be importable

@@ -25,7 +25,7 @@ LETTERS = {
 
 
 def profile_text(snapshot: ConsoleSnapshot) -> str:
-    """The active profile, and how far the robot is from it now; empty where there is none."""
+    """The active profile, and how many values differ from it; empty where there is none."""
     changed = f", {snapshot.profile_changes} changed" if snapshot.profile_changes else ""
     return harmless(snapshot.active_profile) + changed if snapshot.active_profile else ""
 
@@ -53,12 +53,12 @@ def _element_text(value: bool | int | float | str | bytes, exact: bool) -> str:
 
 
 def yaml_text(text: str) -> str:
-    """A text as YAML takes it for this text, in double quotes where it needs them."""
+    """A text as YAML reads it back, in double quotes where it needs them."""
     return text if is_plain(text) else quoted(text)
 
 
 def field_text(value: Value) -> str:
-    """A value to be edited: `parse_value` makes the very same value of it."""
+    """A value as text to edit, from which `parse_value` makes exactly that value again."""
     if isinstance(value, str):
         plain = value.isprintable() and value == value.strip() and value[:1] not in ('"', "'")
         return value if plain else quoted(value)
@@ -66,7 +66,7 @@ def field_text(value: Value) -> str:
 
 
 def exact_number(value: float) -> str:
-    """The shortest text of a double that means this very one, in YAML, too."""
+    """The shortest text that reads back as exactly this double, in YAML too."""
     if not math.isfinite(value):
         return number_text(value)
     mantissa, e, exponent = repr(value).partition("e")
@@ -74,7 +74,7 @@ def exact_number(value: float) -> str:
 
 
 def number_text(value: float) -> str:
-    """A double with its decimal point, so that it can be told from an integer."""
+    """A double with a decimal point, so that it cannot be mistaken for an integer."""
     if not math.isfinite(value):
         return ".nan" if math.isnan(value) else (".inf" if value > 0 else "-.inf")
     text = f"{value:.10g}"
@@ -82,7 +82,7 @@ def number_text(value: float) -> str:
 
 
 def figure(value: float, sign: str = "") -> str:
-    """A measured number with one decimal place, and short whatever a node sends; `sign` as in a format."""
+    """A measured number with one decimal place, kept short whatever a node sends; `sign` as in a format spec."""
     return f"{value:{sign}.1f}" if abs(value) < 1e5 else f"{value:{sign}.0e}"
 
 
@@ -99,9 +99,9 @@ def range_text(limits: Range | None, kind: Kind) -> str:
 
 
 def parse_value(text: str, parameter: ParameterInfo) -> Value:
-    """What a person typed as a value of the parameter's kind; raises `ValueError` with a mend.
+    """A value of the parameter's kind from what a person typed; raises `ValueError` that says how to fix it.
 
-    A double takes `2`, too, since nobody means an integer there. A text in quotes is read as YAML does.
+    A double accepts `2` too, since nobody means an integer there. Text in quotes is read as YAML does.
     """
     kind = parameter.kind
     if kind is Kind.STRING:
@@ -152,7 +152,7 @@ def parse_number(text: str) -> float:
 
 
 def guess(text: str) -> bool | int | float | str:
-    """A value of whatever kind the text looks like; raises `ValueError` for a number that is too large."""
+    """A value of the kind that the text looks like; raises `ValueError` for a number that is too large."""
     if re.fullmatch(r"[+-]?(0[xX])?[0-9]+", text):
         return _integer(text)
     for convert in (lambda: int(text, 0), lambda: float(text)):
@@ -164,12 +164,12 @@ def guess(text: str) -> bool | int | float | str:
 
 
 def element_text(value: bool | int | float | str | bytes) -> str:
-    """An element of an array to be edited alone: `parse_element` makes the very same element of it."""
+    """An element of an array as text to edit, from which `parse_element` makes exactly that element again."""
     return _element_text(value, exact=True) if isinstance(value, bytes) else field_text(value)
 
 
 def parse_element(text: str, array: Kind) -> bool | int | float | str | bytes:
-    """What a person typed as an element of an array of that kind; raises `ValueError` with a mend."""
+    """An element of an array of that kind from what a person typed; raises `ValueError` that says how to fix it."""
     if array is Kind.STRING_ARRAY:
         return unquoted(text.strip()) if in_quotes(text.strip()) else text
     return _element(text.strip(), in_quotes(text.strip()), array)
@@ -191,7 +191,7 @@ def _byte(text: str) -> bytes:
 
 
 def command_of(parameter: ParameterInfo, value: Value) -> str:
-    """The `ros2` command that does the same, quoted for a shell; a comment that says why where there is none."""
+    """The equivalent `ros2` command, quoted for a shell; where there is none, a comment that says why."""
     if value is None or value == () or parameter.kind is Kind.BYTE_ARRAY:
         what = "removes a value" if value is None else "sets an empty array" if value == () else "sets bytes"
         return f"# no ros2 param command {what}"

@@ -1,4 +1,4 @@
-"""What panes keep from run to run: plain data by name. Where it is kept is not their business."""
+"""The protocol of what panes remember between runs: plain data by name. Where it is stored is not their concern."""
 
 from __future__ import annotations
 
@@ -12,25 +12,25 @@ class Kept(Protocol):
     """Plain data (texts, numbers, lists, mappings) by name."""
 
     def get(self, name: str) -> object:
-        """What was put there last, also in an earlier run; None where nothing was, or where it cannot be read."""
+        """What was stored last, in an earlier run too; None where there is nothing, or it cannot be read."""
         ...
 
     def put(self, name: str, data: object) -> str:
-        """Keep data; gives why that could not be done, empty when it could."""
+        """Store data; returns why that failed, and an empty text when it did not."""
         ...
 
 
 class KeptHere:
-    """Keeps data for this run only."""
+    """Stores data for this run only."""
 
     def __init__(self) -> None:
         self._data: dict[str, object] = {}
 
     def get(self, name: str) -> object:
-        """What was put there last."""
+        """What was stored last."""
         return self._data.get(name)
 
     def put(self, name: str, data: object) -> str:
-        """Keep it while the program runs."""
+        """Store it while the program runs."""
         self._data[name] = data
         return ""

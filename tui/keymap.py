@@ -341,12 +341,12 @@ def stops(key: str) -> bool:
 
 
 def quits_at_once(key: str) -> bool:
-    """Whether a key never waits for those typed before."""
+    """Whether a key quits without waiting for the keys typed before it."""
     return _is_of("app.quit_now", key)
 
 
 def _is_of(id: str, pressed: str) -> bool:
-    """Asked for each key anew: a person may have given an action further ones."""
+    """Whether a key belongs to an action; looked up each time, since a person may have remapped it."""
     return any(key.id == id and pressed in key.keys.split(",") for key in TABLE["app"])
 
 

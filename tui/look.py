@@ -1,4 +1,4 @@
-"""What the screen is to look like, as far as a person can choose."""
+"""How the screen should look, as far as a person can choose."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bot_console.tui.layout.arrangement import Arrangement
 
 @dataclass(frozen=True)
 class Look:
-    """Panes, colours, glyphs and keys, and lines that say what of a person's wishes could not be met."""
+    """Panes, colours, glyphs and keys, and lines that say which of a person's settings could not be applied."""
 
     arrangement: Arrangement = field(default_factory=Arrangement)
     theme: str = "dark"

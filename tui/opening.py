@@ -1,4 +1,4 @@
-"""What the console is to open: a pane, with its topics or its node; from the spellings of rqt and its programs."""
+"""What the console should open: a pane, with its topics or its node; reads the command lines of rqt programs too."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ WITHOUT_VALUE = (
 
 @dataclass(frozen=True)
 class Opening:
-    """A pane to show first, curves to plot, a node to go to, and lines that say what was not taken over."""
+    """A pane to show first, curves to plot, a node to go to, and lines that say what was ignored."""
 
     pane: str = "overview"
     curves: tuple[str, ...] = ()
@@ -51,18 +51,17 @@ def is_rqt(words: Sequence[str]) -> bool:
 
 
 def names_system(words: Sequence[str]) -> bool:
-    """Whether the command line of a program of rqt also says what is to run, before options of the console's own, as
-    `rqt_plot /a/b outdoor` does.
+    """Whether the command line of an rqt program also says what to run, before options of the console's own.
 
-    Raises `ValueError` where the words name no program of rqt.
+    `rqt_plot /a/b outdoor` does. Raises `ValueError` when the words name no program of rqt.
     """
     return any(not each.startswith("-") for each in rqt_opening(words)[1][:1])
 
 
 def rqt_opening(words: Sequence[str]) -> tuple[Opening, list[str]]:
-    """What the command line of a program of rqt asks for, and the words that are not rqt's.
+    """What the command line of an rqt program asks for, and the words that are not rqt's.
 
-    Raises `ValueError` where the words name no program of rqt.
+    Raises `ValueError` when the words name no program of rqt.
     """
     program, rest = _program(words)
     if program not in RQT_PANES:
@@ -115,7 +114,7 @@ def _curves(word: str) -> list[str]:
 
 
 def matching(wanted: str, known: Sequence[str]) -> list[str]:
-    """The paths that a word of `rqt_plot` means: itself, or every number below it, arrays left out.
+    """The paths that a word of `rqt_plot` stands for: itself, or every number below it, except in arrays.
 
     rqt writes `/odom/twist/twist/linear/x` for what is `/odom/twist.twist.linear.x` here.
     """

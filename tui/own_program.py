@@ -1,4 +1,4 @@
-"""Command lines of programs of our own that this one starts beside itself."""
+"""Command lines that start one of our own programs beside this one."""
 
 from __future__ import annotations
 
@@ -14,5 +14,5 @@ runpy.run_module({module!r}, run_name="__main__", alter_sys=True)
 
 
 def own_program(module: str) -> list[str]:
-    """What `python -m module` is, but without the working folder: a `queue.py` there is for the user."""
+    """The command for `python -m module` without the working directory on its path: a `queue.py` there is not ours."""
     return [sys.executable, "-c", CODE.format(module=module)]

@@ -1,4 +1,4 @@
-"""Which panes there are: their digits, titles and classes, imported when the app is composed."""
+"""The table of panes: their keys, titles and classes, which are imported when the app is composed."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PaneEntry:
-    """A pane: its id (also the name of its folder), its class, and the key that jumps to it, mostly a digit."""
+    """A pane: its id (also the name of its folder), its class, and the key that opens it, mostly a digit."""
 
     id: str
     digit: str

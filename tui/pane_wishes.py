@@ -1,4 +1,4 @@
-"""What panes want of others: a curve, another pane, a line of `ros2`, an editor."""
+"""What panes ask other parts of the app for: a curve, another pane, a `ros2` line, an editor."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ PLOT = "plot"
 
 
 class PaneWishes(App[None]):
-    """An app whose panes may ask for what another part of it does."""
+    """An app whose panes may ask it for what another part does."""
 
     crew: Crew
     stage: Stage
@@ -33,17 +33,17 @@ class PaneWishes(App[None]):
             self.action_pane(PLOT)
 
     def on_pane_line_wanted(self, event: Pane.LineWanted) -> None:
-        """Run a line that a pane names."""
+        """Run a command line that a pane asks for."""
         event.stop()
         self.crew.desk.runner.run(event.line)
 
     def on_pane_keys_changed(self, event: Pane.KeysChanged) -> None:
-        """Say what the keys of the pane do now."""
+        """Update what the keys of the pane do."""
         event.stop()
         self.stage.show_keys()
 
     def on_pane_pane_wanted(self, event: Pane.PaneWanted) -> None:
-        """Show another pane at what one names."""
+        """Show another pane, at the item that one names."""
         event.stop()
         self.action_pane(event.pane)
         cast("Pane", self.query_one(f"#{event.pane}")).go_to(event.name)

@@ -1,4 +1,4 @@
-"""The keys that record: into a bag from now on, or what was in the last minutes."""
+"""The app's recording keys: record into a bag from now on, or save the last minutes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class RecordingApp(GuardedApp):
-    """An app that records what its console hears."""
+    """An app that can record what its console receives."""
 
     console_of_robot: Console
 

@@ -1,4 +1,4 @@
-"""The console's themes: blue for what was taken and orange for what was not, on each ground."""
+"""The console's themes: blue for accepted values and orange for refused ones, on every background."""
 
 from __future__ import annotations
 

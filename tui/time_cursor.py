@@ -1,4 +1,4 @@
-"""The moment that all panes look at: chosen in one of them, shown by the others that have time."""
+"""The moment that all panes look at: chosen in one of them, followed by the others that have a time axis."""
 
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ from typing import Protocol
 
 
 class LooksAtTime(Protocol):
-    """Something that shows what was at a moment."""
+    """Something that shows the state at a moment."""
 
     def time_moved(self, stamp: int | None) -> None:
-        """Look at a moment (ns since the epoch), or, at None, at what is now."""
+        """Show a moment (ns since the epoch), or the present when it is None."""
         ...
 
 
 class TimeCursor:
-    """One moment for everybody who follows; nothing is shared but the number."""
+    """One moment for everything that follows it; only the number is shared."""
 
     def __init__(self) -> None:
         self.stamp: int | None = None
@@ -22,17 +22,17 @@ class TimeCursor:
         self._followers: list[LooksAtTime] = []
 
     def follow(self, follower: LooksAtTime) -> None:
-        """Tell of each move from now on."""
+        """Notify a follower of each move from now on."""
         if follower not in self._followers:
             self._followers.append(follower)
 
     def leave(self, follower: LooksAtTime) -> None:
-        """Tell no more."""
+        """Stop notifying it."""
         if follower in self._followers:
             self._followers.remove(follower)
 
     def move(self, stamp: int | None, mover: LooksAtTime | None = None) -> None:
-        """Look at another moment; whoever moves the cursor is not told."""
+        """Look at another moment; whoever moves the cursor is not notified."""
         if stamp == self.stamp:
             return
         self.stamp = stamp

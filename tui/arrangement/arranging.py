@@ -1,4 +1,4 @@
-"""The panes on the screen: which layout, changed by which key; the app shows what comes of it."""
+"""Arranging the panes on the screen: which layout is shown, and the keys that change it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ NAME = re.compile(r"\w[\w .-]{0,40}")
 
 
 class Screen(Protocol):
-    """What arranging needs of the app."""
+    """What arranging needs from the app."""
 
     def cells(self) -> tuple[int, int]:
         """Columns and lines of the terminal."""
@@ -31,11 +31,11 @@ class Screen(Protocol):
         ...
 
     def selected(self) -> str:
-        """The pane that has the keyboard."""
+        """The focused pane."""
         ...
 
     def select(self, pane: str) -> None:
-        """Give it the keyboard."""
+        """Focus a pane."""
         ...
 
     def lay_out(self) -> None:
@@ -43,16 +43,16 @@ class Screen(Protocol):
         ...
 
     def ask(self, question: Question[str]) -> None:
-        """Ask over the panes."""
+        """Ask a question over the panes."""
         ...
 
     def tell(self, text: str) -> None:
-        """Say something in a corner."""
+        """Show a notification."""
         ...
 
 
 class Arranging:
-    """Does what the keys of the arranging screen say."""
+    """Carries out the keys of the arranging screen."""
 
     def __init__(self, screen: Screen, arrangement: Arrangement) -> None:
         self._screen = screen
@@ -66,7 +66,7 @@ class Arranging:
         return False
 
     def _needs(self) -> str:
-        """What a layout that is not seen needs, and what there is."""
+        """The room that the hidden layout needs, and the room there is."""
         least, there = self.arrangement.least(), self._screen.cells()
         return f"needs {least[0]}x{least[1]}, this terminal has {there[0]}x{there[1]}"
 
@@ -80,7 +80,7 @@ class Arranging:
         self._screen.select(self._beside(dx, dy))
 
     def exchange(self, dx: int, dy: int) -> None:
-        """Change places with the pane in a direction."""
+        """Swap places with the pane in a direction."""
         here, there = self._screen.selected(), self._beside(dx, dy)
         if here != there:
             self._change(lambda tree: exchange(tree, here, there))
@@ -91,14 +91,14 @@ class Arranging:
         self._ask_pane(f"Pane {way} {here}", lambda pane: self._change(lambda tree: split(tree, here, pane, way), pane))
 
     def put_another(self) -> None:
-        """Ask for a pane and put it in the place of the selected one."""
+        """Ask for a pane and put it in place of the selected one."""
         here = self._screen.selected()
         self._ask_pane(
             f"Pane instead of {here}", lambda pane: self._change(lambda tree: exchange(tree, here, pane), pane)
         )
 
     def close(self) -> None:
-        """Take the selected pane away; the last one stays."""
+        """Remove the selected pane; the last one stays."""
         here = self._screen.selected()
         self._change(lambda tree: close(tree, here))
 
@@ -118,7 +118,7 @@ class Arranging:
         self._change(lambda tree: turn(tree, here))
 
     def undo(self) -> None:
-        """Take the last change back."""
+        """Undo the last change."""
         if self.arrangement.undo():
             self._screen.lay_out()
         else:
@@ -157,7 +157,7 @@ class Arranging:
         self._screen.lay_out()
 
     def dragged(self, tree: Tree, first: bool) -> None:
-        """A border was moved with the mouse."""
+        """Take over a border that was moved with the mouse."""
         if fits(self._places(tree)):
             (self.arrangement.change if first else self.arrangement.drag)(tree)
             self._screen.lay_out()

@@ -1,4 +1,4 @@
-"""A start that shows where everything will be, and then brings it: the console, the panes that are seen, the others."""
+"""A start in steps: first the frames of all panes, then the console, the visible panes, and the others."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ ORDERED = sorted(PANES, key=lambda entry: entry.place)
 
 
 class System(NamedTuple):
-    """What is shown, and whom processes and lines are asked of."""
+    """What is shown, and who is asked about processes and command lines."""
 
     console: Console
     launcher: Launcher | None = None
@@ -49,10 +49,10 @@ class System(NamedTuple):
 
 
 class ArrivingApp(App[None]):
-    """An app whose first frame is seen before there is a console.
+    """An app whose first frame is shown before there is a console.
 
-    It brings one part after the other, and in between deals with what it was sent: with a stop before all else, with
-    the keys for what is seen as soon as that stands, and with the others when all does.
+    It brings up one part after the other and handles its messages in between: a stop before anything else, keys for the
+    visible panes once those exist, and all others once everything does.
     """
 
     crew: Crew
@@ -64,27 +64,27 @@ class ArrivingApp(App[None]):
     _rests = 0
 
     def take_up(self, system: System) -> None:
-        """Act on a system from now on."""
+        """Start acting on a system."""
         raise NotImplementedError
 
     def begin_to_pull(self) -> None:
-        """Take snapshots from now on."""
+        """Start polling for snapshots."""
         raise NotImplementedError
 
     def panes_changed(self) -> None:
-        """Lay out, and show all panes what there is."""
+        """Lay out again, and show the snapshot in all panes."""
         raise NotImplementedError
 
     def is_stop(self, key: object) -> bool:
-        """Whether a key is one that stops the robot."""
+        """Whether a key stops the robot."""
         raise NotImplementedError
 
     def made(self, kind: type[P], id: str, **facts: Any) -> P:
-        """A pane of a class, for the system that is shown."""
+        """Make a pane of a class for the system being shown."""
         raise NotImplementedError
 
     def made_at_once(self) -> Iterator[Pane]:
-        """All panes; those that are not seen make their parts later."""
+        """Make all panes; hidden ones make their parts later."""
         seen = self.stage.seen_at(self.size)
         for each in ORDERED:
             pane = self.made(each.load(), each.id)
@@ -93,13 +93,13 @@ class ArrivingApp(App[None]):
             yield pane
 
     def arrive(self, reach: Callable[[], System], there: Callable[[], None]) -> None:
-        """Bring everything; `reach` gives the system, `there` is called when all of it stands."""
+        """Bring up everything; `reach` connects to the system, `there` is called once all of it exists."""
         self._there = there
         self._steps: deque[Callable[[], Awaitable[None]]] = deque([partial(self._bring_system, reach)])
         self.call_after_refresh(self.bring_next)
 
     async def bring_next(self) -> None:
-        """Bring the next part, and go on as soon as the app has seen to its messages."""
+        """Bring up the next part, and continue once the app has handled its messages."""
         if not self.is_running:
             return
         if self._keyboard.is_busy:
@@ -121,7 +121,7 @@ class ArrivingApp(App[None]):
             self._there()
 
     def _is_resting(self) -> bool:
-        """Whether what nobody sees is not to be in the way of a key that comes next."""
+        """Whether hidden parts should wait, to stay out of the way of the next key."""
         return (
             self._only_unseen
             and self.gate.is_eager
@@ -148,7 +148,7 @@ class ArrivingApp(App[None]):
         ]
 
     async def _import_pane(self, entry: PaneEntry) -> None:
-        """Import what a pane is made of; what is wrong with it is told where the pane is made."""
+        """Import the modules of a pane; what is wrong with them is reported where the pane is made."""
         try:
             entry.load()
         except Exception:  # the border to whatever a pane imports
@@ -166,7 +166,7 @@ class ArrivingApp(App[None]):
         await self._keyboard.hold(self._may_act)
 
     async def _choose_hidden(self, hidden: deque[PaneEntry]) -> None:
-        """Bring one of the panes that are not seen: first one that a key waits for."""
+        """Bring up one of the hidden panes, starting with one that a key waits for."""
         wanted = self._awaited()
         entry = next((each for each in hidden if each.id in wanted), hidden[0])
         hidden.remove(entry)

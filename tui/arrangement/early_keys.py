@@ -1,4 +1,4 @@
-"""Which keys need not wait until all panes are there: those whose effect is on what is seen already."""
+"""Which keys can be handled before all panes exist: those that act on what is already visible."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ PANE = "pane('"
 
 
 def panes_needed(app: App[None], stage: Stage, key: str) -> Sequence[str] | None:
-    """The panes without which a key must not be dealt with, by their ids; None where that is all of them."""
+    """The ids of the panes that must exist before a key is handled; None for all of them."""
     active = app.screen.active_bindings.get(key)
     if active is None:
         return None

@@ -26,14 +26,14 @@ def _none() -> Any:
 
 @dataclass(frozen=True)
 class PluginEntry(PaneEntry):
-    """A pane of another package; `find` imports its class, and may raise whatever that raises."""
+    """A pane of another package; `find` imports its class and may raise anything."""
 
     find: Callable[[], Any] = field(default=_none)
     source: str = ""
     """Which package it is of, for a person to read."""
 
     def load(self) -> type[Pane]:
-        """The class of the pane, or one that has a frame around the widget; raises `TypeError` where it is neither."""
+        """The class of the pane, or one that frames the widget; raises `TypeError` where it is neither."""
         found = self.find()
         if not (isinstance(found, type) and issubclass(found, Widget)):
             raise TypeError(f"{self.source}: {found!r} is no class of a Textual widget")
@@ -48,7 +48,7 @@ class PluginEntry(PaneEntry):
 
 
 class PluginPane(Pane):
-    """A frame around another package's widget, which learns of snapshots as a pane does."""
+    """A frame around another package's widget, which receives snapshots as a pane does."""
 
     can_focus = True
     WIDGET: ClassVar[Callable[[Console], Widget]]
@@ -62,19 +62,19 @@ class PluginPane(Pane):
         yield self._widget
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
-        """Hand the snapshot on."""
+        """Pass the snapshot on."""
         self._hand_on("show", snapshot)
 
     def tick(self) -> None:
-        """Hand the beat on."""
+        """Pass the timer tick on."""
         self._hand_on("tick")
 
     def let_go(self) -> None:
-        """Tell it that it ends."""
+        """Tell the widget that it ends."""
         self._hand_on("let_go")
 
     def focus_target(self) -> None:
-        """The widget's first part that takes keys, else the frame."""
+        """The first part of the widget that takes keys, else the frame."""
         next(iter(self._parts()), self).focus()
 
     def next_part(self, step: int) -> bool:

@@ -1,4 +1,4 @@
-"""What is on the screen: the layout or one pane alone, which pane has the keyboard, tabs and keys to match."""
+"""What is on the screen: the layout or a single pane, the focused pane, and the tabs and keys to match."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ FIRST = "parameters"
 
 
 class Stage:
-    """The panes of an app as they are seen. Holds no widget: those are asked for, since a fault replaces some."""
+    """The panes of an app as they are displayed. It holds no widgets, since a fault may replace some of them."""
 
     def __init__(
         self, app: App[None], arrangement: Arrangement, wanted: str, newest: Callable[[], ConsoleSnapshot]
@@ -47,34 +47,34 @@ class Stage:
 
     @cached_property
     def arranging(self) -> Arranging:
-        """What changes the arrangement; made when it is first asked for, which the first frame need not wait for."""
+        """What changes the arrangement; made on first use, so that the first frame need not wait for it."""
         from bot_console.tui.arrangement.arranging import Arranging
 
         return Arranging(self, self.arrangement)
 
     def entries(self) -> Sequence[PaneEntry]:
-        """All panes that there are."""
+        """All available panes."""
         return (*PANES, *self.plugins)
 
     def panes(self) -> list[Pane]:
-        """All panes, in the order in which they stand on the screen."""
+        """All panes, in screen order."""
         self._panes = self._panes or cast("list[Pane]", list(self._app.screen_stack[0].query("Pane")))
         return self._panes
 
     def visible(self) -> list[Pane]:
-        """The panes that are drawn now, from the upper left."""
+        """The panes being drawn, from the upper left."""
         order = panes(self._shown())
         seen = (each for each in self.panes() if each.id in order and each.display)
         return sorted(seen, key=lambda each: order.index(each.id or ""))
 
     def heed(self, snapshot: ConsoleSnapshot) -> None:
-        """Let all panes learn what none may miss."""
+        """Let all panes take in what even hidden ones must not miss."""
         for pane in self.panes():
             if not pane.is_ending:
                 pane.heed(snapshot)
 
     def current(self) -> Pane | None:
-        """The pane that has the keyboard, else the one chosen last."""
+        """The focused pane, else the one chosen last."""
         focused, known = self._app.screen_stack[0].focused, self.panes()
         for widget in focused.ancestors_with_self if focused else ():
             if widget in known:
@@ -86,12 +86,12 @@ class Stage:
         return self._extent.width, self._extent.height
 
     def selected(self) -> str:
-        """The pane that has the keyboard, by its id."""
+        """The id of the focused pane."""
         pane = self.current()
         return pane.id or "" if pane is not None else ""
 
     def select(self, pane: str) -> None:
-        """Give a pane that is seen the keyboard."""
+        """Focus a visible pane."""
         for each in self.visible():
             if each.id == pane:
                 self._focused = pane
@@ -99,22 +99,22 @@ class Stage:
         self.show_keys()
 
     def ask(self, question: Question[Any]) -> None:
-        """Ask over the panes."""
+        """Ask a question over the panes."""
         self._app.push_screen(screen_for(question))
 
     def tell(self, text: str) -> None:
-        """Say something in a corner."""
+        """Show a notification."""
         self._app.notify(text, markup=False)
 
     def at_first(self, size: Size) -> list[tuple[str, str, bool]]:
-        """What is to be seen in a terminal of a size: ids and titles of panes, and which is to have the keyboard."""
+        """What a terminal of a size shows at the start: ids and titles of panes, and which gets the focus."""
         shown = self.seen_at(size)
         if self._focused not in shown:
             self._focused = shown[0]
         return [(each.id, each.title, each.id == self._focused) for each in PANES if each.id in shown]
 
     def seen_at(self, size: Size) -> Sequence[str]:
-        """The panes, by their ids, that are to be seen in a terminal of a size, which is that of the screen now."""
+        """The ids of the panes that a terminal of a size shows; the screen has that size now."""
         self._extent = size
         return panes(self._shown())
 
@@ -124,22 +124,22 @@ class Stage:
         self.lay_out()
 
     def look_again(self) -> None:
-        """A pane has come that is not seen."""
+        """Take note of a new hidden pane."""
         self._panes = []
 
     def seen_with(self, name: str) -> Sequence[str]:
-        """The panes, by their ids, that are seen once a pane, or the layout, is chosen."""
+        """The ids of the panes that are visible once a pane, or the layout, is chosen."""
         tree = self._tree() if name == OVERVIEW else None
         return panes(tree or (self._focused if name == OVERVIEW else name))
 
     def changed(self) -> None:
-        """A pane stands where another was, or one has come."""
+        """Take note that a pane was replaced or added."""
         self.look_again()
         if self._app.is_running:  # else the screen is being taken apart
             self.lay_out()
 
     def go(self, name: str) -> None:
-        """Show a pane alone, or the layout."""
+        """Show one pane alone, or the layout."""
         self._wanted = name
         if name != OVERVIEW:
             self._focused = name
@@ -149,13 +149,13 @@ class Stage:
         self.lay_out()
 
     def choose(self, name: str) -> None:
-        """Show what a person asks for; says so where the layout has no room."""
+        """Show what a person asks for; says so when the layout does not fit."""
         self.go(name)
         if name == OVERVIEW and self._tree() is None:
             self.arranging.begin()
 
     def next(self, step: int) -> None:
-        """Go to the next pane: of those seen together, else of all; through a plug-in's parts on the way."""
+        """Go to the next pane, among those on the screen, else among all; through a plug-in's parts on the way."""
         now = self.current()
         if now is not None and now.display and now.next_part(step):
             return
@@ -169,12 +169,12 @@ class Stage:
             self.go(self._focused)
 
     def zoom(self) -> None:
-        """One pane alone, or the layout again."""
+        """Show one pane alone, or the layout again."""
         pane = self.current()
         self.choose(OVERVIEW if self._wanted != OVERVIEW or pane is None else pane.id or OVERVIEW)
 
     def lay_out(self) -> None:
-        """Show what is wanted, as far as there is room."""
+        """Show what was chosen, as far as there is room."""
         screen = self._app.screen_stack[0]
         width, height = self._extent
         small = width < SMALLEST[0] or height < SMALLEST[1]
@@ -199,11 +199,11 @@ class Stage:
         self.show_keys()
 
     def typing(self) -> bool:
-        """Whether a text field has the keyboard."""
+        """Whether a text field has the focus."""
         return isinstance(self._app.focused, Input)
 
     def show_keys(self) -> None:
-        """Show the keys of the pane that has the keyboard, or has it again when what lies over the panes is closed."""
+        """Show the keys of the focused pane."""
         if self._app.screen_stack:
             screen, pane = self._app.screen_stack[0], self.current()
             scopes, typing = pane.scopes if pane else (self._focused,), isinstance(screen.focused, Input)
@@ -234,7 +234,7 @@ class Stage:
 
 
 def too_small(width: int, height: int) -> str:
-    """What is said in a terminal in which nothing fits but, if need be, four short lines."""
+    """The notice for a terminal in which nothing fits but, if need be, four short lines."""
     need = f"{SMALLEST[0]}x{SMALLEST[1]}"
     if width < 40 or height < 6:
         return f"{width}x{height} is too small\n{need} is needed\n! stops the robot\nq quits"

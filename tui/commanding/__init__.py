@@ -1,1 +1,1 @@
-"""What a person asks for in words: the command line, its own verbs, the palette."""
+"""Commands that a person types: the command line, its own verbs, the palette."""

@@ -1,4 +1,4 @@
-"""What may come next on the command line: verbs, and the names of what there is."""
+"""Completion of the command line: verbs, and the names of what exists."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ Place = Callable[[Sequence[str]], Sequence[str]]
 
 
 def split(text: str) -> tuple[list[str], str]:
-    """The words that are complete, and the one that was begun."""
+    """The complete words, and the one being typed."""
     words = text.split()
     return (words, "") if not words or text[-1:].isspace() else (words[:-1], words[-1])
 
 
 def fitting(offered: Sequence[str], begun: str) -> list[str]:
-    """Those that begin as the word does; where there are none those that have it."""
+    """The candidates that begin with the word; if there are none, those that contain it."""
     first = [each for each in offered if each.startswith(begun)]
     return first or [each for each in offered if begun.lower() in each.lower()]
 
 
 def extended(found: Sequence[str], begun: str) -> str:
-    """The word as far as all agree on it."""
+    """The word, extended as far as all candidates agree."""
     first, last = min(found, default=""), max(found, default="")
     # Of sorted words the first and the last differ soonest.
     same = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(first, last, strict=False)))
@@ -48,16 +48,16 @@ def live_names(snapshot: ConsoleSnapshot, words: Sequence[str]) -> list[str] | N
 
 
 class Completion:
-    """Finds what may stand at the end of a line; asked once for each place, narrowed while the word is typed."""
+    """Finds candidates for the end of a line: asks once per position, then narrows while the word is typed."""
 
     def __init__(self, ask: Callable[[Sequence[str]], Future[Sequence[str]]]) -> None:
-        """`ask` is given the words before the one that was begun, which is empty or begins an option."""
+        """`ask` is given the words before the one being typed, which is empty or begins an option."""
         self._ask = ask
         self._asked: tuple[str, ...] = ()
         self._answer: Future[Sequence[str]] | None = None
 
     def found(self, text: str) -> list[str]:
-        """What the last word may become, as far as it is known by now."""
+        """The candidates for the last word that are known so far."""
         before, begun = split(text)
         place = (*before, "-" if begun.startswith("-") else "")
         if self._answer is None or place != self._asked:
@@ -67,10 +67,10 @@ class Completion:
         return fitting(sorted(self._answer.result()), begun)
 
     def forget(self) -> None:
-        """The line was closed: what there is may have changed."""
+        """Forget everything when the line is closed: what exists may have changed."""
         self._answer = None
 
     @property
     def waits(self) -> bool:
-        """Whether the answer is still to come."""
+        """Whether the answer has not come yet."""
         return self._answer is not None and not self._answer.done()

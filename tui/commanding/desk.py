@@ -1,4 +1,4 @@
-"""Where words become deeds: the palette, the command line, and what lines act on."""
+"""Runs what a person types or picks: the palette, the command line, and their effects on the screen."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from textual.app import App
 
 
 class Desk:
-    """Takes words from a person, and does what they say on the screen; `tui.commanding.runner.Host`."""
+    """Takes commands from a person and carries them out; implements `tui.commanding.runner.Host`."""
 
     def __init__(
         self,
@@ -38,7 +38,7 @@ class Desk:
         open: Callable[[Opening], None],
         run_outside: Callable[[Sequence[str]], int],
     ) -> None:
-        """`run_outside` lets a program have the terminal until it ends, and gives its exit code."""
+        """`run_outside` hands the terminal to a program until it ends, and returns its exit code."""
         self._app = app
         self._stage = stage
         self._stopping = stopping
@@ -49,7 +49,7 @@ class Desk:
         self._completion = Completion(self.runner.offered)
 
     def field(self) -> CommandField:
-        """The command line, to be put on the screen."""
+        """The command line's widget."""
         return CommandField(self.runner, self._completion)
 
     def ask_line(self) -> None:
@@ -57,14 +57,14 @@ class Desk:
         self._app.screen_stack[0].query_one(CommandField).open()
 
     def look(self) -> None:
-        """Show what has come for the command line and for the line below the panes; called now and then."""
+        """Show new output of the command line and of the lines below the panes; called now and then."""
         # Both lie on the screen itself: to search all below it at every beat takes a tenth of the thread that draws.
         for each in self._app.screen_stack[0].children:
             if isinstance(each, (StreamPanels, CommandField)):
                 each.look()
 
     def palette(self) -> None:
-        """Ask for a command: an action by its words, or a line."""
+        """Open the palette: an action by its words, or a command line."""
         known = {**all_commands(self._app, self._stage.current()), **self._plugins()}
         self._app.push_screen(
             screen_for(
@@ -85,15 +85,15 @@ class Desk:
         }
 
     def notify(self, message: str, *, severity: Any = "information", title: str = "") -> None:
-        """Tell something in a corner."""
+        """Show a notification."""
         self._app.notify(message, severity=severity, title=title)
 
     def push_screen(self, screen: Any, /) -> None:
-        """Put something over the panes."""
+        """Put a screen over the panes."""
         self._app.push_screen(screen)
 
     def call_later(self, callback: Callable[..., Any], /, *args: Any) -> object:
-        """Call back in the thread that draws."""
+        """Call back on the thread that draws."""
         return self._app.call_later(callback, *args)
 
     def open(self, opening: Opening) -> None:
@@ -101,15 +101,15 @@ class Desk:
         self._open(opening)
 
     def show_stream(self, line: str, stream: Stream) -> None:
-        """Show a line that goes on below the panes."""
+        """Show a command line that keeps running below the panes."""
         self._streams().begin(line, stream)
 
     def stream_problem(self, words: Sequence[str]) -> str:
-        """Why a line of `ros2`, without that word, has no room below the panes; empty when it has."""
+        """Why a `ros2` line (without that word) has no room below the panes; empty when it has."""
         return self._streams().problem(words)
 
     def end_stream(self) -> None:
-        """End the line below the panes; of several, the one that is chosen."""
+        """Stop the command line below the panes; if there are several, the one that is chosen."""
         streams = self._streams()
         if len(streams.panels) > 1:
             self._app.push_screen(screen_for(which_stream(streams)))
@@ -129,10 +129,10 @@ class Desk:
         return sorted(self._stage.arranging.arrangement.layouts())
 
     def show_bag(self, folder: str) -> None:
-        """Show a bag in a console of its own, which has the terminal until it is quit."""
+        """Show a bag in a console of its own, which has the terminal until it quits."""
         if self._run_outside([*own_program("bot_console.tui"), "bag", "open", folder]):
             self.notify(f"{folder} cannot be shown; bot-console bag info {folder} says why", severity="error")
 
     def hold_robot(self, hold: bool) -> None:
-        """Hold the robot, or release it, after a question where others hold it too."""
+        """Stop and hold the robot, or release it; asks first where others hold it too."""
         (self._stopping.hold if hold else self._stopping.release)()

@@ -1,4 +1,4 @@
-"""Which of the command lines that go on below the panes is to end."""
+"""Choosing which of the running command lines below the panes to stop."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ ALL = "all"
 
 
 def which_stream(streams: StreamPanels) -> Choice:
-    """Ask which line is to end; one that has left meanwhile ends nothing else."""
+    """Ask which line to stop; if it has ended meanwhile, no other is stopped instead."""
     offered = {str(number): each for number, each in enumerate(streams.panels, 1)}
 
     def find(typed: str) -> Sequence[Option]:

@@ -1,4 +1,4 @@
-"""The lines typed before, kept from run to run."""
+"""The history of the command line, kept between runs."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ LARGEST = 1 << 20
 
 
 class LineHistory:
-    """Lines, the newest last, and a walk through those that begin with a text or have it."""
+    """Lines, newest last, and a walk through those that begin with a text or contain it."""
 
     def __init__(self, path: Path | None = None) -> None:
         self._path = path
@@ -26,11 +26,11 @@ class LineHistory:
 
     @property
     def file(self) -> Path:
-        """Where the lines are kept."""
+        """The history file."""
         return self._path or state_folder() / "command-lines.txt"
 
     def lines(self) -> list[str]:
-        """All of them; none where the file cannot be read."""
+        """All lines; none if the file cannot be read."""
         if self._lines is None:
             self._lines = []
             with contextlib.suppress(OSError), self.file.open("rb") as file:
@@ -40,7 +40,7 @@ class LineHistory:
         return self._lines
 
     def add(self, line: str) -> None:
-        """Keep a line; one that was typed before becomes the newest. Where the file cannot be written it is for now."""
+        """Add a line; a repeated one becomes the newest. If the file cannot be written, it is kept for this run."""
         known = self.lines()
         self._lines = [*(each for each in known if each != line), line][-MOST:]
         self.stay()
@@ -48,13 +48,14 @@ class LineHistory:
             save_file(self.file, "".join(f"{each}\n" for each in self._lines))
 
     def stay(self) -> None:
-        """The text was changed: the next step begins a new walk."""
+        """Start a new walk at the next step, since the text was edited."""
         self._sought = None
 
     def step(self, typed: str, step: int, *, anywhere: bool = False) -> str:
-        """The line before (`step` -1) or after the one that is shown, of those that begin with what was typed.
+        """The line before (`step` -1) or after the current one, among those that begin with what was typed.
 
-        With `anywhere` those that have it. Behind the newest stands what was typed; beyond the ends nothing changes.
+        With `anywhere`, among those that contain it. After the newest comes what was typed; beyond either end nothing
+        changes.
         """
         lines = self.lines()
         if self._sought is None:

@@ -1,4 +1,4 @@
-"""The command palette: every key's action by its words, and `ros2 ...` lines."""
+"""The command palette: every key's action, found by its words, and `ros2 ...` lines."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ INSIDE = ("list", "diagram")
 
 @dataclass(frozen=True)
 class Command:
-    """An action of the key table, bound to what it is for."""
+    """An action of the key table, bound to its target."""
 
     text: str
     keys: str
@@ -30,7 +30,7 @@ class Command:
 
 
 def all_commands(app: App[None], pane: Pane | None) -> Mapping[str, Command]:
-    """The actions that can be run now, by the id of their key: those of the pane first."""
+    """The actions available now, by the id of their key; those of the pane come first."""
     scopes = [(each, pane) for each in pane.scopes if each not in INSIDE] if pane is not None else []
     found = {
         key.id: Command(key.text, key_text(key), partial(app.call_later, app.run_action, key.action, target))
@@ -41,9 +41,9 @@ def all_commands(app: App[None], pane: Pane | None) -> Mapping[str, Command]:
 
 
 def options_for(commands: Mapping[str, Command], risk: Callable[[str], str], typed: str) -> Sequence[Option]:
-    """The commands whose words match, the best first; a `ros2` line as it stands; all while nothing is typed.
+    """The commands whose words match, best first; a `ros2` line as it stands; everything while nothing is typed.
 
-    `risk` is what a line would take from the robot's safety, which is said before it is run.
+    `risk` says how a line would make the robot less safe, which is shown before it is run.
     """
     words = typed.strip()
     if not words:

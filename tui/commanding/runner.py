@@ -1,4 +1,4 @@
-"""Lines that a person typed: run by their first word, or refused with what to type instead."""
+"""Runs the lines that a person types, by their first word, or says what to type instead."""
 
 from __future__ import annotations
 
@@ -26,18 +26,18 @@ STAMP = "%Y_%m_%d-%H_%M_%S"
 
 
 class Host(Protocol):
-    """The screen, as far as lines act on it."""
+    """The screen, as far as command lines affect it."""
 
     def notify(self, message: str, *, severity: Any = ..., title: str = ...) -> None:
-        """Tell something in a corner."""
+        """Show a notification."""
         ...
 
     def push_screen(self, screen: Any, /) -> object:
-        """Put something over the panes."""
+        """Put a screen over the panes."""
         ...
 
     def call_later(self, callback: Callable[..., Any], /, *args: Any) -> object:
-        """Call back in the thread that draws."""
+        """Call back on the thread that draws."""
         ...
 
     def open(self, opening: Opening) -> None:
@@ -45,15 +45,15 @@ class Host(Protocol):
         ...
 
     def show_stream(self, line: str, stream: Stream) -> None:
-        """Show a line that goes on below the panes."""
+        """Show a command line that keeps running below the panes."""
         ...
 
     def stream_problem(self, words: Sequence[str]) -> str:
-        """Why a line of `ros2`, without that word, has no room below the panes; empty when it has."""
+        """Why a `ros2` line (without that word) has no room below the panes; empty when it has."""
         ...
 
     def load_layout(self, name: str) -> None:
-        """Show a layout; raises `LookupError` for one that is not there."""
+        """Show a layout; raises `LookupError` if there is none of that name."""
         ...
 
     def layouts(self) -> Sequence[str]:
@@ -61,16 +61,16 @@ class Host(Protocol):
         ...
 
     def show_bag(self, folder: str) -> None:
-        """Show a bag in the place of everything, until that is quit."""
+        """Show a bag in place of everything else until that is quit."""
         ...
 
     def hold_robot(self, hold: bool) -> None:
-        """Hold the robot, or release it, after a question where others hold it too."""
+        """Stop and hold the robot, or release it; asks first where others hold it too."""
         ...
 
 
 class LineRunner:
-    """Runs lines, and says beforehand what is wrong with one."""
+    """Runs lines, and says beforehand what is wrong with them."""
 
     def __init__(self, host: Host, console: Console, lines: CommandLine) -> None:
         self._host = host
@@ -78,7 +78,7 @@ class LineRunner:
         self._lines = lines
 
     def wrong(self, line: str) -> str:
-        """What is wrong with a line, and how to mend it; empty when nothing is that can be known beforehand."""
+        """What is wrong with a line, and how to fix it; empty when no mistake can be seen before it runs."""
         try:
             words = shlex.split(line)
         except ValueError:
@@ -111,7 +111,7 @@ class LineRunner:
         return wrong
 
     def outlook(self, line: str) -> str:
-        """What a line would take from the robot's safety, else how its verb is written."""
+        """How a line would make the robot less safe, or else the usage of its verb."""
         words = line.split()
         as_set = ["ros2", "param", *words] if words[:1] == ["set"] else words
         full = as_set if as_set[:1] == ["ros2"] else ["ros2", *as_set]
@@ -121,7 +121,7 @@ class LineRunner:
         return VERBS[words[0]].usage if words and words[0] in VERBS else ""
 
     def offered(self, words: Sequence[str]) -> Future[Sequence[str]]:
-        """What the last of the words, which may be empty, may become."""
+        """Candidates for the last word, which may be empty."""
         *before, begun = words
         if before and before[0] in VERBS:
             snapshot, layouts, paths = self._console.snapshot(), self._host.layouts, self._console.plottable
@@ -132,7 +132,7 @@ class LineRunner:
         return self._lines.complete(words, self._console.snapshot())
 
     def run(self, line: str) -> None:
-        """Run a line; what is wrong with it is told."""
+        """Run a line, or say what is wrong with it."""
         wrong = self.wrong(line)
         if wrong:
             self._host.notify(wrong, severity="error")

@@ -1,4 +1,4 @@
-"""The console's own verbs of the command line; everything else is a line of `ros2`."""
+"""The console's own verbs of the command line; every other line goes to `ros2`."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from bot_console.tui.format import parse_value
 
 @dataclass(frozen=True)
 class Verb:
-    """A verb: how it is written, what it does, and what stands at its places."""
+    """A verb: its usage, what it does, and what goes in each of its positions."""
 
     usage: str
     about: str
@@ -35,7 +35,7 @@ VERBS: Mapping[str, Verb] = {
 
 @dataclass(frozen=True)
 class Setting:
-    """A parameter and the value that it is to have."""
+    """A parameter and the value to give it."""
 
     node: str
     name: str
@@ -43,7 +43,7 @@ class Setting:
 
 
 def setting_of(words: Sequence[str], snapshot: ConsoleSnapshot) -> Setting:
-    """What `set NODE PARAMETER VALUE` means; raises `ValueError` with the mend."""
+    """Parse `set NODE PARAMETER VALUE`; raises `ValueError` that says how to fix it."""
     node, name, text = words[0], words[1], " ".join(words[2:])
     parameter = _parameter(node, name, snapshot)
     return Setting(parameter.node, name, parse_value(text, parameter))
@@ -60,7 +60,7 @@ def _parameter(node: str, name: str, snapshot: ConsoleSnapshot) -> ParameterInfo
 
 
 def wrong_use(words: Sequence[str]) -> str:
-    """What is wrong with the number of words after a verb of ours; empty when nothing is."""
+    """What is wrong with the number of arguments of one of our verbs; empty when nothing is."""
     verb = VERBS[words[0]]
     return "" if verb.least <= len(words) - 1 <= verb.most else f"write it as: {verb.usage}"
 
@@ -78,7 +78,7 @@ def places(
     layouts: Callable[[], Sequence[str]],
     paths: Callable[[], Sequence[str]],
 ) -> Sequence[str]:
-    """What may follow the words of a verb of ours."""
+    """What may come next in the arguments of one of our verbs."""
     verb, *given = before
     if verb == "set":
         tree = snapshot.parameters.get(f"/{given[0].lstrip('/')}") if given else None

@@ -1,1 +1,1 @@
-"""Files that the console writes, and where they are."""
+"""Files that the console writes, and where they are kept."""

@@ -1,4 +1,4 @@
-"""What is kept of a fault of the console itself: one line for the person, the whole traceback in a file."""
+"""The record of a crash of the console itself: one line for the person, the full traceback in a file."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from bot_console.tui.files.folders import state_folder
 
 
 def reason(error: BaseException) -> str:
-    """The fault on one line, with the place where it happened."""
+    """The exception on one line, with the place where it was raised."""
     last = traceback.extract_tb(error.__traceback__)[-1:]
     where = f" ({Path(last[0].filename).name}:{last[0].lineno})" if last else ""
     text = " ".join(str(error).split())
@@ -22,7 +22,7 @@ def reason(error: BaseException) -> str:
 
 
 def keep(error: BaseException) -> str:
-    """Write the traceback to a file and give its path; empty where nothing can be written."""
+    """Write the traceback to a file and return its path; empty if nothing can be written."""
     text = "".join(traceback.format_exception(type(error), error, error.__traceback__))
     name = f"crash-{time.strftime('%Y%m%d-%H%M%S')}-{os.getpid()}.txt"
     for folder in (state_folder(), Path(tempfile.gettempdir())):

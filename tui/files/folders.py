@@ -1,4 +1,4 @@
-"""Where the user's own files are: settings and layouts, and what a program leaves behind."""
+"""The user's folders: settings and layouts, and what the program leaves behind."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ OVERRIDE = "BOT_CONSOLE_USER_DIR"
 
 
 def config_folder() -> Path:
-    """What a person writes: settings, layouts, profiles (`~/.config/bot-console` on Linux)."""
+    """For what a person writes: settings, layouts, profiles (`~/.config/bot-console` on Linux)."""
     given = os.environ.get(OVERRIDE)
     return Path(given) / "config" if given else _platform("user_config_path")
 
 
 def state_folder() -> Path:
-    """What the program keeps from run to run: history, the last screen, crash files (`~/.local/state/bot-console`)."""
+    """For what the program keeps between runs: history, last screen, crash files (`~/.local/state/bot-console`)."""
     given = os.environ.get(OVERRIDE)
     return Path(given) / "state" if given else _platform("user_state_path")
 

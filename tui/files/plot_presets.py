@@ -1,4 +1,4 @@
-"""Curves that are kept under a name, in the user's folder: one JSON file each."""
+"""Saved sets of curves, in the user's folder: one JSON file each."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ MOST_CURVES = 200
 
 
 class NoPreset(ValueError):
-    """There are no curves of that name; the text says why."""
+    """There is no preset of that name; the text says why."""
 
 
 @dataclass(frozen=True)
 class KeptCurve:
-    """A curve as a person asked for it."""
+    """A curve as a person requested it."""
 
     curve: str
     right: bool = False
@@ -32,7 +32,7 @@ class KeptCurve:
 
 @dataclass(frozen=True)
 class Preset:
-    """Curves, the length of the window (s), the limits of the values, and the curve in place of time."""
+    """Curves, the length of the time window (s), the limits of the value axis, and the curve of the x axis, if any."""
 
     curves: tuple[KeptCurve, ...]
     window: float = 30.0
@@ -41,25 +41,25 @@ class Preset:
 
 
 def preset_names() -> Sequence[str]:
-    """The names that there are."""
+    """The names of all presets."""
     return sorted(each.stem for each in _folder().glob("*.json"))
 
 
 def wrong_name(text: str) -> str:
-    """Why a text cannot be a name; empty when it can."""
+    """Why a text cannot be the name of a preset; empty when it can."""
     fits = re.fullmatch(r"[\w][\w .-]{0,59}", text.strip())
     return "" if fits else "letters, digits, blanks, dots and dashes make a name"
 
 
 def keep_preset(name: str, preset: Preset) -> Path:
-    """Keep curves under a name, in place of those that had it; raises `NotSaved`."""
+    """Save curves under a name, replacing any earlier ones; raises `NotSaved`."""
     path = _folder() / f"{name.strip()}.json"
     save_file(path, json.dumps(asdict(preset), indent=1, ensure_ascii=False) + "\n")
     return path
 
 
 def read_preset(name: str) -> Preset:
-    """The curves of a name; raises `NoPreset`."""
+    """The curves saved under a name; raises `NoPreset`."""
     path = _folder() / f"{name}.json"
     try:
         with path.open("rb") as file:

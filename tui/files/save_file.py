@@ -16,11 +16,11 @@ LEFT_OVER = 600.0
 
 
 class NotSaved(OSError):
-    """A file could not be saved, and what was there has stayed; the text names the file and says why."""
+    """A file could not be saved and its old content is intact; the text names the file and says why."""
 
 
 def typed_path(text: str) -> Path:
-    """The path that a person typed, `~` included; raises `NotSaved` where it can be none."""
+    """The path that a person typed, with `~` expanded; raises `NotSaved` for a text that cannot be a path."""
     text = text.strip()
     if not text or "\0" in text:
         raise NotSaved("give a file name" if not text else "a file name cannot hold a zero byte")
@@ -35,11 +35,13 @@ def typed_path(text: str) -> Path:
 
 
 def save_file(path: Path, content: str | bytes, check: Callable[[bytes], None] | None = None) -> None:
-    """Write a file, and its folder where that is missing; text is written as UTF-8 with the line ends that it has.
+    """Write a file, creating its folder if necessary; text is written as UTF-8 with the line ends it has.
 
-    The content is written beside the file, put on the disk, read back and given to `check`, and only then renamed:
-    after a full disk, a crash or an error of `check` the old content stands. A symbolic link stays one; mode and owner
-    stay; a new file follows the umask. Raises `NotSaved`, and whatever `check` raises.
+    The content is written beside the file, synced to disk, read back, passed to `check`, and only then renamed: after a
+    full
+    disk, a crash or an error in `check` the old content is intact. A symbolic link stays a link; mode and owner stay; a
+    new
+    file follows the umask. Raises `NotSaved`, and whatever `check` raises.
     """
     try:
         _save(path, content.encode() if isinstance(content, str) else content, check)
@@ -88,7 +90,7 @@ def _save(path: Path, content: bytes, check: Callable[[bytes], None] | None) -> 
 
 
 def _replaceable(path: Path, target: Path) -> os.stat_result | None:
-    """What is known of the file that is there; raises `NotSaved` for one that must not be replaced."""
+    """The status of the existing file; raises `NotSaved` for one that must not be replaced."""
     try:
         old = target.stat()
     except FileNotFoundError:
@@ -112,7 +114,7 @@ def _write(path: Path, content: bytes, mode: int) -> None:
 
 
 def _take_after(new: Path, old: os.stat_result, path: Path) -> None:
-    """Give a file the owner and mode of the one that it replaces."""
+    """Give a file the owner and mode of the one it replaces."""
     now = new.stat()
     if hasattr(os, "chown") and (now.st_uid, now.st_gid) != (old.st_uid, old.st_gid):
         try:
@@ -124,7 +126,7 @@ def _take_after(new: Path, old: os.stat_result, path: Path) -> None:
 
 
 def _put_on_disk(folder: Path) -> None:
-    """Let the rename outlast a power failure, where folders can be opened and a file system puts them on the disk."""
+    """Make the rename survive a power failure, where folders can be opened and the file system syncs them."""
     if os.name == "posix":
         with contextlib.suppress(OSError):
             descriptor = os.open(folder, os.O_RDONLY)
@@ -135,7 +137,7 @@ def _put_on_disk(folder: Path) -> None:
 
 
 def _clear_left_overs(folder: Path) -> None:
-    """Delete what a save left that was killed."""
+    """Delete what an interrupted save left behind."""
     for each in folder.glob(f"{PREFIX}*{SUFFIX}"):
         with contextlib.suppress(OSError):
             if time.time() - each.stat().st_mtime > LEFT_OVER:

@@ -1,1 +1,1 @@
-"""What a key is, and what a person may change about keys; which there are stands in `tui/keymap.py`."""
+"""What a key is, and how people can remap keys; the table of all keys is `tui/keymap.py`."""

@@ -1,4 +1,4 @@
-"""One key: what it does, and how it is written."""
+"""One key: its action, and how it is written."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Key:
-    """One action: its keys (any of them, separated by commas), what it does, and whether the footer names it."""
+    """One action: its keys (alternatives, separated by commas), what it does, and whether the key bar names it."""
 
     id: str
     keys: str
@@ -44,7 +44,7 @@ NAMES = {
 
 
 def key_text(key: Key, most: int = 9) -> str:
-    """The keys of an action, at most so many, as they are written on the keyboard."""
+    """The keys of an action, at most so many, as a person reads them."""
     return " ".join(_written(each) for each in key.keys.split(",")[:most])
 
 

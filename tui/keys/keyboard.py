@@ -33,7 +33,7 @@ Typed: TypeAlias = "events.Key | events.Paste"
 
 
 class Keyboard:
-    """Hands keys on one by one."""
+    """Passes keys on one at a time."""
 
     def __init__(self, app: App[None], deliver: Callable[[Typed], Awaitable[None]]) -> None:
         self._app = app
@@ -51,12 +51,12 @@ class Keyboard:
 
     @property
     def is_busy(self) -> bool:
-        """Whether what a key brings about is still under way."""
+        """Whether the effects of a key are still in progress."""
         return bool(self._under_way)
 
     @property
     def next(self) -> Typed | None:
-        """What is dealt with next, where that was held up."""
+        """The key to be handled next, if keys are being held."""
         return self._waiting[0] if self._waiting else None
 
     def overtake(self, event: events.Key) -> None:
@@ -68,7 +68,7 @@ class Keyboard:
         return event.time < self._overtaken
 
     async def typed(self, event: Typed) -> None:
-        """Deal with a key now, or when those before it are done."""
+        """Handle a key now, or after those before it."""
         self._waiting.append(event)
         if not self._under_way:
             await self._next()
@@ -89,7 +89,7 @@ class Keyboard:
                 self._be_patient()
 
     def _first(self) -> Typed:
-        """What is to be dealt with next, as what has the keyboard now takes it."""
+        """The next key to handle, as the focused widget takes it."""
         event = self._waiting[0]
         if isinstance(event, events.Key) and (both := told_apart(event, self._app.screen)):
             self._waiting.popleft()
@@ -97,23 +97,23 @@ class Keyboard:
         return self._waiting[0]
 
     async def hold(self, passes: Callable[[Typed], bool]) -> None:
-        """Deal only with keys that may pass, as long as they are the next ones."""
+        """Hold keys back, except those that may pass, as long as they are first in line."""
         self.passes = passes
         await self._next()
 
     async def let_go(self) -> None:
-        """Deal with all keys that were held, and hold none any more."""
+        """Handle all keys that were held, and hold no more."""
         await self.hold(lambda _: True)
 
     def release(self) -> None:
-        """Go on with the next key: what the last one was with has ended."""
+        """Go on with the next key: the widget that received the last one has ended."""
         self._app.call_later(self._done, self._under_way)
 
     def _be_patient(self) -> None:
         self._app.set_timer(PATIENCE, partial(self._done, self._under_way))
 
     def _follow(self, number: int, path: Sequence[DOMNode]) -> None:
-        """Wait for each on the path to deal with what it has received up to now."""
+        """Wait until each widget on the path has handled what it has received so far."""
         for at, node in enumerate(path):
             if node.is_running and node.call_later(self._follow, number, path[at + 1 :]):
                 return

@@ -12,7 +12,7 @@ BEGIN, END = f"{ESC}[200~", f"{ESC}[201~"
 
 
 class Pasted:
-    """Takes each Esc out of what stands within a paste; what is typed passes as it is, and at once."""
+    """Removes each Esc from pasted text; typed keys pass unchanged and at once."""
 
     def __init__(self) -> None:
         self._inside = False
@@ -22,7 +22,7 @@ class Pasted:
         """The end of a paste so far that may be the first part of `END`."""
 
     def without_escapes(self, text: str) -> str:
-        """The next characters of the terminal, which may break off anywhere."""
+        """The next characters from the terminal, which may stop anywhere."""
         passed: list[str] = []
         while text:
             take = self._take_pasted if self._inside else self._take_typed

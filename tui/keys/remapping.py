@@ -1,4 +1,4 @@
-"""Other keys for actions, as a person wants them."""
+"""Remapping actions to the keys that a person wants."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SHARED = ("app", "find", "narrowed", "list", "diagram")
 
 
 def remap(keys: Mapping[str, str]) -> Mapping[str, str]:
-    """Give actions other keys, by their ids, and return the keys that they have then; help, footer and palette follow.
+    """Give actions other keys, by their ids, and return the keys they have then; help, key bar and palette follow.
 
     Raises `ValueError` with what `wrong_keys` says.
     """
@@ -31,7 +31,7 @@ def remap(keys: Mapping[str, str]) -> Mapping[str, str]:
 
 
 def wrong_keys(keys: Mapping[str, str]) -> str:
-    """Why actions cannot have other keys: an unknown id, no key, one key for two actions; empty when they can."""
+    """Why actions cannot have these keys: unknown id, no key, one key for two actions; empty when they can."""
     known = {key.id: key for table in TABLE.values() for key in table}
     for id, given in keys.items():
         if id not in known:
@@ -51,7 +51,7 @@ def wrong_keys(keys: Mapping[str, str]) -> str:
 
 
 def _new(key: Key, keys: Mapping[str, str], pressed: str) -> bool:
-    """Whether an action has a key only because a person wants it."""
+    """Whether an action has a key only because a person remapped it."""
     return key.id in keys and pressed not in key.keys.split(",")
 
 

@@ -1,6 +1,7 @@
-"""The thread that takes keys off the terminal, as Textual's own (8.2) does, but for its end, which waits for nothing.
+"""The thread that reads keys from the terminal, as Textual's own (8.2) does, but which ends at once when told to.
 
-Textual's looks for its end ten times a second, and a last time with nothing to wait for: leaving took it 0.1 to 0.2 s.
+Textual's checks ten times a second whether it should end, and once more with nothing to read: quitting took it 0.1 to
+0.2 s.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ FIRST = 100
 
 
 class Ending(threading.Event):
-    """An event that also wakes who waits for a descriptor; without descriptors to spare it is found by looking."""
+    """An event that also wakes a thread waiting for a descriptor; where descriptors run out, it is polled."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -62,13 +63,16 @@ class Ending(threading.Event):
 
 
 def ends_at_once(driver: Any) -> None:
-    """Let a Linux driver of Textual's take keys in a thread that ends as soon as it is asked to."""
+    """Make a Linux driver of Textual read keys in a thread that ends as soon as it is told to."""
     driver.exit_event = ending = Ending()
     driver.run_input_thread = partial(take_keys, driver, ending)
 
 
 def take_keys(driver: Any, ending: Ending) -> None:
-    """Hand on what is typed until the end, or that of the terminal. Bytes that are no text are shown as such."""
+    """Pass on what is typed until told to end, or until the terminal closes.
+
+    Bytes that are not text are shown as such.
+    """
     parser: Any = EscapeParser(driver._debug)
     pasted = Pasted()
     decode = getincrementaldecoder("utf-8")("replace").decode

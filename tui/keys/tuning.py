@@ -1,4 +1,4 @@
-"""The part of the key table that is for tuning: parameters, plot, profiles, history."""
+"""The key table for tuning: parameters, plot, profiles, history."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The part of the key table that is about watching the robot: diagnostics, alarms, images."""
+"""The key table for watching the robot: diagnostics, alarms, images."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""How panes share the screen: a tree of splits, what it comes to in cells, and the layouts that have names."""
+"""How panes share the screen: a tree of splits, its size in cells, and named layouts."""

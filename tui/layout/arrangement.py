@@ -1,4 +1,4 @@
-"""How the panes stand now: a layout by its name, what was changed since, and what it was before that."""
+"""The current arrangement: a named layout, the changes made to it, and their undo history."""
 
 from __future__ import annotations
 
@@ -18,29 +18,29 @@ REMEMBERED = 50
 
 
 class LayoutStore(Protocol):
-    """Where layouts are kept."""
+    """Where layouts are stored."""
 
     def layouts(self) -> Mapping[str, Layout]:
-        """The layouts of the user, by name; those that cannot be read are left out."""
+        """The user's layouts by name, without those that cannot be read."""
         ...
 
     def save(self, name: str, tree: Tree) -> str:
-        """Keep a tree under a name and give the file; raises `NotSaved`."""
+        """Save a tree under a name and return the file; raises `NotSaved`."""
         ...
 
     def remember(self, name: str, tree: Tree | None) -> None:
-        """Note what is on the screen at the end: a layout, and its tree where that was changed; never raises."""
+        """Save what is on the screen at the end: a layout, and its tree if it was changed; never raises."""
         ...
 
 
 class Forgetful:
-    """A store that keeps layouts as long as the program runs."""
+    """A store that keeps layouts only while the program runs."""
 
     def __init__(self) -> None:
         self.kept: dict[str, Layout] = {}
 
     def layouts(self) -> Mapping[str, Layout]:
-        """Those saved so far."""
+        """The layouts saved so far."""
         return self.kept
 
     def save(self, name: str, tree: Tree) -> str:
@@ -53,10 +53,10 @@ class Forgetful:
 
 
 class Arrangement:
-    """The layout on the screen, its changes, and the way back."""
+    """The layout on the screen, its changes, and their undo history."""
 
     def __init__(self, store: LayoutStore | None = None, name: str = OVERVIEW, tree: Tree | None = None) -> None:
-        """Begin with a layout, or with a tree that was made from it; raises `LookupError` for an unknown name."""
+        """Begin with a layout, or with a tree derived from it; raises `LookupError` for an unknown name."""
         self._store = store or Forgetful()
         self._known: Mapping[str, Layout] = {}
         self._changed = tree
@@ -66,17 +66,17 @@ class Arrangement:
         self.name = name
 
     def layouts(self) -> Mapping[str, Layout]:
-        """All layouts there are; one of the user's stands before one of the same name that comes with the console."""
+        """All layouts; one of the user's takes precedence over a built-in one of the same name."""
         self._known = {**BUILT_IN, **self._store.layouts()}
         return self._known
 
     @property
     def title(self) -> str:
-        """The layout's name, with a star where it was changed."""
+        """The layout's name, with a star if it was changed."""
         return f"{self.name}{'*' if self._changed is not None else ''}"
 
     def tree(self, width: int, height: int) -> Tree | None:
-        """What to show in a terminal of so many cells; None where there is too little room for all of it."""
+        """What to show in a terminal of so many cells; None if not all of it fits."""
         tree = self._changed
         if tree is None:
             layout = self._layout()
@@ -87,40 +87,40 @@ class Arrangement:
         return tree if fits(boxes(tree, Box(0, 0, width, height - CHROME))) else None
 
     def least(self) -> tuple[int, int]:
-        """Columns and lines from which on it is shown."""
+        """The columns and lines it needs to be shown."""
         columns = next((each for each in range(1, MOST) if self.tree(each, MOST) is not None), MOST)
         return columns, next((each for each in range(1, MOST) if self.tree(columns, each) is not None), MOST)
 
     def _layout(self) -> Layout:
-        """The layout by the files as they were read last: this is asked for with each snapshot."""
+        """The layout as last read from its file: this is asked for with each snapshot."""
         known = self._known or self.layouts()
         return known.get(self.name, BUILT_IN[OVERVIEW])
 
     def change(self, tree: Tree) -> None:
-        """Show another tree."""
+        """Show another tree, as a step of its own for undo."""
         self._note()
         self._changed = tree
 
     def drag(self, tree: Tree) -> None:
-        """Show another tree without a step of its own: the next of many while a border is dragged."""
+        """Show another tree within the same undo step, while a border is being dragged."""
         self._changed = tree
 
     def load(self, name: str) -> None:
-        """Show a layout as it was saved; raises `LookupError` for a name that there is not."""
+        """Show a layout as it was saved; raises `LookupError` for an unknown name."""
         if name not in self.layouts():
             raise LookupError(f"there is no layout '{name}'")
         self._note()
         self.name, self._changed = name, None
 
     def undo(self) -> bool:
-        """Take the last change back; False where there is none."""
+        """Undo the last change; False if there is none."""
         if not self._before:
             return False
         self.name, self._changed = self._before.pop()
         return True
 
     def save(self, name: str, tree: Tree) -> str:
-        """Keep what is shown under a name, which it has from then on; raises `NotSaved`."""
+        """Save what is shown under a name, which becomes its name; raises `NotSaved`."""
         kept = self._store.save(name, tree)
         self.layouts()
         self._note()
@@ -128,7 +128,7 @@ class Arrangement:
         return kept
 
     def remember(self) -> None:
-        """Let the next start begin with what is on the screen."""
+        """Make the next start begin with what is on the screen."""
         self._store.remember(self.name, self._changed)
 
     def _note(self) -> None:

@@ -1,4 +1,4 @@
-"""Trees of splits as plain data, as they stand in a layout file."""
+"""Trees of splits as plain data, the form of a layout file."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ DEEPEST = 8
 
 
 class NoLayout(ValueError):
-    """Data that describe no layout; the text says what is wrong and how it should be."""
+    """The data describe no layout; the text says what is wrong and what is expected."""
 
 
 def data_of(tree: Tree) -> object:

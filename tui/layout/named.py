@@ -1,4 +1,4 @@
-"""The layouts that come with the console."""
+"""The built-in layouts."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ OVERVIEW = "overview"
 
 @dataclass(frozen=True)
 class Layout:
-    """A tree, what it is for, and the columns and lines from which it is shown; below, one pane at a time is."""
+    """A tree, what it is for, and the columns and lines it needs; in a smaller terminal one pane is shown at a time."""
 
     tree: Tree
     about: str = ""

@@ -1,7 +1,8 @@
-"""Perspectives of rqt: which plug-ins a window had, so that their panes stand here. Their places are not taken over.
+"""Reads rqt perspectives: which plug-ins a window had, to show the matching panes. Their positions are not taken over.
 
 rqt writes JSON (`.perspective`) or an INI file; both name each open plug-in as `plugin__<package>__<class>__<number>`,
-or in a list `'<package>/<class>': [1, 2]` of those that run.
+or in
+a list `'<package>/<class>': [1, 2]` of those that are running.
 """
 
 from __future__ import annotations
@@ -17,10 +18,9 @@ OPEN = re.compile(r"plugin__(rqt_[a-z0-9_]{1,60}?)__[A-Z]\w{0,60}?__\d")
 
 
 def perspective_tree(text: str, panes: Mapping[str, str]) -> tuple[Tree, list[str]]:
-    """The panes that do the work of a perspective's plug-ins, and the plug-ins that nothing here answers to.
+    """The panes that match a perspective's plug-ins, and the plug-ins that have no match.
 
-    `panes` says which pane does the work of a package of rqt. Raises `NoLayout` where the text is no perspective, or
-    no pane is left.
+    `panes` maps a package of rqt to a pane. Raises `NoLayout` if the text is no perspective, or no pane is left.
     """
     packages = list(dict.fromkeys(RUNNING.findall(text) or OPEN.findall(text)))
     if not packages:

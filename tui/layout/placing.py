@@ -1,4 +1,4 @@
-"""What a tree of splits comes to in cells. Pure."""
+"""Computes the cells of each pane in a tree of splits. Pure."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Box(NamedTuple):
 
 @dataclass(frozen=True)
 class Border:
-    """The line between two parts of a split: which split (a path of part numbers), which line, and where it is."""
+    """The line between two parts of a split: which split (a path of part numbers), which line, and its position."""
 
     path: tuple[int, ...]
     after: int
@@ -35,7 +35,7 @@ class Border:
 
 
 def boxes(tree: Tree, box: Box) -> dict[str, Box]:
-    """Where each pane stands."""
+    """The box of each pane."""
     if isinstance(tree, str):
         return {tree: box}
     found: dict[str, Box] = {}
@@ -59,7 +59,7 @@ def borders(tree: Tree, box: Box, path: tuple[int, ...] = ()) -> Iterator[Border
 
 
 def _parts(tree: Split, box: Box) -> list[Box]:
-    """The boxes of the parts; what does not divide evenly goes where it is noticed least, cell by cell."""
+    """The boxes of the parts; cells that do not divide evenly go, one by one, where they are noticed least."""
     whole = box.width if tree.way == "beside" else box.height
     total = sum(tree.shares)
     found: list[Box] = []
@@ -76,12 +76,12 @@ def _parts(tree: Split, box: Box) -> list[Box]:
 
 
 def fits(places: Mapping[str, Box]) -> bool:
-    """Whether every pane has room enough to be used."""
+    """Whether every pane has enough room to be usable."""
     return all(each.width >= LEAST[0] and each.height >= LEAST[1] for each in places.values())
 
 
 def neighbour(places: Mapping[str, Box], pane: str, dx: int, dy: int) -> str:
-    """The pane that one comes to from another in a direction; itself where there is none."""
+    """The pane reached from another by going in a direction; itself if there is none."""
     here = places[pane]
     others = [(name, box) for name, box in places.items() if name != pane and _lies(here, box, dx, dy)]
     return min(others, key=lambda each: _distance(here, each[1], dx, dy), default=(pane, here))[0]

@@ -1,6 +1,6 @@
-"""The tree of splits: which panes stand beside and below one another, and how they share the room. Pure.
+"""The tree of splits: which panes are beside and below one another, and how they share the room. Pure.
 
-A tree is a pane, by its id, or a `Split`. A pane stands in a tree once.
+A tree is a pane, by its id, or a `Split`. A pane occurs in a tree at most once.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ def _split(tree: Tree, pane: str, new: str, way: Way) -> Tree:
 
 
 def close(tree: Tree, pane: str) -> Tree | None:
-    """Take a pane away; what stood beside it takes its room. None where nothing is left."""
+    """Remove a pane; its neighbours take its room. None if nothing is left."""
     if isinstance(tree, str):
         return None if tree == pane else tree
     closed = [(close(part, pane), share) for part, share in zip(tree.parts, tree.shares, strict=True)]
@@ -78,15 +78,15 @@ def close(tree: Tree, pane: str) -> Tree | None:
 
 
 def exchange(tree: Tree, one: str, other: str) -> Tree:
-    """Let two panes change places; one that is not there takes the place of the other."""
+    """Swap two panes; one that is not shown replaces the other."""
     names = {one: other, other: one}
     return _named(tree, lambda pane: names.get(pane, pane))
 
 
 def resize(tree: Tree, pane: str, way: Way, part: float) -> Tree:
-    """Make a pane wider (`beside`) or higher (`below`) by a part of the innermost such split it stands in.
+    """Widen (`beside`) or heighten (`below`) a pane within the innermost such split, by a fraction of that split.
 
-    What it gains, its neighbour loses, down to a small rest. A pane in no such split stays as it is.
+    Its neighbour loses what it gains, down to a small minimum. A pane in no such split keeps its size.
     """
     if isinstance(tree, str) or pane not in panes(tree):
         return tree
@@ -98,7 +98,7 @@ def resize(tree: Tree, pane: str, way: Way, part: float) -> Tree:
 
 
 def move_border(tree: Split, border: int, part: float) -> Split:
-    """Move the border after a part of a split by a part of the whole: the one before it gains, the next one loses."""
+    """Move the border after a part of a split, by a fraction of the whole: one side gains what the other loses."""
     whole = sum(tree.shares)
     first, second = (tree.shares[at] / whole for at in (border, border + 1))
     least = min(LEAST_SHARE, first, second)
@@ -111,7 +111,7 @@ def move_border(tree: Split, border: int, part: float) -> Split:
 
 
 def change_at(tree: Tree, path: Sequence[int], change: Callable[[Split], Tree]) -> Tree:
-    """Change the split that a path of part numbers leads to; raises `LookupError` where there is none."""
+    """Change the split at a path of part numbers; raises `LookupError` if there is none."""
     if isinstance(tree, str):
         raise LookupError("there is no split")
     if not path:
@@ -128,7 +128,7 @@ def even(tree: Tree) -> Tree:
 
 
 def turn(tree: Tree, pane: str) -> Tree:
-    """Let the innermost split that a pane stands in run the other way."""
+    """Turn the innermost split that contains a pane: beside becomes below, and the other way round."""
     if isinstance(tree, str):
         return tree
     if pane in tree.parts:
@@ -145,7 +145,7 @@ def _named(tree: Tree, name: Callable[[str], str]) -> Tree:
 
 
 def _merged(way: Way, kept: Sequence[tuple[Tree, int]]) -> Split:
-    """A split in which no part is a split of the same way: that would be the same picture in other words."""
+    """The split with nested splits of its own direction flattened, which looks the same."""
     scale = 1
     for part, _ in kept:
         if isinstance(part, Split) and part.way == way:
