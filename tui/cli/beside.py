@@ -1,4 +1,4 @@
-"""Work beside the caller."""
+"""Work in a thread of its own, with a future for the result."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ T = TypeVar("T")
 
 
 def beside(work: Callable[[], T], name: str) -> Future[T]:
-    """Do some work in a thread of its own, which has that name; its result, or what it raises."""
+    """Run a function in a new thread of that name; the future gives its result or its exception."""
     outcome: Future[T] = Future()
 
     def do() -> None:

@@ -1,6 +1,6 @@
-"""What may come next on a command line: for the completion of shells.
+"""Completion of command lines for shells.
 
-Names are asked from the same verbs that a person would ask, so that what is offered is what the verbs know.
+Names come from the same verbs that a person would use, so that what is offered is what the verbs know.
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ class Names(Protocol):
     """Where names come from."""
 
     def asked(self, *words: str) -> list[str]:
-        """The lines that a verb of `ros2` prints; none where it fails."""
+        """The lines that a `ros2` verb prints; none if it fails."""
         ...
 
     def live(self, *words: str) -> list[str]:
-        """The same, for verbs that tell of what runs."""
+        """The same for verbs that query what runs."""
         ...
 
 
@@ -39,7 +39,7 @@ def run(words: Sequence[str]) -> int:
 
 
 def candidates(words: Sequence[str], names: Names | None = None) -> list[str]:
-    """What the last of the words may become; the words before it are complete."""
+    """The candidates for the last word; the words before it are complete."""
     *before, begun = words or [""]
     if before and before[0] == "ros2":
         before = before[1:]
@@ -75,7 +75,7 @@ def _options(arguments: Callable[[argparse.ArgumentParser], None]) -> list[str]:
 
 
 class ShellNames:
-    """For a shell: a process that ends at once, and may print nothing else."""
+    """Names for a shell: this process ends at once, and must print nothing else."""
 
     def asked(self, *words: str) -> list[str]:
         """The lines that a verb prints; none where it fails."""
@@ -87,7 +87,7 @@ class ShellNames:
         return [] if failed else [line.strip() for line in printed.getvalue().splitlines()]
 
     def live(self, *words: str) -> list[str]:
-        """The same of what runs in the domain; at once nothing where nobody is there."""
+        """The same for what runs in the domain; returns nothing, at once, if the domain is empty."""
         from bot_console.tui.cli.system.domain import others_take_part, take_part
 
         return self.asked(*words) if others_take_part() and not take_part() else []

@@ -1,4 +1,4 @@
-"""How the interpreter is set while a screen is made and shown."""
+"""Interpreter settings while a screen is being built and shown."""
 
 from __future__ import annotations
 
@@ -13,10 +13,11 @@ SWITCH_INTERVAL = 0.0005
 
 @contextlib.contextmanager
 def without_collector() -> Generator[None]:
-    """Look for no garbage until `collect_from_now_on`, or the end.
+    """Switch the garbage collector off until `collect_from_now_on` or the end.
 
-    What is imported and made for the screen stays: to look it through again and again holds up the first frame and
-    the first keys, by tens of milliseconds at a time.
+    What is imported and built for the screen stays: traversing it again and again delays the first frame and the first
+    keys
+    by tens of milliseconds each time.
     """
     gc.disable()
     try:
@@ -26,14 +27,14 @@ def without_collector() -> Generator[None]:
 
 
 def collect_from_now_on() -> None:
-    """Look for garbage again, but not among what there is now."""
+    """Switch the garbage collector on again, ignoring everything that exists by now."""
     gc.freeze()
     gc.enable()
 
 
 @contextlib.contextmanager
 def eager_switching() -> Generator[None]:
-    """Let the screen's thread run soon while others are busy."""
+    """Let the screen's thread run promptly while other threads are busy."""
     before = sys.getswitchinterval()
     sys.setswitchinterval(SWITCH_INTERVAL)
     try:

@@ -1,4 +1,4 @@
-"""What the screen is to look like: from the command line, else the settings file, else the terminal."""
+"""How the screen should look: from the command line, else the settings file, else the terminal."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ LAST = "last"
 
 
 def look_of(options: Options) -> Look:
-    """Read the settings, give actions their keys, and choose the layout."""
+    """Read the settings, remap keys, and choose the layout."""
     settings = read_settings()
     keys = remap(settings.keys)
     store = FileLayouts([each.id for each in PANES])
@@ -40,7 +40,7 @@ def look_of(options: Options) -> Look:
 
 
 def _system(options: Options) -> str:
-    """What is shown, so that each system has its own memory of how the screen was left."""
+    """An id of the system shown, so that each has its own memory of how the screen was left."""
     if options.attach:
         return f"attach {options.reached_by}"
     return str(Path(options.launch).resolve()) if options.launch else "robot"
@@ -73,7 +73,7 @@ def _plain(options: Options, settings: Settings) -> bool:
 
 
 def _can_show() -> bool:
-    """Whether the locale has the letters that the console draws with."""
+    """Whether the locale has the characters that the console draws with."""
     encoding = getattr(sys.stdout, "encoding", None) or locale.getpreferredencoding(False)
     try:
         "─⣿→".encode(encoding)

@@ -1,4 +1,4 @@
-"""The program `bot-console`: its commands, and what is done with the words after them."""
+"""The program `bot-console`: its commands, and how their arguments are handled."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ _ROS2 = {
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run a command line and give its exit code: 0 done, 1 failed, 2 wrong usage."""
+    """Run a command line and return its exit code: 0 done, 1 failed, 2 wrong usage."""
     words = list(sys.argv[1:] if argv is None else argv)
     if words == ["--version"]:
         print(f"bot-console {__version__}")
@@ -89,14 +89,14 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def program() -> NoReturn:
-    """The command as a process."""
+    """The entry point of the process."""
     from bot_console.runtime.terse import told
 
     end_program(told(main))
 
 
 def _has_screen() -> bool:
-    """Whether this system's terminals are such that the console can show itself; it is told where they are not."""
+    """Whether the console can be displayed on this operating system; says so where it cannot."""
     try:
         import termios  # noqa: F401  # pyright: ignore[reportUnusedImport] -- whether it is there
     except ImportError:
@@ -124,7 +124,7 @@ def _imported(place: str) -> Callable[[Words], int]:
 
 
 def ros2_command(words: Words) -> int:
-    """`bot-console ros2 WORDS`: as `bot-console WORDS`, but for what upstream has under that name."""
+    """`bot-console ros2 WORDS`: as `bot-console WORDS`, except where upstream has a command of that name."""
     if words and words[0] in _ROS2:
         return _imported(_ROS2[words[0]])(words[1:])
     return ros2.taking_part(words) if words and words[0] in ros2.VERBS else ros2.main(words)

@@ -1,4 +1,4 @@
-"""A program that a person names, as arguments of the launch file that runs it."""
+"""A program that a person names, as arguments for the launch file that runs it."""
 
 from __future__ import annotations
 

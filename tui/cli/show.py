@@ -56,7 +56,7 @@ def run(options: Options) -> int:
 
 
 def _prepare(options: Options) -> None:
-    """Let the ROS names mean the runtime, and this process share its domain."""
+    """Make the ROS names mean the runtime, and join the domain."""
     from bot_console.runtime.importer import install
     from bot_console.tui.cli.system.workspaces import choose
 
@@ -66,7 +66,7 @@ def _prepare(options: Options) -> None:
 
 
 def _connect(options: Options, alone: str, own: Host | None, start: Callable[[], Host]) -> Connected:
-    """What is shown, made when the first frame has been seen: these imports take longer than all that is before it."""
+    """Build what is shown, after the first frame: these imports take longer than everything before it."""
     _prepare(options)
     from bot_console.tui.cli.live.launchers import attached, embedded, hosted
     from bot_console.tui.cli.live.past import HostsPast, overhear
@@ -105,7 +105,7 @@ def _host(options: Options) -> Host:
 
 
 def _attach_instead(there: list[str]) -> bool:
-    """Two robots in one domain would obey each other's commands, so the person is asked."""
+    """Ask whether to attach: two robots in one domain would obey each other's commands."""
     number = domain()
     print(f"A robot runs already in ROS domain {number}: {', '.join(there)}.")
     print(f"`ROS_DOMAIN_ID={number + 1} bot-console` starts another one apart from it.")

@@ -40,7 +40,7 @@ FIRST = 100
 
 
 class Standstill:
-    """Has the stacks written unless it hears of the thread that draws again and again."""
+    """Writes the stacks of all threads unless the drawing thread reports regularly."""
 
     def __init__(
         self, path: Path, descriptor: int, tell: Callable[[str], None], clock: Callable[[], float] = time.monotonic
@@ -56,12 +56,12 @@ class Standstill:
         self._unanswered = 0
 
     def watch(self) -> None:
-        """Look once a second until the end, in the calling thread."""
+        """Check once a second until the end, in the calling thread."""
         while not self._over.wait(BEAT_S):
             self.look()
 
     def look(self) -> None:
-        """Write the stacks when the thread that draws was not heard of for long, once until it is heard again."""
+        """Write the stacks if the drawing thread has been silent for long, once until it reports again."""
         heard = self._heard
         if heard is None:
             return
@@ -70,7 +70,7 @@ class Standstill:
             faulthandler.dump_traceback(self._descriptor)
 
     def beat(self) -> None:
-        """The thread that draws is at work."""
+        """Report that the drawing thread is running."""
         now = self._clock()
         if self._heard is not None and (stood := now - self._heard) >= STANDS_S:
             self.note(f"the screen has stood for {stood:.0f} s, or the whole process was stopped")
@@ -78,16 +78,16 @@ class Standstill:
         self._heard, self._written = now, False
 
     def rest(self) -> None:
-        """Nothing is drawn for a while, as is right."""
+        """Expect no reports for a while, since nothing is drawn."""
         self._heard = None
 
     def end(self) -> None:
-        """Look no more."""
+        """Stop checking."""
         self._over.set()
         self.rest()
 
     def follow(self) -> None:
-        """Beat in the running loop from now on."""
+        """Report from the running event loop from now on."""
         self.beat()
         asyncio.get_running_loop().call_later(BEAT_S, self.follow)
 
@@ -127,7 +127,7 @@ class Standstill:
         self._unanswered = 0
 
     def note(self, text: str) -> None:
-        """Write a line into the file."""
+        """Write a line to the file."""
         moment = time.strftime("%Y-%m-%d %H:%M:%S")
         with contextlib.suppress(OSError):
             os.write(self._descriptor, f"{moment}, process {os.getpid()}: {text}\n\n".encode())

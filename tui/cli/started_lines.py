@@ -1,4 +1,4 @@
-"""`ros2 run` and `ros2 launch` lines of the console: what they start stays, and stands in the Launch pane."""
+"""The console's `ros2 run` and `ros2 launch` lines: what they start stays, and is listed in the Launch pane."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the tasks of an event loop wait for, as text: an app can stand while none of its threads does."""
+"""What the tasks of an event loop are waiting for, as text: an app can hang although none of its threads does."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import Any
 
 
 def waiting_tasks() -> str:
-    """The tasks of the loop that runs in this thread, with the lines in which they wait, the outermost first.
+    """The tasks of the running event loop, with the lines where they wait, outermost first.
 
-    Those that wait alike stand together. Empty where no loop runs.
+    Tasks that wait in the same place are grouped. Empty if no loop is running in this thread.
     """
     try:
         tasks = asyncio.all_tasks()

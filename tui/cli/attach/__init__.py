@@ -1,4 +1,4 @@
-"""`bot-console attach`: the console on a system that runs already: ours, the machine's ROS 2, or a far one."""
+"""`bot-console attach`: the console on a system that is already running: ours, the machine's ROS 2, or a remote one."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bot_console.tui.cli.system.domain import others_take_part
 
 
 def run(words: Sequence[str]) -> int:
-    """Show the console on what is chosen; exit code 2 where that is not clear and nobody can be asked."""
+    """Show the console on the chosen system; exit code 2 when the choice is unclear and nobody can be asked."""
     options = parse(words)
     if options.way is not None:
         return _needs_terminal() or _network(options)

@@ -1,4 +1,4 @@
-"""Which system of this machine the console is for, where there may be two."""
+"""Which system of this machine the console attaches to, when there may be two."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ NO_ROS = (
 
 @dataclass(frozen=True)
 class Kind:
-    """What was chosen: the machine's ROS 2, or else a system of ours; an exit code other than 0 where nothing was."""
+    """The choice: the machine's ROS 2, or a system of ours; an exit code other than 0 when nothing was chosen."""
 
     ros: MachineRos | None = None
     code: int = 0
@@ -32,7 +32,7 @@ def choose(
     ask: Callable[[str], str] = input,
     interactive: Callable[[], bool] = lambda: sys.stdin.isatty() and sys.stdout.isatty(),
 ) -> Kind:
-    """`ros` and `embedded` are what was asked for, `system_there` whether one of ours runs in the domain."""
+    """Choose a system; `ros` and `embedded` are explicit requests, `system_there`: one of ours runs in the domain."""
     if embedded:
         return Kind()
     found = find()

@@ -1,4 +1,4 @@
-"""What the console needs of the machine's ROS 2 beside `rclpy`, which alone brings few message packages."""
+"""What the console needs from the machine's ROS 2 besides `rclpy`, which by itself brings few message packages."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ LENT = "rosidl_runtime_py"
 
 
 class LentPackage:
-    """A finder for the end of `sys.meta_path`: our package of one name, where the machine has none."""
+    """A finder for the end of `sys.meta_path`: our copy of one package, where the machine has none."""
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
@@ -32,13 +32,13 @@ class LentPackage:
 
 
 def lend_missing() -> None:
-    """Let `rosidl_runtime_py` be found on a machine without the packages of `ros2`; its own goes first."""
+    """Make `rosidl_runtime_py` importable on a machine without the `ros2` packages; the machine's own goes first."""
     if not any(isinstance(each, LentPackage) for each in sys.meta_path):
         sys.meta_path.append(LentPackage())
 
 
 def missing_messages(path: Iterable[str] | None = None) -> str:
-    """One line on the message packages that the console cannot do without; empty where all are there."""
+    """One line that names the message packages the console lacks; empty when all are there."""
     where = None if path is None else list(path)
     missing = [each for each in MESSAGES if PathFinder.find_spec(each, where) is None]
     if not missing:

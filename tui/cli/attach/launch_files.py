@@ -1,4 +1,4 @@
-"""The launch files of the machine's packages, which may be hundreds: looked for beside the caller."""
+"""The launch files of the machine's packages; there may be hundreds, so they are searched in the background."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ PATIENCE = 2.0
 
 
 def launch_files() -> Sequence[str]:
-    """The launch files of all packages that the environment has; none where no prefix is sourced."""
+    """The launch files of all packages in the environment; none if no prefix is sourced."""
     from ament_index_python.packages import get_packages_with_prefixes
 
     if not os.environ.get("AMENT_PREFIX_PATH"):
@@ -27,10 +27,10 @@ def launch_files() -> Sequence[str]:
 
 
 class LaunchFiles:
-    """What the last look has found; to be asked from any thread."""
+    """The result of the last search; may be asked from any thread."""
 
     def __init__(self, look: Callable[[], Sequence[str]] = launch_files) -> None:
-        """The first look begins at once."""
+        """Start the first search at once."""
         self._look = look
         self._lock = threading.Lock()
         self._found: Sequence[str] = ()
@@ -39,7 +39,7 @@ class LaunchFiles:
         self._begin()
 
     def now(self) -> Sequence[str]:
-        """What is known; a new look begins for whoever asks next."""
+        """What is known; starts another search for whoever asks next."""
         if self._looked.wait(PATIENCE):
             self._begin()
         return self._found

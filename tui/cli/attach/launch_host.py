@@ -57,13 +57,13 @@ class Turn:
 
 
 class MainThread:
-    """Does in the main thread what others ask for, one piece after the other."""
+    """Runs work for other threads in the main thread, one piece at a time."""
 
     def __init__(self) -> None:
         self._turns: queue.SimpleQueue[Turn | None] = queue.SimpleQueue()
 
     def spawn(self, work: Callable[[], None], file: str) -> Turn:
-        """Have a launch run as soon as the one before has ended."""
+        """Queue a launch, to run when the one before it has ended."""
         turn = Turn(work)
         self._turns.put(turn)
         return turn
@@ -77,12 +77,12 @@ class MainThread:
                 turn.done.set()
 
     def end(self) -> None:
-        """Take no more."""
+        """Accept no more work."""
         self._turns.put(None)
 
 
 def main(words: Sequence[str] | None = None) -> int:
-    """Serve until everything was ended: by a console, or because the owner has gone."""
+    """Serve until everything has ended, because a console asked for that or the owner is gone."""
     parser = argparse.ArgumentParser("launch_host")
     parser.add_argument("--owner", type=int, required=True, metavar="DESCRIPTOR", help="the socket of the console")
     given = parser.parse_args(words)

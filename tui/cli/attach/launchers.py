@@ -1,4 +1,4 @@
-"""The launches of a console on a real ROS 2: a host process for each launch file, shown as one launcher."""
+"""The launches of a console on a real ROS 2: one host process per launch file, combined into a single launcher."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ PATIENCE = 15.0
 
 
 class _Host:
-    """A host process and what it was last known to say."""
+    """A host process and its last known state."""
 
     def __init__(self, number: int, start: Start, record: Add, printed: Callable[[int, str, str], None]) -> None:
         self.number = number
@@ -46,12 +46,12 @@ class _Host:
         self.process.wait()
 
     def mine(self, process: ProcessInfo) -> ProcessInfo:
-        """A process by a key that no other host has."""
+        """A process, under a key that is unique among hosts."""
         return replace(process, key=f"{self.number}:{process.key}")
 
 
 class HostLaunchers(AskedForProcesses):
-    """The `Launcher` over all of them; methods may be called from any thread."""
+    """The `Launcher` that combines them; methods may be called from any thread."""
 
     def __init__(self, record: Add, printed: Callable[[int, str, str], None], start: Start = start_host) -> None:
         def make(number: int) -> _Host:
@@ -68,7 +68,7 @@ class HostLaunchers(AskedForProcesses):
         self._info = LaunchInfo()
 
     def _unused(self, use: bool) -> _Host:
-        """A host that runs nothing yet; it is taken for a launch where that is its `use`.
+        """An idle host, taken for a launch if that is its `use`.
 
         Raises `ValueError` once it is closed.
         """
@@ -131,7 +131,7 @@ class HostLaunchers(AskedForProcesses):
         return done(Answer(False, f"there is no process {key}"))
 
     def close(self) -> None:
-        """End all that was launched from this console, and only that."""
+        """End everything launched from this console, and nothing else."""
         with self._lock:
             self._closed, hosts = True, list(self._hosts)
         threads = [threading.Thread(target=each.launcher.close, daemon=True) for each in hosts]

@@ -1,4 +1,4 @@
-"""Whether a real ROS 2 is there: an `rclpy` that is none of ours. ROS_DISTRO tells nothing, since we set it, too."""
+"""Whether a real ROS 2 is installed: an `rclpy` that is not ours. ROS_DISTRO proves nothing, since we set it too."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _FOLDER = re.compile(r"python(\d)\.(\d+)$")
 
 @dataclass(frozen=True)
 class MachineRos:
-    """An `rclpy` of the machine: its folder, and the Python that it is for where that is not the one that runs."""
+    """An `rclpy` of the machine: its folder, and the Python it was built for if that is not the running one."""
 
     folder: Path
     other_python: str = ""
@@ -35,7 +35,7 @@ class MachineRos:
 
 
 def find_machine_ros(path: Iterable[str] | None = None) -> MachineRos | None:
-    """The `rclpy` that an import would find without our finder, else one that the sourced prefixes have."""
+    """The `rclpy` that an import would find without our finder, else one from the sourced prefixes."""
     found = _importable(path)
     if found is not None:
         return found
@@ -47,7 +47,7 @@ def find_machine_ros(path: Iterable[str] | None = None) -> MachineRos | None:
 
 
 def how_to_install(ros: MachineRos) -> str:
-    """One line for whoever has a ROS 2 of another Python."""
+    """One line of advice when the machine's ROS 2 is for another Python."""
     whose = f"{ros} is sourced, and it is for Python {ros.other_python}, while this bot-console runs on {_running()}"
     if _is_too_old(ros.other_python):
         return (
@@ -62,7 +62,7 @@ def how_to_install(ros: MachineRos) -> str:
 
 
 def _is_too_old(python: str) -> bool:
-    """Whether bot-console cannot run on a Python that is named so."""
+    """Whether bot-console cannot run on a Python of that version."""
     major, _, minor = python.partition(".")
     return major.isdigit() and minor.isdigit() and (int(major), int(minor)) < OLDEST
 
@@ -78,7 +78,7 @@ def _importable(path: Iterable[str] | None) -> MachineRos | None:
 
 
 def _other_python(folder: Path) -> str:
-    """The Python that its extension module was built for, where this one cannot load it."""
+    """The Python that its extension module was built for, if this one cannot load it."""
     extensions = [*folder.glob("_rclpy_pybind11*"), *folder.parent.glob("_rclpy_pybind11*")]
     names = [each.name for each in extensions if each.suffix in (".so", ".pyd")]
     suffixes = tuple(importlib.machinery.EXTENSION_SUFFIXES)

@@ -1,4 +1,4 @@
-"""The console on a robot that is reached over a network, by its Zenoh router."""
+"""The console on a robot reached over a network, through its Zenoh router."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ SAID = (
 
 
 def run_network(options: AttachOptions) -> int:
-    """Connect, then show the console; 1 where there is no connection, with the reason."""
+    """Connect, then show the console; 1 if the connection fails, with the reason."""
     assert options.way is not None
     try:
         buses = connect(options.way)
@@ -63,7 +63,7 @@ def run_network(options: AttachOptions) -> int:
 
 
 class LinkWords:
-    """How the link is, in steps that are worth drawing; the same object until it changes."""
+    """The state of the link, in steps that are worth drawing; the same object until it changes."""
 
     def __init__(self, buses: NetworkBuses) -> None:
         self._buses = buses
@@ -78,7 +78,7 @@ class LinkWords:
 
 
 def words_of(state: LinkState, now: float) -> LinkInfo:
-    """A state of the link at a moment; delays in steps of a tenth of themselves, so that it does not flicker."""
+    """The state of the link at a moment; delays are rounded to a tenth of themselves, so that the display is calm."""
     silent = 0 if state.heard is None else int(now - state.heard)
     delay = None if state.delay is None else max(1, round(state.delay * 1000))
     if delay is not None and delay > 20:

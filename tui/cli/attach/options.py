@@ -27,7 +27,7 @@ examples:
 
 @dataclass(frozen=True)
 class AttachOptions:
-    """What was asked for: one of the three ways, or none."""
+    """The options given: one of the three ways to attach, or none."""
 
     look: Options
     """What every console is asked for."""
@@ -38,7 +38,7 @@ class AttachOptions:
 
 
 def add_network_options(parser: argparse.ArgumentParser) -> None:
-    """The options of whoever reaches a router; see `network_way`."""
+    """Add the options for reaching a router; see `network_way`."""
     add = parser.add_argument
     add(
         "--connect",
@@ -55,7 +55,7 @@ def add_network_options(parser: argparse.ArgumentParser) -> None:
 
 
 def network_way(parser: argparse.ArgumentParser, given: argparse.Namespace) -> Way | None:
-    """The way to a router that was given, by an option or the environment; ends the program for what is no endpoint."""
+    """The route to a router, from an option or the environment; exits for a text that is not an endpoint."""
     asked: list[str] | None = given.connect
     if asked is None:
         from_environment = os.environ.get(CONNECT_VARIABLE, "")
@@ -79,7 +79,7 @@ def network_way(parser: argparse.ArgumentParser, given: argparse.Namespace) -> W
 
 
 def parse(words: Sequence[str]) -> AttachOptions:
-    """Read what follows `attach`; ends the program with exit code 2 for wrong usage."""
+    """Parse the arguments of `attach`; exits with code 2 for wrong usage."""
     parser = attach_parser()
     parser.epilog = EPILOG
     add_network_options(parser)

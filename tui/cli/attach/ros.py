@@ -1,4 +1,4 @@
-"""The console on the ROS 2 of this machine: its own rclpy, launch and `ros2`, and nothing of the embedded runtime."""
+"""The console on this machine's ROS 2: its rclpy, launch and `ros2`, and nothing of the embedded runtime."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ SAID = "On {}, RMW {}: q ends the console and what it has launched, not the robo
 
 
 def run_ros(options: AttachOptions, described: str) -> int:
-    """Show the console; the ROS names mean what the machine has."""
+    """Show the console; the ROS names mean the machine's packages."""
 
     def launched() -> LaunchInfo:
         return launchers.info()

@@ -1,4 +1,4 @@
-"""`ros2 ...` lines by the machine's own `ros2`."""
+"""Runs `ros2 ...` lines with the machine's own `ros2`."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ GRACE = 3.0
 
 
 class _Streamed(RunningLine):
-    """A line in a process, and the last of what it has printed."""
+    """A command in a process, and the last lines it has printed."""
 
     def __init__(self, words: Sequence[str]) -> None:
         super().__init__()
@@ -49,14 +49,14 @@ class _Streamed(RunningLine):
 
 
 class MachineCommandLine:
-    """Runs each line as a process; `tui.console.command_line.CommandLine`."""
+    """Runs each line as a process; implements `tui.console.command_line.CommandLine`."""
 
     def commands(self) -> Sequence[str]:
         """The commands that a `ros2` of any release may have."""
         return COMMANDS
 
     def complete(self, words: Sequence[str], snapshot: ConsoleSnapshot) -> Future[Sequence[str]]:
-        """What the last word may become of what runs; the rest only the machine's own shell knows."""
+        """Completions from what runs; only the machine's own shell knows the others."""
         if len(words) < 2:
             found: Sequence[str] = COMMANDS
         elif words[0] in ("node", "param", "lifecycle"):
@@ -67,7 +67,7 @@ class MachineCommandLine:
         return done(sorted(each for each in found if each.startswith(words[-1])) if words else ())
 
     def stream(self, line: str) -> Stream | None:
-        """Begin a line that goes on by itself; None for any other, and where there is no such command."""
+        """Start a line that keeps printing; None for any other line, or if there is no such command."""
         try:
             words = _words(line)
         except ValueError:
@@ -80,7 +80,7 @@ class MachineCommandLine:
 
 
 def printed_by(line: str, limit: float = LINE_LIMIT) -> str:
-    """What a line printed, errors among it."""
+    """What a line printed, errors included."""
     words = _words(line)
     if shutil.which(words[0]) is None:
         return f"there is no command '{words[0]}' on this machine's PATH: is its ROS 2 sourced?"

@@ -1,4 +1,4 @@
-"""A run of the console on a system that it has not started, and that goes on when it ends."""
+"""A console session on a system that it did not start, and that continues after it."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class AttachedSession:
         on_first_frame: Callable[[], None] = lambda: None,
         on_close: Callable[[], None] = lambda: None,
     ) -> None:
-        """`said` are lines for the log; `on_close` ends what was started beside, before the console leaves."""
+        """`said` are lines for the log; `on_close` ends what was started with the console, before that leaves."""
         self._console = console
         self._said = said
         self._first_frame = on_first_frame
@@ -55,7 +55,7 @@ class AttachedSession:
         )
 
     def run(self) -> int:
-        """Show the console until it is quit. A robot that it steers is left standing; all else goes on."""
+        """Show the console until it quits. A robot that it steers is left standing; everything else goes on."""
         with (
             own_terminal(self._console.printed) as watch,
             ended_by_signals(self._end),
@@ -93,5 +93,5 @@ class AttachedSession:
                 self._console.printed(severity, "bot-console", line)
 
     def _end(self, number: int) -> None:
-        """SIGINT, SIGTERM and SIGHUP end the app as `q` does."""
+        """End the app as `q` does, on SIGINT, SIGTERM and SIGHUP."""
         self.app.exit(return_code=128 + number)

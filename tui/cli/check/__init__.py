@@ -1,1 +1,1 @@
-"""`bot-console check`: a script that does and expects what a person would at the screen."""
+"""`bot-console check`: runs a script of actions and expectations, as a person would carry them out at the screen."""

@@ -1,4 +1,4 @@
-"""`bot-console check SCRIPT`: does what a person would at the screen, and says whether it went as expected."""
+"""`bot-console check SCRIPT`: carries out the steps of a script, and reports whether they went as expected."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ exit codes: 0 all went as expected, 1 not, or nothing runs, 2 wrong usage or a s
 
 
 def run(words: list[str]) -> int:
-    """Read the script as a whole, do its steps, print the report."""
+    """Read the whole script, carry out its steps, print the report."""
     parser = argparse.ArgumentParser(
         "bot-console check",
         description="Set, wait and expect on the system that runs in this domain, for graders and CI.",
@@ -90,14 +90,14 @@ def _done(runner: Runner, steps: Sequence[Step], *, tell: bool, stop: bool) -> l
 
 
 def line_of(outcome: Outcome) -> str:
-    """A step on one line, and below it what failed."""
+    """A step on one line, with its failure below."""
     step = outcome.step
     head = f"{'FAIL' if outcome.why else 'ok  '} {step.line:>4}  {harmless(step.text)}"
     return f"{head}\n           {harmless(outcome.why)}" if outcome.why else head
 
 
 def summary(steps: Sequence[Step], outcomes: Sequence[Outcome]) -> str:
-    """How many went well."""
+    """How many steps succeeded."""
     failed = sum(bool(each.why) for each in outcomes)
     left = len(steps) - len(outcomes)
     parts = [f"{len(outcomes) - failed} of {counted(len(steps), 'step')} as expected"]

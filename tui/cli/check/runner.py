@@ -1,4 +1,4 @@
-"""Does the steps of a script, one after the other, and tells what became of each."""
+"""Carries out the steps of a script one by one, and reports the outcome of each."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ SIGNS: Mapping[str, Callable[[float, float], bool]] = {
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a step: `why` says what failed, empty when nothing did; how long it took in s."""
+    """The outcome of a step: `why` says what failed, and is empty on success; duration in s."""
 
     step: Step
     why: str
@@ -39,7 +39,7 @@ class Outcome:
 
 
 class Runner:
-    """Does steps on a system."""
+    """Carries out steps on a system."""
 
     def __init__(
         self,
@@ -52,13 +52,13 @@ class Runner:
         self._sleep = sleep
 
     def run(self, step: Step) -> Outcome:
-        """Do one step."""
+        """Carry out one step."""
         began = self._clock()
         why = getattr(self, f"_{step.verb.replace('-', '_')}")(step)
         return Outcome(step, why, self._clock() - began)
 
     def _until(self, seconds: float, look: Callable[[], str]) -> str:
-        """Look until nothing is wrong, so many seconds at most; what was wrong last."""
+        """Repeat a check until nothing is wrong, for so many seconds at most; returns what was wrong last."""
         deadline = self._clock() + seconds
         while (why := look()) and self._clock() < deadline:
             self._sleep(PERIOD)
@@ -71,7 +71,7 @@ class Runner:
         return future.result() if future.done() else None
 
     def _parameter(self, node: str, name: str) -> ParameterInfo | str:
-        """A parameter, waited for a little, or why there is none."""
+        """A parameter, waited for briefly, or why there is none."""
 
         def look() -> str:
             tree = self._console.snapshot().parameters.get(node)
@@ -84,7 +84,7 @@ class Runner:
         return found or why
 
     def _try(self, node: str, name: str, text: str) -> SetOutcome | str:
-        """What a node makes of a value, or why it could not be asked."""
+        """How a node answers a value, or why it could not be asked."""
         parameter = self._parameter(node, name)
         if isinstance(parameter, str):
             return parameter

@@ -1,4 +1,4 @@
-"""Scripts of `bot-console check`: a step a line, read and judged as a whole before anything is done. Pure."""
+"""Scripts of `bot-console check`: one step per line, parsed and validated as a whole before anything is done. Pure."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ QUOTED = re.compile(r"""(/\S+:\S+)\s*(==|!=)\s*("[^"]*"|'[^']*'|[A-Za-z_][\w.-]*
 
 
 class ScriptError(ValueError):
-    """What is wrong with a script, with the number of its line."""
+    """A mistake in a script, with its line number."""
 
 
 @dataclass(frozen=True)
 class Step:
-    """One line: its number, its text, what it does, with which words, and for how long (s)."""
+    """One line: its number, text, action, arguments, and time limit (s)."""
 
     line: int
     text: str
@@ -38,7 +38,7 @@ class Step:
 
 
 def read(text: str) -> list[Step]:
-    """The steps of a script; raises `ScriptError` for the first line that is none."""
+    """The steps of a script; raises `ScriptError` for the first line that is not a step."""
     found: list[Step] = []
     for number, line in enumerate(text.splitlines(), 1):
         stripped = line.strip()
@@ -53,7 +53,7 @@ def read(text: str) -> list[Step]:
 
 
 def seconds_of(text: str) -> float:
-    """A length of time such as `2 s`, `500 ms` or `1 min` in s; raises `ValueError`."""
+    """A duration such as `2 s`, `500 ms` or `1 min` in s; raises `ValueError`."""
     found = SPAN.fullmatch(text.strip())
     if found is None:
         raise ValueError(f"'{cut(text, 20)}' is no time; write for instance 2 s, 500 ms or 1 min")

@@ -1,4 +1,4 @@
-"""`bot-console doctor`: looks at everything that a console depends on, and says how to mend what is wrong."""
+"""`bot-console doctor`: checks everything the console depends on, and says how to fix what is wrong."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ UPSTREAM_OPTIONS = ("--report", "-r", "--include-warnings", "-iw")
 
 
 def run(words: Sequence[str]) -> int:
-    """Look, and print what was found."""
+    """Run all checks, and print the findings."""
     parser = _parser()
     given = parser.parse_args(words)
     way = network_way(parser, given)
@@ -61,7 +61,7 @@ def run(words: Sequence[str]) -> int:
 
 
 def run_as_ros2(words: Sequence[str]) -> int:
-    """`ros2 doctor`: what it says is always a report here, and with its warnings."""
+    """`ros2 doctor`: always prints the full report here, warnings included."""
     return run([each for each in words if each not in UPSTREAM_OPTIONS])
 
 

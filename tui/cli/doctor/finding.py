@@ -1,4 +1,4 @@
-"""What the doctor says: how a thing is, and how to mend it."""
+"""A finding of the doctor: what was found, and how to fix it."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 
 
 class Level(str, Enum):
-    """How bad it is; only `FAIL` makes the exit code 1."""
+    """The severity; only `FAIL` makes the exit code 1."""
 
     OK = "ok"
     NOTE = "note"
@@ -22,7 +22,7 @@ MARKS = {Level.OK: "✓", Level.NOTE: "·", Level.WARN: "!", Level.FAIL: "✗"}
 
 @dataclass(frozen=True)
 class Finding:
-    """One line; `mend` says what to do, empty where nothing is to be done."""
+    """One line; `mend` says how to fix it, and is empty when there is nothing to fix."""
 
     level: Level
     about: str
@@ -30,7 +30,7 @@ class Finding:
     mend: str = ""
 
     def line(self) -> str:
-        """As a person reads it; the word stands beside the mark for whoever does not see either's colour."""
+        """For people; the word beside the mark serves those who cannot see the mark or its colour."""
         word = "" if self.level in (Level.OK, Level.NOTE) else f"{self.level.value.upper()}: "
         mend = f"\n    → {self.mend}" if self.mend else ""
         return f"{MARKS[self.level]} {self.about:<10} {word}{self.text}{mend}"
@@ -42,5 +42,5 @@ def as_json(findings: Iterable[Finding]) -> list[dict[str, Any]]:
 
 
 def exit_code(findings: Iterable[Finding]) -> int:
-    """1 where something fails, else 0."""
+    """1 if anything fails, else 0."""
     return int(any(each.level is Level.FAIL for each in findings))

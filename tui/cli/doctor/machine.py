@@ -1,4 +1,4 @@
-"""Of this machine: Python, ROS, the domain, and what earlier programs have left."""
+"""Checks of this machine: Python, ROS, the domain, and what earlier programs have left behind."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ MOST = 101
 
 
 def machine_findings(environment: Mapping[str, str]) -> list[Finding]:
-    """All of it."""
+    """All checks of this machine."""
     return [
         python_finding(),
         ros_finding(find_machine_ros(), environment),
@@ -62,7 +62,7 @@ def domain_finding(text: str) -> Finding:
 
 
 def sockets_findings() -> list[Finding]:
-    """The programs that meet in the domain's folder, and the sockets of those that are dead or stopped."""
+    """The programs in the domain's folder, and the sockets of those that are dead or stopped."""
     from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
     from bot_console.runtime.rmw.zenoh.domain.sockets import sockets
     from bot_console.tui.cli.system.domain import domain

@@ -1,4 +1,4 @@
-"""What the graph tells by the public rclpy API, on every middleware: what does not pass, and who stops the robot."""
+"""Checks of the graph through the public rclpy API, on every middleware: blocked messages, and what stops the robot."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ HOW = (
 
 
 def node_findings() -> list[Finding]:
-    """Ask as a node of this process's middleware."""
+    """Run the checks from a node on this process's middleware."""
     import rclpy
 
     rclpy.init(args=[])
@@ -50,7 +50,7 @@ def _spin(node: Node, seconds: float, until: Callable[[], bool] = lambda: False)
 
 
 def pair_findings(node: Node) -> list[Finding]:
-    """What keeps messages from passing."""
+    """Publishers and subscriptions between which no messages pass."""
     found: list[Finding] = []
     for topic, _ in sorted(node.get_topic_names_and_types()):
         publishers, subscriptions = (
@@ -64,7 +64,7 @@ def pair_findings(node: Node) -> list[Finding]:
 
 
 def type_findings(node: Node) -> list[Finding]:
-    """Types that are not known here, or are defined otherwise."""
+    """Types that are unknown here, or defined differently."""
     unknown: set[str] = set()
     other: set[str] = set()
     for topic, types in node.get_topic_names_and_types():
@@ -87,7 +87,7 @@ def type_findings(node: Node) -> list[Finding]:
 
 
 def own_hash(type_name: str) -> str | None:
-    """The hash of a type as it is defined here; None where it is not known, empty where no hash can be told."""
+    """The hash of a type as defined here; None if the type is unknown, empty if no hash can be computed."""
     package, _, rest = type_name.partition("/")
     try:
         kind = getattr(importlib.import_module(f"{package}.msg"), rest.rpartition("/")[2])
@@ -102,7 +102,7 @@ def own_hash(type_name: str) -> str | None:
 
 
 def base_finding(node: Node) -> Finding:
-    """Whether the robot stops by itself when its commands stay away."""
+    """Whether the robot stops by itself when commands cease."""
     bases = {
         name_of(each)
         for topic, types in node.get_topic_names_and_types()
@@ -125,7 +125,7 @@ def base_finding(node: Node) -> Finding:
 
 
 def time_outs(node: Node, base: str) -> dict[str, float]:
-    """The numbers among a node's parameters whose names say that they are time-outs for commands."""
+    """The numeric parameters of a node whose names suggest command time-outs."""
     from rcl_interfaces.srv import GetParameters, ListParameters
     from rclpy.parameter import parameter_value_to_python
 
@@ -141,7 +141,7 @@ def time_outs(node: Node, base: str) -> dict[str, float]:
 
 
 def _answer(node: Node, kind: Any, service: str, request: Any) -> Any:
-    """What a service answers; None where it does not."""
+    """The response of a service; None if there is none."""
     client = node.create_client(kind, service)
     try:
         _spin(node, PATIENCE, client.service_is_ready)

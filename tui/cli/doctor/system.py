@@ -1,4 +1,4 @@
-"""A system that is reached by Zenoh, on this machine or by a robot's router."""
+"""Checks of a system reached over Zenoh, on this machine or through a robot's router."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ PROBES = 3
 
 
 def examine(way: Way | None, seconds: float, capture: Path | None, made_with: str) -> list[Finding]:
-    """Look at the link, the wire and the nodes; raises `SessionError` and, where nothing can be written, `OSError`."""
+    """Check the link, the wire and the nodes; raises `SessionError` and, where nothing can be written, `OSError`."""
     session = open_session(domain()) if way is None else open_network_session(domain(), with_environment(way))
     try:
         await_answers(session)
@@ -43,7 +43,7 @@ def examine(way: Way | None, seconds: float, capture: Path | None, made_with: st
 
 
 def answer_time(session: Session) -> float | None:
-    """The shortest of some answers of the other end, in s; None where none came."""
+    """The shortest round-trip time to the other end (s); None if nothing answered."""
     times: list[float] = []
     for _ in range(PROBES):
         began = time.monotonic()
@@ -53,7 +53,7 @@ def answer_time(session: Session) -> float | None:
 
 
 def link_finding(to: str, delay: float | None) -> Finding:
-    """How the router answers."""
+    """How fast the router answers."""
     if delay is None:
         return Finding(Level.FAIL, "link", f"{to} is reached, but does not answer", "is it a router of Zenoh 1.x?")
     text = f"{to} answers after {delay * 1000:.1f} ms"

@@ -1,4 +1,4 @@
-"""The terminal: its size, its letters and colours, and how far away it is."""
+"""Checks of the terminal: size, characters and colours, and its latency."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ TOLD_KB_S = 3000
 
 
 def terminal_findings(environment: Mapping[str, str]) -> list[Finding]:
-    """What a console in this terminal would have."""
+    """All checks of the terminal a console would use."""
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
         return [Finding(Level.NOTE, ABOUT, "there is none here: size, colours and delay were not looked at")]
     found = [size_finding(*shutil.get_terminal_size()), letters_finding(), colours_finding(environment)]
@@ -36,7 +36,7 @@ def terminal_findings(environment: Mapping[str, str]) -> list[Finding]:
 
 
 def size_finding(columns: int, lines: int) -> Finding:
-    """Whether there is room."""
+    """Whether it is large enough."""
     if columns < 60 or lines < 20:
         return Finding(Level.FAIL, ABOUT, f"{columns}x{lines} is too small", "make it 60x20 or more; 80x24 is usual")
     more = "" if columns >= 100 and lines >= 30 else "; from 100x30 on several panes show at once"
@@ -44,7 +44,7 @@ def size_finding(columns: int, lines: int) -> Finding:
 
 
 def letters_finding(encoding: str = "") -> Finding:
-    """Whether lines and braille can be drawn."""
+    """Whether it can show lines and braille."""
     encoding = encoding or locale.getpreferredencoding(False)
     if encoding.lower().replace("-", "") == "utf8":
         return Finding(Level.OK, ABOUT, "UTF-8")
@@ -65,7 +65,7 @@ def colours_finding(environment: Mapping[str, str]) -> Finding:
 
 
 def link_finding(delay: float | None, bytes_per_s: float | None) -> Finding:
-    """How far away it is: seconds for an answer, and what it takes in between."""
+    """Its latency: seconds for an answer, and the cost per frame."""
     if delay is None or bytes_per_s is None:
         return Finding(Level.NOTE, ABOUT, f"it did not say within {PATIENCE:g} s where its cursor is: delay unknown")
     rate = f"{bytes_per_s / 1000:,.0f}" if bytes_per_s <= TOLD_KB_S * 1000 else f"more than {TOLD_KB_S:,}"
@@ -87,7 +87,7 @@ def _measured() -> tuple[float | None, float | None]:
 
 
 def _answer_to(question: bytes) -> float | None:
-    """Seconds from a question to the terminal's answer; None where none came."""
+    """Seconds from a query to the terminal's answer; None if there was none."""
     began = time.monotonic()
     os.write(sys.stdout.fileno(), question)
     answer = b""

@@ -1,4 +1,4 @@
-"""What goes over the wire of rmw_zenoh: tokens, and the attachments of messages; watched for a while, never changed."""
+"""Checks of rmw_zenoh traffic on the wire: tokens and message attachments, observed for a while and never changed."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _numbers = itertools.count(1)
 
 @dataclass
 class Wire:
-    """What was seen: tokens as they are written, and (attachment, size, time of arrival in ns) by key."""
+    """What was observed: tokens as text, and (attachment, size, arrival time in ns) by key."""
 
     domain: int
     tokens: list[str] = field(default_factory=list[str])
@@ -42,7 +42,7 @@ class Wire:
     )
 
     def parsed(self) -> tuple[list[Token], list[str]]:
-        """The tokens that are of the format, and those that are not."""
+        """The tokens that follow the format, and those that do not."""
         good: list[Token] = []
         bad: list[str] = []
         for each in self.tokens:
@@ -54,7 +54,7 @@ class Wire:
 
 
 def watch_wire(session: Session, seconds: float) -> Wire:
-    """Take all tokens there are, listen to every topic of the domain for so many seconds, and take what has come."""
+    """Collect all tokens, listen to every topic of the domain for so many seconds, and return what arrived."""
     wire = Wire(session.domain)
     wire.tokens = _tokens(session)
     good, _ = wire.parsed()
@@ -73,12 +73,12 @@ def _tokens(session: Session) -> list[str]:
 
 
 def _publishers(tokens: Sequence[Token]) -> list[Token]:
-    """One for each topic."""
+    """The publishers, one per topic."""
     return list({each.topic: each for each in tokens if each.kind == "MP"}.values())
 
 
 def _listen(session: Session, wire: Wire, publisher: Token) -> Declared:
-    """Subscribe as a node would, with a token of our own: some publishers send only to those they see."""
+    """Subscribe as a node would, with a token of our own: some publishers send only to subscribers they can see."""
     kept = wire.samples.setdefault(publisher.topic, [])
 
     def keep(payload: bytes, attachment: bytes | None) -> None:
@@ -94,7 +94,7 @@ def _listen(session: Session, wire: Wire, publisher: Token) -> Declared:
 
 
 def wire_findings(wire: Wire, delay: float) -> list[Finding]:
-    """What is wrong with it; `delay` (s) is that of the link, there and back."""
+    """What is wrong on the wire; `delay` (s) is the round-trip time of the link."""
     good, bad = wire.parsed()
     nodes = sum(each.kind == "NN" for each in good)
     findings = [Finding(Level.OK if nodes else Level.WARN, "graph", f"{nodes} nodes, {len(good) - nodes} endpoints")]
@@ -123,7 +123,7 @@ def _attachment_findings(wire: Wire) -> list[Finding]:
 
 
 def _clock_findings(wire: Wire, delay: float) -> list[Finding]:
-    """How far the sender's clock is from ours: the message that took shortest, less half of the way there and back."""
+    """The offset between clocks: from the fastest message, less half the round-trip time."""
     offsets = [
         (arrived - told[1]) / 1e9 - delay / 2
         for samples in wire.samples.values()
@@ -148,7 +148,7 @@ def _unpacked(attachment: bytes | None):
 
 
 def captured(wire: Wire, made_with: Sequence[str]) -> dict[str, object]:
-    """All that was seen, as a test reads it."""
+    """Everything observed, in the form in which a test reads it."""
     return {
         "format": 1,
         "made_with": list(made_with),

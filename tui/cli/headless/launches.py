@@ -1,4 +1,4 @@
-"""The launches of a headless run: what was asked for, and the simulated robot beside it."""
+"""The launches of a headless run: what was asked for, and the simulated robot alongside."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ SIMULATOR = (NAME, "simulator_node")
 
 
 class Launches:
-    """Each is a node process; logs go to stderr."""
+    """Each launch is a node process; logs go to stderr."""
 
     def __init__(self, options: Options, clock: Any, before_end: Callable[[], None]) -> None:
-        """`before_end` is called when a launch is about to end its nodes, which are still there then."""
+        """`before_end` is called when a launch is about to end its nodes, while they still exist."""
         self._before_end = before_end
         self._options = options
         self._clock = clock
@@ -41,7 +41,7 @@ class Launches:
 
     @property
     def exit_code(self) -> int | None:
-        """That of the launch which was asked for, once it has ended."""
+        """The exit code of the requested launch, once it has ended."""
         return self._launch.exit_code
 
     @property
@@ -60,14 +60,14 @@ class Launches:
         self._looking = robot_beside.begin(options, system, self._clock)
 
     def on_end(self, call: Callable[[], None]) -> None:
-        """Call when the launch ends before a robot was started, or the simulator: then there is nothing to report."""
+        """Call back when the launch ends before a robot started, or when the simulator ends: no report can follow."""
         self._at_end = call
         if self.simulator_code is not None:
             call()
         self._launch.on_exit(lambda _: None if self._robot else call())
 
     def stop(self, patience: float) -> None:
-        """End all of them, each in at most so many s."""
+        """End all of them, each within so many seconds."""
         self._ending = True
         for each in (self._looking, self._launch, self._robot):
             if each is not None:
@@ -95,7 +95,7 @@ class Launches:
             self._at_end()
 
     def _run(self, file: str, arguments: Mapping[str, str]) -> int:
-        """Run a launch file; in its own node process."""
+        """Run a launch file, in its own node process."""
         from launch.actions import IncludeLaunchDescription, RegisterEventHandler
         from launch.event_handlers import OnProcessExit, OnProcessStart, OnShutdown
         from launch.launch_description_sources import AnyLaunchDescriptionSource

@@ -1,4 +1,4 @@
-"""The node of a headless run that asks the simulator for its report when the time has come."""
+"""The node of a headless run that requests the simulator's report at the end."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ STEPPED_PERIOD = 1.0
 
 
 class Observer:
-    """Waits for the end of a run of `duration` s, asks `report`, and keeps what it learns.
+    """Waits until a run of `duration` s is over, requests `report`, and keeps what it learns.
 
-    It listens to `paths`, fields of topics such as `/odom/twist.twist.linear.x`, from when the topics are there.
+    It listens to `paths`, fields of topics such as `/odom/twist.twist.linear.x`, as soon as the topics exist.
     """
 
     def __init__(self, duration: float, paths: Sequence[str] = ()) -> None:
@@ -75,7 +75,7 @@ class Observer:
             rclpy.try_shutdown()
 
     def ask(self) -> None:
-        """Ask now rather than at the end of the run, and wait at most `PATIENCE` s for the answer; in any thread."""
+        """Request the report now instead of at the end, and wait at most `PATIENCE` s; from any thread."""
         if self._node is not None:
             self._now.trigger()
             self.done.wait(PATIENCE)

@@ -1,4 +1,4 @@
-"""The node of a run that only asks which parameters there are."""
+"""The node of a run that only lists the parameters."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class Probe(Observer):
 
 
 def _plain(descriptor: ParameterDescriptor, value: Any) -> dict[str, Any]:
-    """What is said of a parameter, ready for JSON; arrays are not tuned, and left out."""
+    """A parameter as JSON data; arrays are omitted, since they are not tuned."""
     spans = (*descriptor.floating_point_range, *descriptor.integer_range)
     return {
         "value": value if isinstance(value, (bool, int, float, str)) else None,

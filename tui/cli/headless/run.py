@@ -1,6 +1,6 @@
-"""`bot-console --headless`: the same system without a screen, in real time or as fast as it goes.
+"""`bot-console --headless`: the same system without a screen, in real time or as fast as possible.
 
-Logs are on stderr as ROS prints them; stdout gets one JSON object at the end.
+Logs go to stderr in ROS's format; stdout gets one JSON object at the end.
 """
 
 from __future__ import annotations
@@ -81,7 +81,7 @@ def simulated(options: Options, observer: Observer | None = None) -> tuple[dict[
 
 
 def _meet_others(options: Options) -> None:
-    """Take part in the domain, unless another robot is there: the two would obey each other's commands."""
+    """Join the domain, unless another robot is in it: the two would obey each other's commands."""
     problem = take_part()
     if not problem and not options.launch and (there := robot_there()):
         run_apart()
@@ -133,7 +133,7 @@ def _notices() -> Generator[None]:
 
 
 def _wait_for(observer: Observer, launches: Launches, duration: float) -> None:
-    """Until the report is there, all launches have ended, or it is too late; an interrupt asks for it at once."""
+    """Wait for the report, the end of all launches, or the time limit; an interrupt requests the report at once."""
     launches.on_end(observer.done.set)
     try:
         observer.done.wait(SETTLED)
@@ -148,7 +148,7 @@ def _wait_for(observer: Observer, launches: Launches, duration: float) -> None:
 
 @contextlib.contextmanager
 def _orderly_end() -> Generator[None]:
-    """SIGTERM and the end of the terminal are orderly ends, too, unless they are ignored (`nohup`)."""
+    """Treat SIGTERM and SIGHUP as orderly ends too, unless they are ignored (`nohup`)."""
 
     def interrupt(_signum: int, _frame: object) -> None:
         raise KeyboardInterrupt

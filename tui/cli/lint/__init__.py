@@ -1,1 +1,1 @@
-"""`bot-console lint`: what parameters leave unsaid, in source files, parameter files, and what runs."""
+"""`bot-console lint`: parameters without description, range or unit, in source and parameter files and in what runs."""

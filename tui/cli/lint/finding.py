@@ -1,4 +1,4 @@
-"""One thing that lint has found."""
+"""A finding of lint."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from bot_console.tui.console.parameters.lint import MENDS
 
 @dataclass(frozen=True, order=True)
 class Finding:
-    """A fault, where it is and what it is about."""
+    """A fault, its location, and its subject."""
 
     place: str
     """A file, or a running node."""
@@ -20,7 +20,7 @@ class Finding:
 
     @property
     def mend(self) -> str:
-        """What to do about it."""
+        """How to fix it."""
         return MENDS[self.fault]
 
     def text(self) -> str:

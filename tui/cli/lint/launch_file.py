@@ -1,4 +1,4 @@
-"""Parameters that a Python launch file gives to nodes of its own package, read without running it."""
+"""Checks the parameters that a Python launch file gives to nodes of its own package, without running it."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def dead_parameters(path: Path, declared: frozenset[str]) -> Iterator[Finding]:
 
 
 def _package_of(path: Path) -> str:
-    """The name of the package that a file lies in; empty where it lies in none."""
+    """The name of the package that contains a file; empty if none does."""
     manifest = next((each / MANIFEST for each in path.resolve().parents if (each / MANIFEST).is_file()), None)
     try:
         name = ElementTree.parse(manifest).getroot().findtext("name") if manifest else ""
@@ -47,7 +47,7 @@ def _names(given: Mapping[str | None, ast.expr]) -> Iterator[tuple[str, int]]:
 
 
 def _flat(found: ast.Dict, above: str) -> Iterator[tuple[str, int]]:
-    """Names with the names that they stand below, each with its line."""
+    """Parameter names, prefixed with the groups they are nested in, each with its line."""
     for key, value in zip(found.keys, found.values, strict=True):
         if not isinstance(key, ast.Constant) or not isinstance(key.value, str):
             continue

@@ -1,4 +1,4 @@
-"""Declarations of parameters in a Python file, judged without running it."""
+"""Checks parameter declarations in a Python file, without running it."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _UNIT = re.compile(r"\([^()]*[A-Za-z°%][^()]*\)\s*$")
 
 @dataclass
 class Declared:
-    """What the nodes of a file are called and declare."""
+    """The names of a file's nodes, and the parameters they declare."""
 
     nodes: set[str] = field(default_factory=set[str])
     parameters: set[str] = field(default_factory=set[str])
@@ -25,7 +25,7 @@ class Declared:
 
 
 def lint(path: Path) -> tuple[list[Finding], Declared]:
-    """The faults of a file, and what it declares; raises `SyntaxError` for a text that is no Python."""
+    """The faults of a file, and what it declares; raises `SyntaxError` if it is not valid Python."""
     tree = ast.parse(path.read_text(encoding="utf-8"), str(path))
     found: list[Finding] = []
     declared = Declared()
@@ -91,7 +91,7 @@ def _number(default: ast.expr | None) -> float | int | None:
 
 
 def _described(descriptor: ast.expr | None, tree: ast.AST) -> tuple[list[str], bool, bool]:
-    """Texts of a descriptor, whether it has a range, and whether that could be seen at all."""
+    """The texts of a descriptor, whether it has a range, and whether that could be determined."""
     if descriptor is None:
         return [], False, True
     if isinstance(descriptor, ast.Name):
@@ -115,7 +115,7 @@ def _described(descriptor: ast.expr | None, tree: ast.AST) -> tuple[list[str], b
 
 
 def _of_class(node: ast.ClassDef, path: str) -> Iterator[Finding]:
-    """Rules of a class of nodes: whether there is one, and whether it can refuse."""
+    """The rules of a node class: whether it has any, and whether they can refuse."""
     calls = [each for each in ast.walk(node) if isinstance(each, ast.Call)]
     names = {_called(each) for each in calls}
     if "declare_parameter" in names and "add_on_set_parameters_callback" not in names:
@@ -141,7 +141,7 @@ def _called_name(of: ast.expr) -> str:
 
 
 def _can_refuse(callback: ast.FunctionDef) -> bool:
-    """Whether `successful` may become anything else than True; a result made elsewhere may."""
+    """Whether `successful` can be anything but True; a result made elsewhere counts as yes."""
     return any(_may_refuse(each) for each in ast.walk(callback))
 
 

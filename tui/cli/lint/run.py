@@ -1,4 +1,4 @@
-"""The command: a file, a package, a folder, or what runs."""
+"""The `lint` command: checks a file, a package, a folder, or what runs."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ PATIENCE = 5.0
 
 
 def run(words: list[str]) -> int:
-    """Lint; 0 when nothing was found, 1 when something was, 2 for wrong usage."""
+    """Lint; 0 if nothing was found, 1 if something was, 2 for wrong usage."""
     parser = argparse.ArgumentParser(
         "bot-console lint",
         description="What parameters leave unsaid: description, range, unit, validation; and values that reach nobody.",
@@ -49,7 +49,7 @@ def _of_files(what: str) -> tuple[str, list[Finding]]:
 
 
 def files_of(what: str) -> list[Path]:
-    """The Python and YAML files that a word means."""
+    """The Python and YAML files that an argument stands for."""
     path = Path(what)
     if path.is_file():
         return [path]
@@ -69,7 +69,7 @@ def files_of(what: str) -> list[Path]:
 
 
 def lint_files(files: Iterable[Path]) -> list[Finding]:
-    """The faults of files; parameter and launch files are held to what the Python files among them declare."""
+    """The faults of files; parameter and launch files are compared with what the Python files declare."""
     found: list[Finding] = []
     declared = Declared()
     parameters: list[Path] = []
@@ -97,7 +97,7 @@ def lint_files(files: Iterable[Path]) -> list[Finding]:
 
 
 def _of_parameter_file(path: Path, declared: Declared) -> Iterable[Finding]:
-    """Keys that mean no node, and parameters that nobody declares."""
+    """Keys that match no node, and parameters that nobody declares."""
     from bot_console.tui.console.parameters.file.node_keys import is_wildcard
     from bot_console.tui.console.parameters.file.text import KEYWORD, sections
 

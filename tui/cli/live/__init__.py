@@ -1,1 +1,1 @@
-"""A run of the console: what stands beside the app while it runs."""
+"""A console session: what runs alongside the app."""

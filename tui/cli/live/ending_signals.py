@@ -1,4 +1,4 @@
-"""Signals that end a console, and a terminal that has gone where no signal tells it, as under some supervisors."""
+"""The signals that end a console, and how a terminal that vanishes without one (under some supervisors) is noticed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a console's panes are given: all that a person may do, or with `--read-only` what only looks on."""
+"""What panes are given to act with: everything, or with `--read-only` only what does not change anything."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from bot_console.tui.console.protocol import Console, Launcher
 def for_panes(
     console: RosConsole, launcher: Launcher | None, lines: CommandLine, *, read_only: bool
 ) -> tuple[Console, Launcher | None, CommandLine]:
-    """These three, or what stands before them and refuses."""
+    """These three, or read-only wrappers around them."""
     if not read_only:
         return console, launcher, lines
 

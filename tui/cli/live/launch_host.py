@@ -1,4 +1,4 @@
-"""The process that runs launch files for consoles: it holds the launches and the nodes that are threads.
+"""The process that runs launch files for consoles: it holds the launches, and the nodes that are threads.
 
 `python -m bot_console.tui.cli.live.launch_host`; its options say whom it serves, see `own_host`.
 """
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 def main(words: Sequence[str] | None = None) -> int:
-    """Serve until everything was ended: by a console, by a signal, or because the owner has gone."""
+    """Serve until everything has ended: because of a console, a signal, or because the owner is gone."""
     given = _parser().parse_args(words)
     install()
     from bot_console.tui.cli.live.launchers import launcher_here
@@ -73,7 +73,7 @@ def serve(host: LaunchHost, seconds: float | None = None, forget: Callable[[], N
 
 
 def close_on_signals(close: Callable[[], None]) -> None:
-    """SIGINT and SIGTERM end everything, as a console's wish does."""
+    """End everything on SIGINT and SIGTERM, as at a console's request."""
 
     def end(number: int, frame: FrameType | None) -> None:
         threading.Thread(target=close, name="close").start()

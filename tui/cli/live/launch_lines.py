@@ -1,4 +1,4 @@
-"""What launch itself writes to its screen, as lines of the log."""
+"""Launch's own screen output, as log lines."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ LEVELS = {"DEBUG": Severity.DEBUG, "WARNING": Severity.WARN, "ERROR": Severity.E
 
 
 def launch_variables(environment: Mapping[str, str]) -> dict[str, str]:
-    """An environment in which a launch writes so."""
+    """An environment in which launch writes in the format that is parsed here."""
     return {**environment, **OVERRIDE, **marking(environment)}
 
 
 def teller(printed: Callable[[int, str, str], None]) -> Callable[[str], None]:
-    """Takes such lines."""
+    """A callback that takes such lines."""
 
     def tell(text: str) -> None:
         line = LAUNCH_LINE.match(text)

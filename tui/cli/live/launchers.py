@@ -35,7 +35,7 @@ Printed = Callable[[int, str, str], None]
 
 
 class ConsoleLauncher(Launcher, Protocol):
-    """What a console has of a launcher, beyond what its panes are shown."""
+    """What a console needs from a launcher, beyond what its panes see."""
 
     def info(self) -> LaunchInfo:
         """What is known now; the same object until something changes."""
@@ -47,7 +47,7 @@ class ConsoleLauncher(Launcher, Protocol):
 
 
 def why_it_hangs(pid: int) -> Callable[[], str]:
-    """What tells, whenever it is asked, why a launch host hears nothing; empty where it does."""
+    """A function that says why a launch host does not respond; empty when it does."""
     lock = HeldLock(pid)
 
     def why() -> str:
@@ -72,12 +72,12 @@ def launcher_here(
 
 
 def embedded(console: RosConsole) -> RosLauncher:
-    """All in this process, with the nodes as threads: for pilots, and where programs cannot meet."""
+    """Everything in this process, with the nodes as threads: for pilots, and where programs cannot meet."""
     return launcher_here(console.record, console.printed, console.heard)
 
 
 def hosted(host: Host, past: HostsPast | None) -> Callable[[RosConsole], HostedLauncher]:
-    """Over a launch host that this process owns, and that keeps the last minutes."""
+    """Through a launch host that this process owns, and that keeps the last minutes."""
 
     def make(console: RosConsole) -> HostedLauncher:
         launcher = HostedLauncher(
@@ -91,7 +91,7 @@ def hosted(host: Host, past: HostsPast | None) -> Callable[[RosConsole], HostedL
 
 
 def attached(start_own: Callable[[], Host]) -> Callable[[RosConsole], SeveralLaunchers]:
-    """Over the hosts of all others in the domain, and one of its own as soon as it launches something itself."""
+    """Through the hosts of all other programs in the domain, and one of its own once it launches something itself."""
 
     def make(console: RosConsole) -> SeveralLaunchers:
         def enter(door: str) -> HostedLauncher | None:

@@ -1,4 +1,4 @@
-"""One running launch, as a node process: what it prints goes to the log, not to the screen."""
+"""One running launch, as a node process: its output goes to the log, not to the screen."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The launch host that a console has started and owns."""
+"""The launch host that a console starts and owns."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ class Host:
     connection: socket.socket
 
     def end(self, patience: float = END_S) -> None:
-        """Hang up, which ends it and all that it has started; waits for that, and kills it when it takes too long.
+        """Close the connection, which ends the host and all it started; waits, and kills it if that takes too long.
 
-        One whose interpreter's lock is held hears of nothing, and is killed at once.
+        A host whose interpreter lock is held does not notice, and is killed at once.
         """
         with contextlib.suppress(OSError):
             self.connection.shutdown(socket.SHUT_RDWR)

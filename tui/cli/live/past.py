@@ -1,4 +1,4 @@
-"""The last minutes of a system, kept by the process that runs its nodes."""
+"""The last minutes of a system, recorded in memory by the process that runs its nodes."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def overhear(size: RingSize) -> Past:
 
 
 class HostsPast:
-    """What the launch host of a console keeps."""
+    """The memory kept by the launch host of a console."""
 
     def __init__(self, kept_s: float) -> None:
         self.kept_s = kept_s

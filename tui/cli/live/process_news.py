@@ -1,4 +1,4 @@
-"""What launched processes tell of themselves, as lines of the log."""
+"""What launched processes report about themselves, as log lines."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ Printed = Callable[[int, str, str], None]
 
 
 def tell_news(printed: Printed, learn: Learn) -> Callable[[], None]:
-    """Have notices and crashes of all processes printed, and facts learned, threads of this one or not.
+    """Log notices and crashes of all processes, and take in their facts, whether or not they are threads of this one.
 
-    Returns what ends that.
+    Returns a function that stops that.
     """
     from launch.child import on_news  # ROS names answer only in a program that is composed
 

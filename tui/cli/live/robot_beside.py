@@ -1,4 +1,4 @@
-"""The simulated robot beside a launch file or a program whose nodes want one that nobody gives."""
+"""Starts the simulated robot alongside a launch file or a program whose nodes need a robot that is missing."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ DELAY = 30.0
 
 @dataclass(frozen=True)
 class System:
-    """What is launched, as far as the look for a robot bears on it."""
+    """What is launched, as far as deciding on a robot requires."""
 
     processes: Callable[[], tuple[int, int]]
     """How many run now, and how many starts are put off to later."""
@@ -46,7 +46,7 @@ class RobotBeside:
     """
 
     def __init__(self, system: System, given: Mapping[str, str]) -> None:
-        """`given` are the arguments that the robot is launched with in any case."""
+        """`given` are launch arguments that the robot always gets."""
         self._system = system
         self._given = given
         self._seen: object = None
@@ -91,7 +91,7 @@ class RobotBeside:
             self._system.start({**self._given, "stamped": "true"} if drives_stamped(node) else self._given)
 
     def _waits(self, why: str) -> bool:
-        """Whether what the launch file starts later may still bring the robot; told once."""
+        """Whether something the launch file starts later may still bring the robot; logged once."""
         if self._delayed is None:
             self._delayed = 0.0
             self._system.tell(
@@ -102,7 +102,7 @@ class RobotBeside:
 
 
 def processes(info: LaunchInfo) -> tuple[int, int]:
-    """What `System.processes` asks, from what a launcher knows."""
+    """How many processes run, and how many starts are postponed; for `System.processes`."""
     from bot_console.tui.console.model import ProcessState
 
     return sum(each.state is ProcessState.RUNNING for each in info.processes), info.delayed
@@ -122,6 +122,6 @@ def begin(options: Options, system: System, clock: Any = None) -> NodeProcess | 
 
 
 def arguments(options: Options) -> dict[str, str]:
-    """What `LAUNCH_FILE` is launched with."""
+    """The arguments with which `LAUNCH_FILE` is launched."""
     given = {"world": options.world, "seed": "" if options.seed is None else str(options.seed)}
     return {name: value for name, value in given.items() if value}

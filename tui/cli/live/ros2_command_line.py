@@ -1,4 +1,4 @@
-"""`ros2 ...` lines that are typed in the console."""
+"""Runs `ros2 ...` lines that are typed in the console."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ STARTING = 30.0
 
 
 class Ros2CommandLine:
-    """Runs each line in a node process of its own; `tui.console.command_line.CommandLine`."""
+    """Runs each line in a node process of its own; implements `tui.console.command_line.CommandLine`."""
 
     def __init__(self, launcher: Launcher | None = None) -> None:
-        """`launcher` starts what `ros2 run` and `ros2 launch` name: it stays, and stands in the Launch pane."""
+        """`launcher` starts what `ros2 run` and `ros2 launch` name: it stays, and is listed in the Launch pane."""
         self._launcher = launcher
         self._known: dict[tuple[str, ...], list[str]] = {}
         """What verbs have printed of what does not change while the console runs: packages, types."""
@@ -39,7 +39,7 @@ class Ros2CommandLine:
         return beside(lambda: self._done(line), "ros2")
 
     def stream(self, line: str) -> Stream | None:
-        """Begin a line that goes on by itself; None for any other."""
+        """Start a line that keeps printing; None for any other."""
         try:
             words = _words(line)
         except ValueError:
@@ -47,13 +47,13 @@ class Ros2CommandLine:
         return _Streamed(words) if goes_on(words) else None
 
     def commands(self) -> Sequence[str]:
-        """The words that a line may begin with."""
+        """The commands a line may begin with."""
         from ros2cli.command_line import COMMANDS
 
         return [*COMMANDS, "colcon"]
 
     def complete(self, words: Sequence[str], snapshot: ConsoleSnapshot) -> Future[Sequence[str]]:
-        """What the last of the words may become, found beside the caller."""
+        """Completions of the last word, found in the background."""
         names = _Names(snapshot, self._known)
         return beside(lambda: candidates(words, names), "ros2")
 
@@ -73,7 +73,7 @@ class Ros2CommandLine:
 
 
 class _Names:
-    """Names for completion: of what runs as the console knows it, of the rest as the verbs print them."""
+    """Names for completion: of what runs, as the console knows it; of everything else, as the verbs print it."""
 
     def __init__(self, snapshot: ConsoleSnapshot, known: dict[tuple[str, ...], list[str]]) -> None:
         self._snapshot = snapshot
@@ -86,13 +86,13 @@ class _Names:
         return self._known[words]
 
     def live(self, *words: str) -> list[str]:
-        """The same, for verbs that tell of what runs."""
+        """The same for verbs that query what runs."""
         found = live_names(self._snapshot, words)
         return found if found is not None else [each.strip() for each in _printed_by(words).splitlines()]
 
 
 class _Streamed(RunningLine):
-    """A line in a node process, and the last of what it has printed."""
+    """A command in a node process, and the last lines it has printed."""
 
     def __init__(self, words: Sequence[str]) -> None:
         super().__init__()

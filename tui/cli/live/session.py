@@ -1,4 +1,4 @@
-"""A run of the console: the app, the launched system beside it, and the way both end."""
+"""A console session: the app, the launched system, and the way both end."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class Session:
 
     @cached_property
     def connected(self) -> Connected:
-        """The console and what it has started, made when first asked for."""
+        """The console and what it has started; made on first use."""
         return self._connect()
 
     @property
@@ -107,7 +107,7 @@ class Session:
         return self.app.return_code or 0
 
     def _end(self, number: int) -> None:
-        """Ctrl-C from elsewhere, SIGTERM and SIGHUP (a closed terminal) stop the robot first, then end the app."""
+        """Stop the robot, then end the app: on SIGINT from elsewhere, SIGTERM and SIGHUP (a closed terminal)."""
         try:
             if not self._options.attach and self._is_connected():
                 self.console.all_stop(True, f"bot-console was ended by {signal.Signals(number).name}")
@@ -115,9 +115,9 @@ class Session:
             self.app.exit(return_code=128 + number)
 
     def close(self) -> None:
-        """Zero velocity, then end the launched processes, then leave the graph; a second call does nothing.
+        """Send zero velocity, end the launched processes, then leave the graph; a second call does nothing.
 
-        A robot that was attached to goes on, but for one that this console steers: leaving the graph locks that.
+        A robot that was attached to goes on, unless this console steers it: leaving the graph locks that one.
         """
         if not self._closed and self._is_connected():
             self.connected.close()

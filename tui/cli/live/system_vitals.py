@@ -1,4 +1,4 @@
-"""Processor time and memory of a process of the system."""
+"""CPU time and memory of a process of the operating system."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from bot_console.runtime.process.watch.processor_time import wanted_seconds
 
 
 class SystemVitals:
-    """Those of a process of the system; without `/proc` nothing is known."""
+    """The vitals of one such process; without `/proc` nothing is known."""
 
     def __init__(self, pid: int) -> None:
         self._pid = pid
@@ -19,7 +19,7 @@ class SystemVitals:
         self._statm = Path(f"/proc/{pid}/statm")
 
     def cpu_seconds(self) -> float | None:
-        """Processor time (s) of the process."""
+        """CPU time (s) of the process."""
         try:
             fields = self._stat.read_bytes().rpartition(b")")[2].split()
         except OSError:  # it has ended, or the system has no such file
@@ -27,11 +27,11 @@ class SystemVitals:
         return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
     def wanted_seconds(self) -> float | None:
-        """How long (s) its main thread has run or waited for a processor, and for nothing else."""
+        """How long (s) its main thread has run or waited for a CPU, and for nothing else."""
         return wanted_seconds(str(self._pid))
 
     def memory_bytes(self) -> int | None:
-        """What `top` calls RES: with what it shares with the fork server, if that has started it."""
+        """Resident memory, as `top`'s RES: includes what it shares with the fork server, if that started it."""
         try:
             return int(self._statm.read_bytes().split()[1]) * os.sysconf("SC_PAGE_SIZE")
         except OSError:
@@ -45,9 +45,9 @@ class SystemVitals:
             return False
 
     def holds_lock_in(self) -> str:
-        """The line in which its interpreter's lock is held."""
+        """The line of code in which its interpreter lock is held."""
         return self._lock.held_in()
 
     def hangs_in(self) -> str:
-        """Nothing survives a SIGKILL here."""
+        """Always empty: nothing survives a SIGKILL here."""
         return ""

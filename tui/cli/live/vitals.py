@@ -1,4 +1,4 @@
-"""Processor time of launched processes, and whether code of one has survived being killed."""
+"""CPU time of launched processes, and whether code of a process has survived being killed."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ if TYPE_CHECKING:
 
 
 class NodeVitals:
-    """Those of a node process, which is a thread of this process and those that it starts."""
+    """The vitals of a node process: a thread of this process, and the threads it starts."""
 
     def __init__(self, process: RunningProcess) -> None:
         self._process = process
 
     def cpu_seconds(self) -> float | None:
-        """Processor time (s) of its threads."""
+        """CPU time (s) of its threads."""
         return self._process.cpu_seconds()
 
     def wanted_seconds(self) -> float | None:
-        """Its processor time: a thread that waits for the interpreter cannot be told from one that waits."""
+        """Its CPU time: a thread waiting for the interpreter cannot be told from one waiting for anything else."""
         return self.cpu_seconds()
 
     def memory_bytes(self) -> int | None:
@@ -32,20 +32,20 @@ class NodeVitals:
         return None
 
     def is_stopped(self) -> bool:
-        """Never: no signal freezes a thread alone."""
+        """Always false: no signal freezes a single thread."""
         return False
 
     def holds_lock_in(self) -> str:
-        """Never: while it does, nobody here can ask."""
+        """Always empty: while it held the lock, nobody in this process could ask."""
         return ""
 
     def hangs_in(self) -> str:
-        """Where code of it still is although it was killed, as the runtime's notice says it."""
+        """Where its code still runs although it was killed, in the words of the runtime's notice."""
         process = self._process
         return process.notices[-1] if process.state is ProcessState.ABANDONED and process.notices else ""
 
 
 def find_vitals(pid: int) -> Vitals:
-    """The vitals of a process by its pid, node process or not."""
+    """The vitals of a process by its pid, whether it is a node process or not."""
     process = running_process(pid)
     return SystemVitals(pid) if process is None else NodeVitals(process)

@@ -1,4 +1,4 @@
-"""What a console shows, and what is launched for it: imported when the first frame has been seen."""
+"""What a console shows, and what is launched for it; imported after the first frame."""
 
 from __future__ import annotations
 
@@ -43,9 +43,9 @@ class Connected:
         system: Callable[[RosConsole], ConsoleLauncher] = embedded,
         past: Keeper | None = None,
     ) -> None:
-        """`said` are lines for the log that were known before there was one; `system` makes the launcher.
+        """`said` are early lines for the log; `system` makes the launcher, in this process by default.
 
-        In this process unless it says otherwise. `past` keeps the last minutes.
+        `past` keeps the last minutes.
         """
         self._options = options
         self._said = said
@@ -72,7 +72,7 @@ class Connected:
         return self.launcher.info()
 
     def begin(self) -> System:
-        """Connect, and start the system as soon as that is done; gives what the panes are to be given."""
+        """Connect, and start the system as soon as that is done; returns what the panes are given."""
         reinstall_stdio()
         self.console.start()
         threading.Thread(target=self._launch, name="start", daemon=True).start()
@@ -80,11 +80,11 @@ class Connected:
         return System(*for_panes(self.console, self.launcher, lines, read_only=self._options.read_only))
 
     def plugins(self) -> Sequence[PaneEntry]:
-        """Panes that others bring."""
+        """The panes of other packages."""
         return find_plugins()
 
     def _launch(self) -> None:
-        """Start the system as soon as the console listens, so that not even its first log line is lost."""
+        """Start the system once the console listens, so that not even its first log line is lost."""
         if not self.console.wait_ready(READY):
             return
         self._forget_notices = tell_news(self.console.printed, self.console.learn)
@@ -111,9 +111,9 @@ class Connected:
         return robot_beside.processes(self.launcher.info())
 
     def close(self) -> None:
-        """Zero velocity, then end the launched processes, then leave the graph.
+        """Send zero velocity, end the launched processes, then leave the graph.
 
-        A robot that was attached to goes on, but for one that this console steers: leaving the graph locks that.
+        A robot that was attached to goes on, unless this console steers it: leaving the graph locks that one.
         """
         if not self._options.attach:
             self.console.all_stop(True, "bot-console was quit")
@@ -127,14 +127,14 @@ class Connected:
 
 
 def graph_events(domain: int, changed: Callable[[tuple[str, str]], None]) -> Callable[[], None]:
-    """Call back after each change of the graph of a domain with name and namespace; returns what ends that."""
+    """Call back after each change of a domain's graph, with name and namespace; returns a function that stops that."""
     from bot_console.runtime.rmw.middleware import bus_of
 
     return bus_of(domain).on_graph_change(changed)
 
 
 def _fetched(address: str) -> Path:
-    """The copy of a parameter file on a server."""
+    """The local copy of a parameter file on a server."""
     from bot_console.runtime.remote_parameters import local_copy
 
     return local_copy(address)

@@ -1,4 +1,4 @@
-"""A program as a client of a robot's router, without a screen."""
+"""Connects a program without a screen to a robot's router, as a client."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from bot_console.tui.cli.system.domain import domain
 
 
 def connect(way: Way) -> NetworkBuses:
-    """Let the contexts of this process be clients of a router from now on; raises `SessionError` with the reason."""
+    """Make the contexts of this process clients of a router from now on; raises `SessionError` with the reason."""
     install()
     buses = NetworkBuses(with_environment(way))
     choose_middleware(buses)
@@ -23,7 +23,7 @@ def connect(way: Way) -> NetworkBuses:
 
 
 def connect_to(endpoints: Sequence[str]) -> str:
-    """Be a client of these routers; gives why that cannot be, in one line, empty where it can."""
+    """Connect to these routers; returns why that fails, in one line, and an empty text when it does not."""
     try:
         for each in endpoints:
             place_of(each)

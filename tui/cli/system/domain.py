@@ -1,6 +1,7 @@
-"""What part a program has in its ROS domain: the graph is that of all programs of the user on this machine.
+"""A program's membership of its ROS domain, whose graph spans all programs of the user on this machine.
 
-Composition alone: what a verb, `run` and `launch` make is then seen by the others, and the other way round.
+Only the composition root calls this: what a verb, `run` or `launch` starts is then visible to the others, and vice
+versa.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ CONNECT_VARIABLE = "BOT_CONSOLE_CONNECT"
 
 
 def why_alone() -> str:
-    """Why this program cannot meet others in its domain, in one line; empty where it can."""
+    """Why this program cannot meet others in its domain, in one line; empty when it can."""
     from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
 
     try:
@@ -29,9 +30,9 @@ def why_alone() -> str:
 
 
 def take_part() -> str:
-    """Let the contexts that are initialised from now on share the graph of their domain; never in a stepped run.
+    """Make contexts initialised from now on share the graph of their domain; never in a stepped run.
 
-    Gives why that cannot be, in one line; empty where it can.
+    Returns why that fails, in one line, and an empty text when it does not.
     """
     global _taking_part
     if alone := why_alone():
@@ -46,7 +47,7 @@ def take_part() -> str:
 
 
 def run_apart() -> None:
-    """Let the contexts that are initialised from now on, and the programs of launches, meet nobody."""
+    """Isolate the contexts initialised from now on, and the programs of launches, from all other programs."""
     from bot_console.runtime.child_range import let_children_meet
     from bot_console.runtime.rmw.local import local_bus
     from bot_console.runtime.rmw.middleware import choose_middleware
@@ -56,14 +57,14 @@ def run_apart() -> None:
 
 
 def is_in_range() -> bool:
-    """Whether the environment lets programs of this machine find each other, as it does unless asked not to."""
+    """Whether the environment lets programs of this machine find each other, as it does by default."""
     from bot_console.runtime.rmw.zenoh.domain.discovery_range import is_in_range
 
     return is_in_range()
 
 
 def others_take_part() -> bool:
-    """Whether another process of this user is in the domain, as far as the folder of their sockets tells."""
+    """Whether another process of this user is in the domain, judging by the folder of their sockets."""
     from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
     from bot_console.runtime.rmw.zenoh.domain.sockets import lives, sockets
 
@@ -75,7 +76,7 @@ def others_take_part() -> bool:
 
 
 def frozen() -> list[int]:
-    """The ids of this user's processes in the domain that are stopped (SIGSTOP, Ctrl-Z, a debugger)."""
+    """The pids of this user's processes in the domain that are stopped (SIGSTOP, Ctrl-Z, a debugger)."""
     from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
     from bot_console.runtime.rmw.zenoh.domain.sockets import sockets
 
@@ -87,10 +88,11 @@ def frozen() -> list[int]:
 
 
 def robot_there() -> list[str]:
-    """The nodes of other processes that are a robot's: they obey velocities, or give scans or odometry.
+    """The nodes of other processes that form a robot: they obey velocities, or publish scans or odometry.
 
-    Tools and consoles, whose names begin with an underscore, watch what a robot is sent and are none. To be asked after
-    `take_part` and before anything runs in this process.
+    Tools and consoles, whose names begin with an underscore, only watch what a robot is sent and do not count. To be
+    called
+    after `take_part` and before anything runs in this process.
     """
     from bot_console.runtime.rmw.middleware import bus_of
     from bot_console.tui.console.robot.robot_wanted import SOURCES, VELOCITY
@@ -105,7 +107,7 @@ def robot_there() -> list[str]:
 
 
 def domain() -> int:
-    """The domain of the environment; a text that is no number is told when a context is made."""
+    """The domain id from the environment; a text that is no number is reported when a context is made."""
     try:
         return domain_id()
     except ValueError:
@@ -113,7 +115,7 @@ def domain() -> int:
 
 
 def end_program(code: int) -> NoReturn:
-    """End the process: at once where it has taken part, since closing waits up to 0.5 s beside a frozen process."""
+    """End the process; at once if it has joined the domain, since closing waits up to 0.5 s for a frozen process."""
     if _taking_part:
         from bot_console.runtime.process.ending import exit_functions_run
 

@@ -12,7 +12,7 @@ PATHS = (".py", ".xml", ".yaml", ".yml")
 
 
 def with_launch_file(options: Options) -> tuple[Options, str]:
-    """The options with the path of the launch file, and why there is none; with its arguments `launch` finds the same.
+    """The options with the path of the launch file, and why there is none; `launch` finds the same with its arguments.
 
     Packages are looked for where the options say, else in the working directory.
     """

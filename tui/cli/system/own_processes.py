@@ -1,4 +1,4 @@
-"""Nodes in processes of their own: what a user wrote gets one where programs of this machine can meet."""
+"""Nodes in processes of their own: the default for what a user wrote, where programs of this machine can meet."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ STARTS_NOTHING = {"-h", "--help", "-p", "--print", "--print-description", "-s", 
 
 
 def foresee(words: Sequence[str]) -> None:
-    """Start the fork server of a `launch` with these words: it warms up while the launch file is found and read."""
+    """Start the fork server early for a `launch` with these arguments: it warms up while the launch file is read."""
     places = [each for each in words if not each.startswith("-") and ":=" not in each]
     names_file = len(places) > 1 or any(map(os.path.isfile, places))
     if CAN_FORK and is_in_range() and names_file and not STARTS_NOTHING.intersection(words):
@@ -42,7 +42,7 @@ def isolate() -> None:
 
 
 def watch_threads() -> None:
-    """Tell of a node that is a thread of this process when code in C of it has kept all others from running."""
+    """Report when C code of a node that is a thread of this process has kept all others from running."""
 
     def tell(ident: int, text: str) -> None:
         notify(busy_watch.process_of(ident) or MAIN, text)

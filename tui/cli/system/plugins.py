@@ -1,4 +1,4 @@
-"""Finds the panes that other packages bring: installed ones, and those of the workspace."""
+"""Finds the panes of other packages: installed ones, and those of the workspace."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from bot_console.tui.pane_table import PANES as OWN
 def find_plugins() -> list[PluginEntry]:
     """All panes of other packages, by name; nothing of them is imported yet.
 
-    The workspace's stand before installed ones of the same name, and none takes the name of a pane of ours.
+    The workspace's take precedence over installed ones of the same name; none may take the name of a built-in pane.
     """
     found = {each.id: each for each in (*_installed(), *_of_workspace())}
     return [found[id] for id in sorted(found) if id not in {each.id for each in OWN}]

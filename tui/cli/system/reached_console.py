@@ -22,9 +22,9 @@ T = TypeVar("T")
 
 @contextlib.contextmanager
 def reached_console(*, learning: bool = False) -> Generator[RosConsole | None]:
-    """A console on the system of this domain, or behind the routers that the environment names; None after saying why.
+    """A console on the system of this domain, or behind the routers in the environment; None, after saying why.
 
-    With `learning` the launch hosts of the domain tell it what nodes have declared.
+    With `learning`, the launch hosts of the domain report what nodes have declared.
     """
     alone = reach_system()
     if alone:
@@ -59,7 +59,7 @@ def _listen_to_hosts(console: RosConsole, stack: contextlib.ExitStack) -> None:
 
 
 def known(console: RosConsole, patience: float) -> bool:
-    """Wait until nodes and their parameters stand still, so many seconds at most; whether there are any nodes."""
+    """Wait until nodes and parameters stop changing, at most so many seconds; returns whether there are any nodes."""
 
     def counts() -> tuple[int, int, int]:
         snapshot = console.snapshot()
@@ -71,7 +71,7 @@ def known(console: RosConsole, patience: float) -> bool:
 
 
 def settled(look: Callable[[], T], is_there: Callable[[T], bool], still: float, patience: float) -> T:
-    """What is seen once it is there and has stayed the same for `still` seconds; else after `patience` seconds."""
+    """A value, once there is one and it has not changed for `still` seconds; at the latest after `patience` seconds."""
     deadline = time.monotonic() + patience
     seen, since = look(), time.monotonic()
     while time.monotonic() < deadline and not (is_there(seen) and time.monotonic() - since >= still):

@@ -1,4 +1,4 @@
-"""How a verb reaches the system that it is asked about: in its domain, or through the routers that are named."""
+"""How a verb reaches the system it is about: in its domain, or through named routers."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def reach_system() -> str:
-    """Take part in the domain of this machine, or be a client of the robot's router that the environment names."""
+    """Join the domain of this machine, or become a client of the robot's router named by the environment."""
     endpoints = os.environ.get(CONNECT_VARIABLE, "").split()
     if not endpoints:
         return take_part()
@@ -22,7 +22,7 @@ def reach_system() -> str:
 
 
 def reach_when_asked() -> None:
-    """Reach it with the first context, for a verb that seldom makes one; where that cannot be, the verb is alone."""
+    """Reach it with the first context, for verbs that rarely make one; if that fails, the verb runs isolated."""
     from bot_console.runtime.rmw.local import local_bus
     from bot_console.runtime.rmw.middleware import bus_of, choose_middleware
 

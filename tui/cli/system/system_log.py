@@ -1,4 +1,4 @@
-"""The log of a system in the background: every line of its processes, in files that take turns."""
+"""The log of a background system: every line of its processes, in rotating files."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ class SystemLog:
         self._handler = TurningFile(path, most_bytes, KEPT_PARTS, STANDARD_STREAMS)
 
     def logged(self, stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:
-        """A line of a logger; `stamp` in ns since the epoch."""
+        """Write a logger's line; `stamp` in ns since the epoch."""
         line = f"[{NAMES.get(severity, 'INFO')}] [{stamp * 1e-9:.6f}] [{name}]: {text}"
         self._handler.handle(logging.LogRecord(name, severity, site[0], site[2], line, None, None))
 
     def printed(self, severity: int, name: str, text: str) -> None:
-        """A line that a process printed just now."""
+        """Write a line that a process has just printed."""
         self.logged(time.time_ns(), severity, name, text, ("", "", 0))
 
     def close(self) -> None:
@@ -40,7 +40,7 @@ class SystemLog:
 
 
 def new_log(pid: int) -> Path:
-    """The file for the log of a system that starts now; those of all but the newest systems go."""
+    """The log file for a system that starts now; the logs of all but the newest systems are deleted."""
     folder = state_folder() / "systems"
     folder.mkdir(parents=True, exist_ok=True)
     old = sorted(folder.glob("*.log"), key=lambda each: each.stat().st_mtime)
@@ -51,5 +51,5 @@ def new_log(pid: int) -> Path:
 
 
 def parts(log: Path) -> Iterator[Path]:
-    """The older files of a log."""
+    """The rotated files of a log."""
     return log.parent.glob(f"{log.name}.*")

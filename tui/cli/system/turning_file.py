@@ -1,4 +1,4 @@
-"""Log files that take turns, so that a node that floods its output fills no disk."""
+"""Rotating log files, so that a node that floods its output does not fill the disk."""
 
 from __future__ import annotations
 
@@ -16,10 +16,11 @@ LAUNCH_PARTS = 1
 
 
 class TurningFile(RotatingFileHandler):
-    """Writes to a file until it has `most_bytes`; the older ones are named `.1` (the newest) and up.
+    """Writes to a file until it has `most_bytes`; rotated files are named `.1` (the newest) and up.
 
-    The descriptors of `followed` that lead to the file lead to the new one afterwards: what this program writes to
-    its standard output past the log would end in a file that soon is gone.
+    Descriptors in `followed` that refer to the file are redirected to the new one on rotation: otherwise what this
+    program
+    writes to standard output, past the log, would end up in a file that is soon deleted.
     """
 
     def __init__(self, path: str | Path, most_bytes: int, parts: int, followed: tuple[int, ...] = ()) -> None:
@@ -29,13 +30,13 @@ class TurningFile(RotatingFileHandler):
         self._followed = followed
 
     def shouldRollover(self, record: logging.LogRecord) -> bool:
-        """Whether the record has no place any more; the base class asks the file system for each of them."""
+        """Whether the record does not fit; the base class would ask the file system for each record."""
         if self.stream is None:
             self.stream = self._open()
         return self.stream.tell() + len(self.format(record)) + 1 > self.maxBytes and self.stream.tell() > 0
 
     def doRollover(self) -> None:
-        """Begin the next file."""
+        """Start the next file."""
         leading = [each for each in self._followed if self._is_here(each)]
         super().doRollover()
         self.stream = self.stream or self._open()
@@ -49,7 +50,7 @@ class TurningFile(RotatingFileHandler):
 
 
 def bound_launch_files() -> None:
-    """Let the files that launch keeps of each process of this run take turns, too: upstream's grow for ever."""
+    """Rotate the files that launch keeps for each process of this run, too; upstream's grow without limit."""
     from launch.logging import launch_config
 
     def make(path: str, encoding: str | None = None) -> logging.Handler:

@@ -1,4 +1,4 @@
-"""Interfaces made of what nodes tell of them, for a console whose own types do not suffice."""
+"""Makes interfaces from the definitions that nodes send, for a console whose own types are not enough."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from typing import Any
 
 
 class DomainTypes:
-    """`TypeSource` over the runtime."""
+    """A `TypeSource` based on the runtime."""
 
     def inquiries(self, domain: int, type_name: str) -> Mapping[str, Generator[tuple[str, str], Any, str]]:
-        """What to ask for a type, by the nodes of other processes that can be asked."""
+        """The queries to send for a type, by node of another process that can be asked."""
         from bot_console.runtime.type_inquiry import inquiries
 
         return inquiries(domain, type_name)

@@ -19,7 +19,7 @@ SYSTEM_LAUNCH = str(ROOT / "launch" / "robot_system.launch.py")
 
 
 def choose(folders: Sequence[Path]) -> None:
-    """Look for packages in these folders, and in the `src/` of each, instead of the working directory."""
+    """Look for packages in these folders, and in the `src/` of each, instead of in the working directory."""
     if folders:
         use(Workspace([each for folder in folders for each in default_folders(folder)]))
 
@@ -35,7 +35,7 @@ def launch_environment(file: str) -> dict[str, str]:
 
 
 def tell_whose(package: str) -> None:
-    """Say on stderr that a package which is named is the workspace's, where it has one of the names of ours."""
+    """Say on stderr that a named package is the workspace's, if one of ours has the same name."""
     here = workspace()
     if package not in (NAME, PAGE_NAME):
         return  # no package is looked for: the folder that one works in may be large
@@ -51,7 +51,7 @@ def config_folders() -> tuple[Path, ...]:
 
 
 def launch_files() -> tuple[str, ...]:
-    """The launch files of all packages of the workspace, those of the user's own packages first."""
+    """The launch files of all packages in the workspace, the user's own packages first."""
     packages = workspace().packages
     names = sorted(packages, key=lambda name: is_own(packages[name]) or is_demo(packages[name]))
     return tuple(str(path) for name in names for path in launch_file_paths(name))

@@ -1,4 +1,4 @@
-"""A tuning in words and for programs."""
+"""The result of a tuning, for people and for programs."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from bot_console.tui.tuning.study import Judged, Progress
 
 
 def dials_of(system: Mapping[str, Any]) -> list[Dial]:
-    """What can be tuned of the parameters that a probe has found: numbers and booleans that are not read-only."""
+    """The tunable parameters among those a probe has found: numbers and booleans that are not read-only."""
     found: list[Dial] = []
     for node, parameters in system.items():
         if not node.startswith("/"):
@@ -42,7 +42,7 @@ def line_of(question: Question, judged: Judged) -> str:
 
 
 def gain(before: Judged, after: Judged) -> str:
-    """By how much one is better than the other, in words."""
+    """How much better one is than the other, in words."""
     if not (math.isfinite(before.score) and math.isfinite(after.score)):
         return ""
     share = (after.score - before.score) / abs(before.score) if before.score else math.inf

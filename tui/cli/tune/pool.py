@@ -1,4 +1,4 @@
-"""Runs of the simulator side by side, each in a process that a preloaded server forks."""
+"""Simulator runs in parallel, each in a process forked from a preloaded server."""
 
 from __future__ import annotations
 
@@ -25,19 +25,19 @@ _FAULTS = ("[FATAL]", "[ERROR]")
 
 
 def processors() -> list[int]:
-    """Those that this process may use."""
+    """The CPUs that this process may use."""
     offered = getattr(os, "sched_getaffinity", None)
     return sorted(offered(0)) if offered else list(range(os.cpu_count() or 1))
 
 
 class Pool:
-    """As many runs at a time as there are processors; `close` ends them.
+    """As many concurrent runs as there are CPUs; `close` ends them.
 
     Raises `OSError` where nothing can be forked.
     """
 
     def __init__(self, most: int = 0) -> None:
-        """`most` runs at a time; 0: one for each processor."""
+        """At most `most` runs at a time; 0 means one per CPU."""
         if not CAN_FORK:
             raise OSError("this system cannot fork processes, which runs side by side need")
         places = processors()
@@ -55,7 +55,7 @@ class Pool:
         return self._server.pid
 
     def begin(self, question: Question, trial: Trial) -> Future[Mapping[str, Any]]:
-        """Begin a run as soon as a processor is free; its report has `problem` where it failed."""
+        """Start a run as soon as a CPU is free; its report has `problem` if it failed."""
         run = _Run(
             "run",
             question.profile,
@@ -69,7 +69,7 @@ class Pool:
         return self._threads.submit(self._run, run)
 
     def probe(self, profile: str, arguments: Mapping[str, str]) -> Future[Mapping[str, Any]]:
-        """The parameters of the system that a profile starts, by node and name."""
+        """The parameters, by node and name, of the system that a profile starts."""
         words = [f"{name}:={value}" for name, value in arguments.items()]
         run = _Run("probe", profile, profile_text(profile), "", 1, PROBING, words)
         return self._threads.submit(self._run, run)
@@ -91,7 +91,7 @@ class Pool:
 
 @dataclass(frozen=True)
 class _Run:
-    """What the worker is called with."""
+    """The arguments of a worker."""
 
     kind: str
     profile: str
@@ -150,12 +150,12 @@ def _drain(descriptor: int) -> bytes:
 
 
 def is_file(profile: str) -> bool:
-    """Whether a profile is given as a file, not by a name."""
+    """Whether a profile is given as a file rather than by name."""
     return profile.endswith((".yaml", ".yml"))
 
 
 def profile_text(profile: str) -> str:
-    """The parameter file of a profile; raises `OSError` for one that is not there."""
+    """The parameter file of a profile; raises `OSError` if it does not exist."""
     folder = Path(__file__).resolve().parents[3] / "profiles"
     path = Path(profile).expanduser() if is_file(profile) else folder / f"{profile}.yaml"
     return path.read_text(encoding="utf-8-sig")

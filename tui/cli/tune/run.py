@@ -1,4 +1,4 @@
-"""The command: options, a line for each setting while it goes on, the result, and what to do with it."""
+"""The `tune` command: options, a line per setting as it goes on, the result, and what to do with it."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ exit codes: 0 done, 1 failed or stopped, 2 wrong usage
 
 
 def run(words: Sequence[str]) -> int:
-    """Tune; 0 when a result is there, 1 where none is, 2 for wrong usage."""
+    """Tune; 0 if there is a result, 1 if there is none, 2 for wrong usage."""
     parser = command_parser()
     given = parser.parse_args(words)
     arguments = dict(each.split(":=", 1) for each in given.parameters if ":=" in each)
@@ -88,7 +88,7 @@ def _found(parser: argparse.ArgumentParser, named: list[str], system: Mapping[st
 
 
 def _tuned(question: Question, pool: Pool, given: argparse.Namespace) -> Progress:
-    """Run it to its end, or until Ctrl-C; what was found stays in the journal."""
+    """Run the study to its end or until Ctrl-C; what was found stays in the journal."""
     journal = Journal(state_folder() / "tune", question, resume=given.resume)
     if given.resume:
         print(f"{journal.resumed} runs are known already", file=sys.stderr)
@@ -103,7 +103,7 @@ def _tuned(question: Question, pool: Pool, given: argparse.Namespace) -> Progres
 
 
 def _teller(question: Question) -> Callable[[Progress], None]:
-    """Prints each setting once, and how far it is, on stderr."""
+    """Prints each setting once, and the progress, on stderr."""
     told: set[Setting] = set()
 
     def tell(progress: Progress) -> None:
@@ -122,7 +122,7 @@ def _teller(question: Question) -> Callable[[Progress], None]:
 
 
 def _told(question: Question, progress: Progress, given: argparse.Namespace) -> int:
-    """Print the result and save it; the exit code."""
+    """Print the result and save it; returns the exit code."""
     best = progress.best
     result = result_of(question, progress)
     if given.json:

@@ -1,4 +1,4 @@
-"""The best setting of a tuning, saved as a profile of the user's."""
+"""Saves the best setting of a tuning as one of the user's profiles."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from bot_console.tui.tuning.study import Judged
 
 
 def save_profile(name: str, question: Question, best: Judged) -> str:
-    """Save the profile that was tuned with the best values in it, and say where; raises `NotSaved`."""
+    """Save the tuned profile with the best values, and say where; raises `NotSaved`."""
     if problem := profile_name_problem(name):
         raise NotSaved(problem)
     path = config_folder() / "profiles" / f"{name}.yaml"

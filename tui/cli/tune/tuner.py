@@ -1,4 +1,4 @@
-"""The tuner of a console: a study in a thread, its runs in processes beside the running robot."""
+"""A console's tuner: a study in a thread, with its runs in processes alongside the running robot."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ SIMULATED = frozenset(
 
 
 class LocalTuner:
-    """Forks the runs here. One question at a time; the next one ends the one before."""
+    """Forks the runs on this machine. It works on one question at a time; a new one ends the one before."""
 
     def __init__(self, folder: Path | None = None) -> None:
         self._folder = folder or state_folder() / "tune"
@@ -35,7 +35,7 @@ class LocalTuner:
         self._tuning: LocalTuning | None = None
 
     def problem(self, question: Question) -> str:
-        """Why a question cannot be worked on; empty when it can."""
+        """Why a question cannot be answered; empty when it can."""
         if not CAN_FORK:
             return "this system cannot fork processes, which runs side by side need"
         strange = [each.label for each in question.dials if each.node not in SIMULATED]
@@ -44,7 +44,7 @@ class LocalTuner:
         return question.problem()
 
     def begin(self, question: Question) -> LocalTuning:
-        """Begin, or go on with what the journal knows."""
+        """Start, or resume from what the journal knows."""
         if self._tuning is not None:
             self._tuning.stop()
         if self._pool is None:
@@ -53,7 +53,7 @@ class LocalTuner:
         return self._tuning
 
     def close(self) -> None:
-        """End all runs; waits for that."""
+        """End all runs, and wait for that."""
         if self._tuning is not None:
             self._tuning.stop()
         if self._pool is not None:
@@ -75,19 +75,19 @@ class LocalTuning:
 
     @property
     def progress(self) -> Progress:
-        """How far it is."""
+        """The progress so far."""
         if self._problem:
             return Progress(ended=True, problem=self._problem)
         return self._study.progress if self._study is not None else Progress()
 
     def stop(self) -> None:
-        """End it after the runs that go on."""
+        """Stop after the runs in progress."""
         self._stopped = True
         if self._study is not None:
             self._study.stop()
 
     def save(self, name: str, setting: Setting) -> Answer:
-        """Save the profile with a setting in it."""
+        """Save the profile with a setting's values."""
         judged = next((each for each in self.progress.rows if each.setting == setting), None)
         if judged is None:
             return Answer(False, "nothing is known of this setting yet")

@@ -1,4 +1,4 @@
-"""One run of the simulator, in a process of its own that was forked with everything imported."""
+"""One run of the simulator, in a forked process with everything already imported."""
 
 from __future__ import annotations
 
@@ -41,8 +41,9 @@ def job(
 ) -> Callable[[], object]:  # fmt: skip
     """The program of a process: `kind` is `run` or `probe`; prints a JSON object.
 
-    `parameters` is the path of a parameter file, `words` are launch arguments (`name:=value`), `processor` the one that
-    it keeps to where the system offers that: runs side by side would else meet on one.
+    `parameters` is the path of a parameter file, `words` are launch arguments (`name:=value`), and `processor` is the
+    CPU
+    to pin the process to where that is possible: otherwise concurrent runs end up on the same one.
     """
 
     def program() -> None:

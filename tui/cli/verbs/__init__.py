@@ -1,1 +1,1 @@
-"""What follows `bot-console` on a command line, a file each; `doctor`, `lint` and `attach` have rooms of their own."""
+"""The commands of `bot-console`, one file each; `doctor`, `lint` and `attach` have folders of their own."""

@@ -32,7 +32,7 @@ ENDING = 15.0
 
 @dataclass(frozen=True)
 class Background:
-    """A system in the background: its process, what it was started with, and where its log is."""
+    """A system in the background: its process, its arguments, and its log file."""
 
     pid: int
     words: tuple[str, ...]
@@ -41,21 +41,21 @@ class Background:
     """The process that lets other machines in; 0 where none does."""
 
     def runs(self) -> bool:
-        """Whether it is still that program which has the process id."""
+        """Whether its pid still belongs to that program."""
         return _is_program(self.pid, SWITCH.encode())
 
     def close_way_in(self) -> None:
-        """Let other machines in no more."""
+        """Stop letting other machines in."""
         if self.way_in and _is_program(self.way_in, b"router"):
             os.kill(self.way_in, signal.SIGTERM)
 
     def told(self) -> str:
-        """It on one line."""
+        """A description on one line."""
         return f"process {self.pid} ({' '.join(self.words) or 'indoor'}), log {self.log}"
 
 
 def up(words: Sequence[str]) -> int:
-    """Start a system in the background and wait until its robot is there."""
+    """Start a system in the background and wait until its robot is ready."""
     from bot_console.tui.cli.arguments import parse
 
     serving, words = _serving(words)
@@ -107,7 +107,7 @@ def up(words: Sequence[str]) -> int:
 
 
 def _serving(words: Sequence[str]) -> tuple[list[str], list[str]]:
-    """The words for `bot-console router` where others are to be let in, and the rest."""
+    """The arguments for `bot-console router`, if others are to be let in, and the remaining ones."""
     from bot_console.tui.cli.verbs.router import add_serving_options, serving_of, warning_of
 
     parser = argparse.ArgumentParser("bot-console up", add_help=False)
@@ -127,7 +127,7 @@ def _serving(words: Sequence[str]) -> tuple[list[str], list[str]]:
 
 
 def _open_way_in(words: Sequence[str], log: Path) -> int:
-    """Start the process that lets other machines in."""
+    """Start the router process that lets other machines in."""
     line = [*own_program("bot_console.tui"), "router", "--mesh", *words]
     with log.open("ab") as output:
         return subprocess.Popen(
@@ -136,7 +136,7 @@ def _open_way_in(words: Sequence[str], log: Path) -> int:
 
 
 def _is_program(pid: int, word: bytes) -> bool:
-    """Whether a process has that word in its command line, so that its number was not given to another."""
+    """Whether a process has that word in its command line, so that its pid was not reused."""
     try:
         return word in Path(f"/proc/{pid}/cmdline").read_bytes()
     except OSError:
@@ -147,7 +147,7 @@ def _is_program(pid: int, word: bytes) -> bool:
 
 
 def down(words: Sequence[str]) -> int:
-    """Bring the robot to rest and end the system in the background."""
+    """Stop the robot and end the system in the background."""
     _no_words("down", "End the system in the background.", words)
     alone = take_part()
     if alone:
@@ -174,7 +174,7 @@ def down(words: Sequence[str]) -> int:
 
 
 def _bring_to_rest() -> None:
-    """A robot that can be held is, until its system has ended; one without an emergency stop ends with its nodes."""
+    """Hold the robot until its system has ended; one without an emergency stop ends with its nodes."""
     from bot_console.runtime.importer import install
     from bot_console.tui.cli.verbs import stop
 
@@ -183,7 +183,7 @@ def _bring_to_rest() -> None:
 
 
 def status(words: Sequence[str]) -> int:
-    """Tell what runs in the background, and which robot is in the domain; 1 where nothing is."""
+    """Report the system in the background, and the robot in the domain; 1 if there is neither."""
     _no_words("status", "Tell what runs.", words)
     alone = take_part()
     if alone:
@@ -221,19 +221,19 @@ def _no_words(command: str, what: str, words: Sequence[str]) -> None:
 
 
 def _file() -> Path:
-    """Where a system in the background is written down: beside the sockets of its domain."""
+    """The file that describes the system in the background, next to the sockets of its domain."""
     from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
 
     return Path(domain_folder(domain())) / "background.json"
 
 
 def _runs(pid: int) -> bool:
-    """Whether a system lets consoles in, which it does as soon as its first process runs."""
+    """Whether a system accepts consoles, which it does once its first process runs."""
     return (_file().parent / f"{pid}{DOOR}").exists()
 
 
 def _known() -> Background | None:
-    """The system in the background, if it still runs."""
+    """The system in the background, if it is still running."""
     try:
         found = json.loads(_file().read_text(encoding="utf-8"))
         known = Background(int(found["pid"]), tuple(found["words"]), str(found["log"]), int(found.get("way_in", 0)))

@@ -309,7 +309,7 @@ def _new_folder(near: Path | None = None) -> Path:
 
 
 def _node(name: str) -> Any:
-    """A node in the domain; None, and a line, where nobody can take part."""
+    """A node in the domain; None, after saying why, if the domain cannot be joined."""
     import rclpy
 
     alone = take_part()
@@ -321,7 +321,7 @@ def _node(name: str) -> Any:
 
 
 def _spin(node: Node, duration: float | None, stopped: threading.Event | None = None) -> None:
-    """Spin until the time has come, or somebody stops it or ends the program in order."""
+    """Spin until the time is up, or until it is stopped or the program is asked to end."""
     from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 
     end = None if duration is None else time.monotonic() + duration

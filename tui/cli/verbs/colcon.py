@@ -1,4 +1,4 @@
-"""`colcon build`: nothing has to be built here; what is asked for in vain and what could not be built is told."""
+"""`colcon build`: nothing has to be built here; says which requests have no effect, and which packages are broken."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ SELECTING = ("--packages-select", "--packages-up-to")
 
 
 def run(words: Sequence[str]) -> int:
-    """Print what there is to say to `colcon WORDS`; exit code 1 where a package cannot be used as it is."""
+    """Answer `colcon WORDS`; exit code 1 if a package cannot be used as it is."""
     install()
     *warnings, answer = answers(words)
     for each in warnings:
@@ -25,7 +25,7 @@ def run(words: Sequence[str]) -> int:
 
 
 def answers(words: Sequence[str]) -> list[str]:
-    """The lines of the answer, first a warning for each package that is not there and each that has a mistake."""
+    """The lines of the answer, starting with a warning for each package that is missing or has a mistake."""
     warnings = [f"ignoring unknown package '{name}' in {option}" for option, name in _unknown(words)]
     broken = _broken(words)
     failed = [f"Failed   <<< {name}: {problem}" for name, problem in broken.items()]
@@ -34,7 +34,7 @@ def answers(words: Sequence[str]) -> list[str]:
 
 
 def _broken(words: Sequence[str]) -> dict[str, str]:
-    """Why packages of the workspace cannot be used, by their names; of those selected, where some are."""
+    """Why packages of the workspace cannot be used, by name; only the selected ones, if any are."""
     selected = {word for _, word in _selected(words)}
     found = ((name, package.problem) for name, package in sorted(workspace().packages.items()))
     return {name: problem for name, problem in found if problem and (name in selected or not selected)}

@@ -1,4 +1,4 @@
-"""`bot-console config`: the settings file shown, opened, checked."""
+"""`bot-console config`: shows, edits and checks the settings file."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from bot_console.tui.settings.settings import TEMPLATE, read_settings, settings_
 
 
 def run(words: Sequence[str]) -> int:
-    """Show the file and where it is, or do what an option says; 1 where it has faults or cannot be opened."""
+    """Show the file and its path, or do what an option says; 1 if it has mistakes or cannot be opened."""
     parser = argparse.ArgumentParser(
         "bot-console config",
         description="The settings: colours, glyphs, layout, keys; shown without an option.",

@@ -11,7 +11,7 @@ from bot_console.tui.files.save_file import NotSaved, save_file, typed_path
 
 
 def run(words: list[str]) -> int:
-    """Write the package and say where; over a folder that is there only when a person says yes."""
+    """Write the package and say where; over an existing folder only if a person agrees."""
     parser = argparse.ArgumentParser("bot-console export", description="Write the robot's package for colcon.")
     parser.add_argument("folder", metavar="DIR", help="where the package's folder is made")
     given = parser.parse_args(words)
@@ -41,7 +41,7 @@ def _differs(new: Path, old: Path) -> bool:
 
 
 def _agreed(place: Path, kept: list[Path]) -> bool:
-    """Ask whether files are to be written into a folder that is there; without a terminal nobody agrees."""
+    """Ask whether to write into an existing folder; without a terminal the answer is no."""
     if not sys.stdin.isatty():
         return False
     print(f"{place} exists already. Nothing in it is deleted.")
@@ -54,7 +54,7 @@ def _agreed(place: Path, kept: list[Path]) -> bool:
 
 
 def _free_name(path: Path) -> Path:
-    """A name for the old content that no file has yet: `x.py~`, `x.py~~` ..."""
+    """An unused name for the old content: `x.py~`, `x.py~~` ..."""
     while path.exists():
         path = path.with_name(path.name + "~")
     return path

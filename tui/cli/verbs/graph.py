@@ -1,4 +1,4 @@
-"""`bot-console graph`: the ROS graph as a file, what is odd about it, and whether it is as a file says."""
+"""`bot-console graph`: writes the ROS graph to a file, lists what is odd about it, and compares it with a file."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ the file is YAML, as `bot-console graph` writes it; all parts may be left out:
 
 
 def run(words: list[str]) -> int:
-    """Write, judge or compare the graph of the domain; the exit code."""
+    """Write, check or compare the graph of the domain; returns the exit code."""
     given = _parser().parse_args(words)
     expected = None
     if given.check:
@@ -59,7 +59,7 @@ def _judge(console: RosConsole, expected: Expected | None, given: argparse.Names
 
 
 def _compare(console: RosConsole, expected: Expected, given: argparse.Namespace) -> int:
-    """Wait until the graph is as expected, then measure; tell each difference."""
+    """Wait until the graph matches, then measure rates; prints each difference."""
     deadline = time.monotonic() + given.wait
     found = differences(expected, console.snapshot().graph)
     while found and time.monotonic() < deadline:
@@ -76,7 +76,7 @@ def _compare(console: RosConsole, expected: Expected, given: argparse.Namespace)
 
 
 def _known(console: RosConsole, wait: float) -> GraphInfo:
-    """The graph, once it has nodes and stands still; else after so many seconds."""
+    """The graph, once it has nodes and stops changing; at the latest after so many seconds."""
 
     def has_nodes(info: GraphInfo) -> bool:
         return any(not each.hidden for each in info.nodes)

@@ -1,4 +1,4 @@
-"""`bot-console reset`: a system as it was at its start: parameters, robot and world; the robot stays locked."""
+"""`bot-console reset`: puts a system back to its start: parameters, robot and world; the robot stays locked."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ Values = dict[str, dict[str, Value]]
 
 
 def run(words: list[str]) -> int:
-    """Lock the robot, put parameters back, reset simulators; 0 when all of it was done."""
+    """Lock the robot, restore parameters, reset simulators; 0 if all of that succeeded."""
     parser = argparse.ArgumentParser(
         "bot-console reset",
         description="Put what runs back to its start: the robot is locked, parameters get the values with which their "
@@ -62,9 +62,9 @@ def _reset(console: RosConsole, *, dry: bool) -> int:
 
 
 def _lock() -> bool:
-    """Lock the robot first, so that nothing moves by values that are on their way; whether it stands for sure.
+    """Lock the robot first, so that it does not act on values in transit; returns whether it surely stands.
 
-    As `bot-console stop` does, so that the same person's `release` lets it go.
+    It is the lock of `bot-console stop`, so that the same person's `release` lets the robot go.
     """
     held, info = ask("stop", REASON)
     if not info.locks:
@@ -99,7 +99,7 @@ def _tell(moved: Values, snapshot: ConsoleSnapshot) -> None:
 
 
 def differing(snapshot: ConsoleSnapshot, starts: Mapping[tuple[str, str], Value]) -> tuple[Values, list[str]]:
-    """What has to be set to be as at the start, by node, and the nodes that have not told how they began."""
+    """The values to restore, by node, and the nodes that have not reported their start values."""
     moved: Values = {}
     untold: list[str] = []
     for node, tree in snapshot.parameters.items():
@@ -113,7 +113,7 @@ def differing(snapshot: ConsoleSnapshot, starts: Mapping[tuple[str, str], Value]
 
 
 def resets(snapshot: ConsoleSnapshot) -> list[str]:
-    """The services that reset a simulator: those that stand beside one that pauses it."""
+    """The services that reset a simulator: those next to a service that pauses it."""
     names = {each.name: each.types for each in snapshot.graph.services}
     return [
         name

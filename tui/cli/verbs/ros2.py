@@ -1,4 +1,4 @@
-"""`ros2` verbs from a shell of their own, asked of what runs in the domain."""
+"""`ros2` verbs run from a shell, on the system in the domain."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def main(words: Sequence[str]) -> int:
 
 
 def taking_part(words: Sequence[str]) -> int:
-    """Run a command line in the domain that the environment names; what answers from files needs none."""
+    """Run a command line in the domain named by the environment; verbs that only read files do not join it."""
     problem = ""
     if words[0] in ALONE:
         reach_when_asked()

@@ -1,4 +1,4 @@
-"""`bot-console router`: Zenoh's router, for a robot without one, or as the way into the programs of this machine."""
+"""`bot-console router`: a Zenoh router, for a robot without one or as the entrance to this machine's programs."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ OPEN = (
 
 
 def run(words: Sequence[str]) -> int:
-    """Carry messages until Ctrl-C, SIGTERM or SIGHUP; 1 where it cannot listen."""
+    """Route messages until Ctrl-C, SIGTERM or SIGHUP; 1 if it cannot listen."""
     parser = _parser()
     given = parser.parse_args(words)
     serving = serving_of(parser, given.listen or [HERE], given)
@@ -50,7 +50,7 @@ def run(words: Sequence[str]) -> int:
 
 
 def add_serving_options(parser: argparse.ArgumentParser) -> None:
-    """The options of whoever lets others in by TLS; see `serving_of`."""
+    """Add the options for letting others in over TLS; see `serving_of`."""
     add = parser.add_argument
     add("--tls-certificate", default="", metavar="FILE", help="the certificate to show")
     add("--tls-key", default="", metavar="FILE", help="its private key")
@@ -58,7 +58,7 @@ def add_serving_options(parser: argparse.ArgumentParser) -> None:
 
 
 def serving_of(parser: argparse.ArgumentParser, endpoints: Sequence[str], given: argparse.Namespace) -> Serving:
-    """What to listen on; ends the program with exit code 2 for what cannot be."""
+    """The endpoints to listen on; exits with code 2 for invalid ones."""
     tls = Tls(given.tls_ca, given.tls_certificate, given.tls_key)
     if problem := tls.problem():
         parser.error(problem)
@@ -73,7 +73,7 @@ def serving_of(parser: argparse.ArgumentParser, endpoints: Sequence[str], given:
 
 
 def warning_of(serving: Serving) -> str:
-    """What it means to listen there; empty where only this machine can come."""
+    """The risk of listening there; empty if only this machine can connect."""
     outside = [each for each in serving.endpoints if not place_of(each)[1].startswith(LOOPBACK)]
     if not outside:
         return ""

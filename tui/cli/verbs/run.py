@@ -1,4 +1,4 @@
-"""`bot-console run`: a node as the main program of this process, or with the console on it."""
+"""`bot-console run`: a node as the main program of this process, or together with the console."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def run(words: list[str]) -> int:
 
 
 def _prefixed(prefix: str, words: list[str]) -> int:
-    """Run an executable behind a command, in a process of its own."""
+    """Run an executable behind a command prefix, in a process of its own."""
     from bot_console.tui.cli.system.domain import take_part
     from bot_console.tui.cli.verbs import ros2
 
@@ -75,7 +75,7 @@ def _options(given: argparse.Namespace, program: dict[str, str]) -> Options:
 
 
 def _operand(words: list[str]) -> int:
-    """How many words stand before the file or package."""
+    """The number of words before the file or package."""
     index = 0
     while index < len(words) and words[index].startswith("-") and words[index] != "--ros-args":
         index += 2 if words[index] in ("--duration", "--prefix", "--seed", "--world") else 1

@@ -1,4 +1,4 @@
-"""`bot-console setup SHELL`: what sourcing a ROS installation is. Prints code for a shell, and writes nowhere."""
+"""`bot-console setup SHELL`: the equivalent of sourcing a ROS installation. Prints shell code, and writes no file."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ test (command -s ros2) = {ros2}/ros2; and complete -c ros2 -f -a '(__bot_console
 
 
 def run(words: Sequence[str]) -> int:
-    """Print the code for the shell that is named; ends with 2 where none, or one that is not known, is."""
+    """Print the code for the named shell; exits with 2 if none is named or it is unknown."""
     if len(words) == 1 and words[0] in ("-h", "--help"):
         print(_usage())
         return 0
@@ -76,7 +76,7 @@ def run(words: Sequence[str]) -> int:
 
 
 def code(shell: str) -> str:
-    """What a shell is to evaluate."""
+    """The code that a shell evaluates."""
     places = {
         "variable": COMMAND_VARIABLE,
         "command": shlex.quote(command()),

@@ -1,4 +1,4 @@
-"""`bot-console stop` and `bot-console release`: the robot's emergency stop without a screen."""
+"""`bot-console stop` and `bot-console release`: the robot's emergency stop, without a screen."""
 
 from __future__ import annotations
 
@@ -25,17 +25,17 @@ ANSWERS_S = 15.0
 
 
 def stop(words: list[str]) -> int:
-    """Lock every robot that is found; 0 when it has acknowledged, 1 when nothing has."""
+    """Lock every robot that is found; 0 when acknowledged, 1 if none has."""
     return run("stop", words)
 
 
 def release(words: list[str]) -> int:
-    """Release every robot that is found; 0 when it has acknowledged, 1 when nothing has."""
+    """Release every robot that is found; 0 when acknowledged, 1 if none has."""
     return run("release", words)
 
 
 def run(verb: str, words: list[str]) -> int:
-    """Lock or release every robot that is found; 0 when it has acknowledged, 1 when nothing has."""
+    """Lock or release every robot that is found; 0 when acknowledged, 1 if none has."""
     what = f"{verb.capitalize()} the robot, and wait for its word."
     parser = argparse.ArgumentParser(f"bot-console {verb}", description=what)
     if verb == "stop":
@@ -53,9 +53,11 @@ def run(verb: str, words: list[str]) -> int:
 
 
 def ask(verb: str, reason: str, *, everybody: bool = False, answers_s: float = ANSWERS_S) -> tuple[bool, StopInfo]:
-    """Ask every robot that is found to lock or release, everybody's stops if so; whether all did, and what is known.
+    """Ask every robot that is found to lock or release; with `everybody`, a release covers the stops of others too.
 
-    One that was found may answer for so many seconds from the start.
+    Returns whether all of them did, and what is known of them. A robot that was found is given `answers_s` from the
+    start
+    to answer.
     """
     import rclpy
     from bot_console.tui.console.robot.stop_link import StopLink, user
@@ -82,9 +84,9 @@ def ask(verb: str, reason: str, *, everybody: bool = False, answers_s: float = A
 
 
 def holders(to_find: float = 1.0, to_hear: float = PATIENCE) -> list[str] | None:
-    """Who holds the robots that are found, each with a reason; None where one that can be held has not said it.
+    """Who holds the robots that are found, each with a reason; None if one that can be held has not answered.
 
-    So many seconds are given to find a robot, and to hear one that is found.
+    `to_find` and `to_hear` are the seconds to find a robot, and to hear from one that was found.
     """
     install()
     import rclpy
@@ -104,7 +106,7 @@ def holders(to_find: float = 1.0, to_hear: float = PATIENCE) -> list[str] | None
 
 
 def _follow(link: StopLink, node: Node) -> None:
-    """Listen to the locks that are there now."""
+    """Listen to the locks that exist now."""
     from bot_console.tui.console.robot.stop_link import STATUS
 
     names = node.get_topic_names_and_types()
@@ -112,7 +114,7 @@ def _follow(link: StopLink, node: Node) -> None:
 
 
 def _hear(node: Node) -> None:
-    """Take in what they say within a tenth of a second."""
+    """Take in what they publish within a tenth of a second."""
     import rclpy
 
     for _ in range(10):
@@ -126,7 +128,7 @@ def _said(info: StopInfo) -> list[str]:
 
 
 def _to_release(info: StopInfo, everybody: bool) -> list[RobotStop]:
-    """The stops that a release is to let go of: those of this person and of the nodes, or everybody's."""
+    """The stops that a release applies to: those of this person and of the nodes, or everybody's."""
     return [each for each in info.stops if each.here or each.by_node or everybody]
 
 

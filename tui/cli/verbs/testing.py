@@ -1,4 +1,4 @@
-"""Tests of ROS packages: `launch_test FILE`, and `test`, pytest with what launch_testing and launch_pytest add."""
+"""Runs tests of ROS packages: `launch_test FILE`, and `test`, which is pytest with the plugins for launch tests."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def launch_test(words: list[str]) -> int:
 
 
 def test(words: list[str]) -> int:
-    """Run pytest on what stands in the words; `rclpy`, `launch` and all messages are there."""
+    """Run pytest on the given arguments, with `rclpy`, `launch` and all messages importable."""
     from bot_console.runtime.importer import install
 
     install()
