@@ -68,10 +68,14 @@ def run_file(path: Path, words: Sequence[str]) -> int:
 
 def _run(runs: Program, argv: Sequence[str]) -> int:
     """Run to the end; an uncaught exception is a traceback that begins in the user's own file."""
+    from bot_console.runtime.process import MAIN, current
+    from bot_console.runtime.process.ending import wait_for_threads
     from bot_console.runtime.process.node.main_thread import SIGINT_EXIT, exit_code_of
 
     sys.argv = list(argv)
     code = exit_code_of(runs)
+    if current() is MAIN:  # else the node process does so at its own end
+        wait_for_threads()
     return INTERRUPTED if code == SIGINT_EXIT else code
 
 

@@ -3,10 +3,18 @@
 from __future__ import annotations
 
 import atexit
+import contextlib
 import sys
+import threading
 
 FLUSH_FAILED = 120
 """Exit code of the interpreter where its last output could not be written."""
+
+
+def wait_for_threads() -> None:
+    """Wait for threads that are no daemons and for executors, as the interpreter does; Ctrl-C ends the waiting."""
+    with contextlib.suppress(KeyboardInterrupt):
+        threading._shutdown()  # pyright: ignore[reportAttributeAccessIssue, reportUnknownMemberType] -- has no other name
 
 
 def exit_functions_run(code: int) -> int:

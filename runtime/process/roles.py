@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Iterable, Mapping, MutableMapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from io import TextIOBase
 from types import ModuleType
@@ -131,6 +130,14 @@ class SignalTable(Protocol):
         ...
 
 
+class Pool(Protocol):
+    """Threads that do what is submitted to them: an executor of `concurrent.futures`, or one of the runtime."""
+
+    def shutdown(self, wait: bool = ...) -> None:
+        """Let its threads end once they have done what was submitted."""
+        ...
+
+
 class OwnModules(Protocol):
     """The modules that a node process has for itself."""
 
@@ -160,7 +167,8 @@ class CurrentProcess(Watched, RunningProcess, Protocol):
     """Its main thread; None before the start, and in the real process: nothing there is virtual."""
     children: dict[threading.Thread, NodeThread]
     """The threads that it has started."""
-    pools: WeakSet[ThreadPoolExecutor]
+    pools: WeakSet[Pool]
+    """Whose threads end with its main program."""
     exit_functions: list[partial[Any]]
     """Those of `atexit`, oldest first."""
     cpu_of_ended_threads: float
@@ -214,6 +222,10 @@ class CurrentProcess(Watched, RunningProcess, Protocol):
 
     def on_abandon(self, callback: Callable[[], Any]) -> Callable[[], None]:
         """Call `callback()` once it is over, however. Returns what takes the callback away."""
+        ...
+
+    def end_with_main(self, pool: Pool) -> None:
+        """Once its main program is over, let a pool do what was submitted to it and end, and wait for that."""
         ...
 
     def guarded(self, callback: Callable[[], Any]) -> None:

@@ -389,7 +389,7 @@ class MultiThreadedExecutor(Executor):
     def shutdown(self, timeout_sec: float | None = None) -> bool:
         """Stop serving, and end the pool's threads."""
         result = super().shutdown(timeout_sec)
-        self._pool.close()
+        self._pool.shutdown()
         return result
 
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -19,6 +22,21 @@ def main():
     node.declare_parameter('x', 1.0)
     print(node.get_fully_qualified_name(), node.get_parameter('x').value)
 """
+SPINS_IN_A_THREAD = """
+import threading
+import rclpy
+
+def spin():
+    rclpy.spin_until_future_complete(node, later)
+    print('spun')
+
+rclpy.init()
+node = rclpy.create_node('n')
+later = rclpy.task.Future()
+timer = node.create_timer(0.5, lambda: later.set_result(None))
+threading.Thread(target=spin).start()
+print('main is over')
+"""
 CALL = "\nif __name__ == '__main__':\n    main()\n"
 
 
@@ -32,8 +50,6 @@ class Runs:
         return self(str(self._folder / "node.py"), *words)
 
     def __call__(self, *words: str) -> Program:
-        import sys
-
         return self._system.finish(self._system.start("run", lambda: sys.exit(main(words)), ["bot-console", *words]))
 
 
@@ -82,6 +98,15 @@ def test_several_mains(run: Runs) -> None:
     program = run.file(f"def main():\n    print('first')\n\ndef main():\n    print('last')\n{CALL}")
     assert program.stdout == "last\n"
     assert "defines main() 2 times (lines 1, 4); the last one counts" in program.stderr
+
+
+def test_its_threads_go_on_after_the_main_program(tmp_path: Path) -> None:
+    program = tmp_path / "node.py"
+    program.write_text(SPINS_IN_A_THREAD)
+    command = [sys.executable, "-m", "bot_console.tui", "run", str(program)]
+    own = {"BOT_CONSOLE_USER_DIR": str(tmp_path), "ROS_DOMAIN_ID": "97"}
+    end = subprocess.run(command, env={**os.environ, **own}, capture_output=True, text=True, timeout=60, check=False)
+    assert (end.stdout, end.stderr, end.returncode) == ("main is over\nspun\n", "", 0)
 
 
 def test_no_main(run: Runs) -> None:

@@ -10,18 +10,16 @@ import contextlib
 import os
 import signal
 import sys
-import threading
 from collections.abc import Callable
 from typing import NoReturn
 
-from ..ending import exit_functions_run
+from ..ending import exit_functions_run, wait_for_threads
 
 
 def run_to_end(program: Callable[[], object]) -> NoReturn:
     """Run a program, wait for its threads, call its exit functions, and end the process."""
     code = _run(program)
-    with contextlib.suppress(KeyboardInterrupt):
-        threading._shutdown()  # pyright: ignore[reportAttributeAccessIssue, reportUnknownMemberType] -- waits for threads and executors
+    wait_for_threads()
     code = exit_functions_run(code)
     _flush_of_c()
     if code == -signal.SIGINT:  # so that who waits for it sees by what it ended

@@ -7,11 +7,15 @@ import signal
 import sys
 import threading
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..real_time import RealTime
 from .node_process import NodeProcess
+
+if TYPE_CHECKING:
+    from ..roles import Pool
 
 
 class MainProcess(NodeProcess):
@@ -24,6 +28,7 @@ class MainProcess(NodeProcess):
         self.env = os.environ
         self.path = sys.path
         self._replaced: dict[int, Any] = {}
+        self._ends_pools = False
 
     @property
     def is_alive(self) -> bool:
@@ -58,6 +63,18 @@ class MainProcess(NodeProcess):
         before = self._replaced.get(signum)
         if callable(before):
             before(signum, frame)
+
+    def end_with_main(self, pool: Pool) -> None:
+        """Let a pool end once the main program is over: before the interpreter waits for threads, as its own pools."""
+        super().end_with_main(pool)
+        if not self._ends_pools:
+            self._ends_pools = True
+            with suppress(RuntimeError):  # it is over: a thread makes this pool
+                threading._register_atexit(self._end_pools)  # pyright: ignore[reportAttributeAccessIssue, reportUnknownMemberType] -- as `concurrent.futures`
+
+    def _end_pools(self) -> None:
+        for pool in list(self.pools):
+            pool.shutdown(wait=False)
 
     def send_signal(self, signum: int) -> None:
         """Send the real process a real signal."""

@@ -23,9 +23,7 @@ from .signals import SIGKILL, Signals
 from .thread_state import ProcessKilled, local
 
 if TYPE_CHECKING:
-    from concurrent.futures import ThreadPoolExecutor
-
-    from ..roles import NodeThread, OwnModules
+    from ..roles import NodeThread, OwnModules, Pool
 
 _pids = itertools.count((1 << 22) + 1)  # above Linux's highest possible pid, so that a stray kill() hits nobody
 KILL_GRACE_S = 0.5
@@ -56,7 +54,7 @@ class NodeProcess:
         self.signals = Signals(self)
         self.main_state: NodeThread | None = None
         self.children: dict[threading.Thread, NodeThread] = {}
-        self.pools: WeakSet[ThreadPoolExecutor] = WeakSet()
+        self.pools: WeakSet[Pool] = WeakSet()
         self.exit_functions: list[partial[Any]] = []
         self.notices: list[str] = []
         self.modules: OwnModules | None = None
@@ -171,6 +169,10 @@ class NodeProcess:
                 return partial(_discard, self._exit_callbacks, callback)
         callback(self)
         return lambda: None
+
+    def end_with_main(self, pool: Pool) -> None:
+        """Once the main program is over, let a pool do what was submitted to it and end, and wait for that."""
+        self.pools.add(pool)
 
     def on_abandon(self, callback: Callable[[], Any]) -> Callable[[], None]:
         """Call `callback()` once it is over, however: leave the graph, because code of it may still be running.

@@ -19,7 +19,7 @@ def make(pool: ThreadPoolExecutor, *arguments: Any, **options: Any) -> None:
     """`ThreadPoolExecutor(...)`: the node process remembers its pools."""
     _make(pool, *arguments, **options)
     if local.process.main_state is not None:
-        local.process.pools.add(pool)
+        local.process.end_with_main(pool)
 
 
 def shut_down(process: CurrentProcess) -> None:

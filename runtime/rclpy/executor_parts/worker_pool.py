@@ -5,10 +5,9 @@ from __future__ import annotations
 import threading
 from collections import deque
 from collections.abc import Callable
-from contextlib import suppress
 from typing import Any
 
-from bot_console.runtime.process import current
+from bot_console.runtime.process import ProcessKilled, current
 
 
 class WorkerPool:
@@ -23,17 +22,21 @@ class WorkerPool:
         self._lock = threading.Lock()
         self._threads = 0
         self._closed = False
+        current().end_with_main(self)
 
     def submit(self, work: Callable[[], Any]) -> None:
-        """Run `work()` in one of the threads; it must not raise."""
+        """Run `work()` in one of the threads; it must not raise. Once the pool was shut down nothing new begins."""
         with self._lock:
+            if self._closed:
+                return
             self._work.append(work)
             if self._idle:
                 self._idle.popleft().set()
             elif self._threads < self._size:
                 self._threads += 1
                 name = f"{self._name}-{self._threads}"
-                threading.Thread(target=self._serve, name=name, daemon=True).start()
+                # No daemon: a callback that has begun goes on to its end although the program is over, as upstream.
+                threading.Thread(target=self._serve, name=name, daemon=False).start()
 
     def _serve(self) -> None:
         wakeup = self._clock.wakeup()
@@ -49,11 +52,15 @@ class WorkerPool:
             if work is None:
                 wakeup.wait()
             else:
-                with suppress(SystemExit):  # ends the callback alone, as in upstream's pool; the thread goes on
+                try:
                     work()
+                except ProcessKilled:
+                    raise
+                except BaseException:  # SystemExit ... ends the callback alone, as in upstream's pool
+                    continue
 
-    def close(self) -> None:
-        """Let the threads end when they have nothing left to do."""
+    def shutdown(self, wait: bool = False) -> None:
+        """Let the threads end when they have nothing left to do; nobody waits for that here."""
         with self._lock:
             self._closed = True
             while self._idle:
