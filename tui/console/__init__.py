@@ -1,1 +1,1 @@
-"""What the panes know and may ask for, and the ROS node that stands behind it."""
+"""The panes' model of a ROS system, what they can ask of it, and the ROS node behind both."""

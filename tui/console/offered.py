@@ -1,7 +1,8 @@
-"""A subscription with the QoS that its publishers offer: one that asks for more hears nothing, and makes them warn.
+"""A subscription with the QoS its publishers offer: one that asks for more receives nothing, and makes them warn.
 
-A subscription that asks for less than is offered loses what it could have, so neither is fixed; the offer changes as
-nodes come and go.
+One that asks for less than is offered loses what it could have had, so neither is fixed; the offer changes as nodes
+come
+and go.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 
 class OfferedSubscription:
-    """Subscribes one topic; `follow` is to be called whenever the graph has changed."""
+    """Subscribes to one topic; `follow` is to be called whenever the graph has changed."""
 
     def __init__(
         self,
@@ -48,7 +49,7 @@ class OfferedSubscription:
             self.follow()
 
     def follow(self) -> None:
-        """Ask for what is offered now; where nothing is, all stays as it is."""
+        """Request what is offered now; while nothing is offered, leave everything as it is."""
         infos = self._node.get_publishers_info_by_topic(self.topic_name)
         if not infos:
             return
@@ -81,14 +82,14 @@ class OfferedSubscription:
                 yield bytes(taken[0]), taken[1]["source_timestamp"] or 0
 
     def destroy(self) -> None:
-        """Hear no more."""
+        """End the subscription."""
         if self._subscription is not None:
             self._node.destroy_subscription(self._subscription)
             self._subscription = None
 
 
 def weakest(best: QoSProfile, offers: Iterable[Any]) -> tuple[ReliabilityPolicy, DurabilityPolicy]:
-    """The most, up to `best`, that all of these offer; what the graph does not know is taken for the least."""
+    """The strongest QoS, up to `best`, that all of these offer; what the graph does not tell counts as the weakest."""
     offers = list(offers)
     reliable = all(each.reliability == ReliabilityPolicy.RELIABLE for each in offers)
     latched = all(each.durability == DurabilityPolicy.TRANSIENT_LOCAL for each in offers)
@@ -102,7 +103,7 @@ def weakest(best: QoSProfile, offers: Iterable[Any]) -> tuple[ReliabilityPolicy,
 def weaker(
     one: tuple[ReliabilityPolicy, DurabilityPolicy], other: tuple[ReliabilityPolicy, DurabilityPolicy]
 ) -> tuple[ReliabilityPolicy, DurabilityPolicy]:
-    """What both hold."""
+    """The strongest QoS that satisfies both."""
     both = (one, other)
     return (
         ReliabilityPolicy.BEST_EFFORT if any(each[0] != ReliabilityPolicy.RELIABLE for each in both) else one[0],

@@ -1,4 +1,4 @@
-"""The one table of parameter types: what each is in Python, and what the elements of an array are written as."""
+"""The table of parameter types: the Python type of each, and how the elements of an array are written."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a bag holds, read once: messages by topic, the log, parameters and their changes, and where the robot was."""
+"""The contents of a bag, read once: messages by topic, the log, parameters and their changes, and the robot's poses."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ LOG, EVENTS = "rcl_interfaces/msg/Log", "rcl_interfaces/msg/ParameterEvent"
 
 
 class Contents:
-    """The messages of a bag in memory. Raises `NoBag` where it cannot be read."""
+    """The messages of a bag, in memory. Raises `NoBag` if it cannot be read."""
 
     def __init__(self, bag: Bag) -> None:
         self.metadata = bag.metadata
@@ -64,14 +64,14 @@ class Contents:
                 del held[largest]
 
     def of_type(self, type_name: str) -> list[str]:
-        """The topics of a type."""
+        """The topics of a given type."""
         return [name for name, topic in self.metadata.topics.items() if topic.type == type_name]
 
     def messages(self, topic: str) -> Iterator[tuple[int, Any]]:
-        """The messages of a topic with the times (ns since the epoch) at which they came.
+        """The messages of a topic, with the times (ns since the epoch) at which they were received.
 
-        What is no message of the topic's type is left out. Raises `ImportError` and the like where there is no such
-        type here.
+        Messages that do not decode as the topic's type are left out. Raises `ImportError` and the like if the type is
+        unknown.
         """
         kind = class_of(self.metadata.topics[topic].type)
         for stamp, data in self._messages[topic]:
@@ -82,7 +82,7 @@ class Contents:
             yield stamp, message
 
     def count(self, topic: str, stamp: int | None = None) -> int:
-        """How many messages of a topic are held, up to a moment (ns since the epoch) where one is given."""
+        """The number of messages of a topic, up to a moment (ns since the epoch) if one is given."""
         held = self._messages[topic]
         return len(held) if stamp is None else bisect_right(held, stamp, key=_stamp)
 
@@ -91,7 +91,7 @@ class Contents:
         return deserialize_message(self._messages[topic][at][1], class_of(self.metadata.topics[topic].type))
 
     def size(self, topic: str) -> int:
-        """Bytes of the messages of a topic that are held."""
+        """The size in bytes of a topic's messages."""
         return sum(len(data) for _, data in self._messages[topic])
 
     def _each(self, topic: str, take: Callable[[int, Any], None]) -> None:
@@ -118,7 +118,7 @@ class Contents:
         self.trees[event.node] = ParameterTree(event.node, tuple(known[name] for name in sorted(known)))
 
     def _find_world(self) -> None:
-        """The map, the trail and where the robot was."""
+        """Find the map, the trail and the robot's poses."""
         topics = {kind: best({*self.of_type(kind)}, wanted) for kind, wanted in PREFERRED.items()}
         maps = topics["nav_msgs/msg/OccupancyGrid"]
         grid = None
@@ -138,7 +138,7 @@ class Contents:
 
     @property
     def parameters(self) -> MappingProxyType[str, ParameterTree]:
-        """What parameters were at the end, as far as events told."""
+        """The parameters at the end, as far as events reported them."""
         return MappingProxyType(self.trees)
 
 

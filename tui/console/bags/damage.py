@@ -1,4 +1,4 @@
-"""Damaged files: what reading one lets fall, and the end that one gets which a killed program left without."""
+"""Damaged files: errors while reading, and the repair of one that a killed program left without its end."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ DAMAGED = (
 
 
 class NoBag(ValueError):
-    """A path leads to nothing that can be read as a bag; the text says which path and why."""
+    """A path that cannot be read as a bag; the text says which path and why."""
 
 
 @contextmanager
 def told(path: Path, where: Callable[[], str] = str) -> Generator[None]:
-    """What reading a file lets fall is told as `NoBag`."""
+    """Turn exceptions of the reading library into `NoBag`."""
     from mcap.exceptions import McapError
 
     try:
@@ -42,7 +42,7 @@ def told(path: Path, where: Callable[[], str] = str) -> Generator[None]:
 
 
 def mend(path: Path) -> str:
-    """Give a file that has no end one; what was done, empty for a file that has one. Raises `NoBag`."""
+    """Complete a file that has no end; returns what was done, and an empty text for a complete file. Raises `NoBag`."""
     with told(path), path.open("rb") as file:
         if file.read(len(MAGIC)) != MAGIC:
             raise NoBag(f"{path}: is no MCAP file")
@@ -67,7 +67,7 @@ def mend(path: Path) -> str:
 
 
 def _write_whole(source: Any, beside: Path) -> int:
-    """Write the records that can be read to another file; gives the place in the source behind the last of them."""
+    """Copy the readable records to another file; returns the position after the last of them in the source."""
     from mcap.exceptions import McapError
     from mcap.records import Channel, Message, Schema
     from mcap.stream_reader import StreamReader

@@ -1,7 +1,7 @@
-"""Message definitions as MCAP wants them (`ros2msg`): the type, then all that it is made of, apart by a line of `=`.
+"""Message definitions as MCAP wants them (`ros2msg`): the type, then all types it uses, separated by a line of `=`.
 
-Made from the classes themselves, which say their fields on every ROS 2, so that definition files need not be there.
-Constants and comments are not part of what a reader needs and are left out.
+They are made from the message classes, which describe their fields on every ROS 2, so no definition files are needed.
+Constants and comments are left out: a reader does not need them.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ NAMES = {"boolean": "bool", "octet": "byte", "float": "float32", "double": "floa
 
 
 def definition(kind: Any) -> str:
-    """The definition of a message class with all that it needs."""
+    """The definition of a message class, with all types it uses."""
     parts = [f"{_fields(kind)}"]
     parts += [f"{BORDER}\nMSG: {name}\n{_fields(each)}" for name, each in _needed(kind, {})]
     return "\n".join(parts)
 
 
 def class_of(type_name: str) -> Any:
-    """The class of a message's type; raises `ValueError`, `ImportError` or `AttributeError` where there is none."""
+    """The class of a message type; raises `ValueError`, `ImportError` or `AttributeError` if there is none."""
     from rosidl_runtime_py.utilities import get_message
 
     try:
@@ -33,7 +33,7 @@ def class_of(type_name: str) -> Any:
 
 
 def type_name(kind: Any) -> str:
-    """`package/msg/Name` of a message class."""
+    """The type name, `package/msg/Name`, of a message class."""
     package, _, rest = kind.__module__.partition(".")
     return f"{package}/{rest.split('.')[0]}/{kind.__name__}"
 
@@ -48,7 +48,7 @@ def _needed(kind: Any, found: dict[str, Any]) -> Iterator[tuple[str, Any]]:
 
 
 def _class(name: str, user: Any) -> Any:
-    """The class of a field's type, which stands beside the class that has the field where both are of an action."""
+    """The class of a field's type, which is next to the class with the field when both belong to an action."""
     import importlib
 
     package, _, message = name.partition("/")
@@ -70,7 +70,7 @@ def _element(text: str) -> str:
 
 
 def _written(text: str) -> str:
-    """A type of a class as definitions write it: `sequence<double, 3>` is `float64[<=3]`."""
+    """A type of a class in the notation of definitions: `sequence<double, 3>` is `float64[<=3]`."""
     if sequence := re.fullmatch(r"sequence<(.*?)(?:, (\d+))?>", text):
         return f"{_simple(sequence[1])}[{f'<={sequence[2]}' if sequence[2] else ''}]"
     if array := re.fullmatch(r"(.*)\[(\d+)\]", text):

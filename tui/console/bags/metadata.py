@@ -15,7 +15,7 @@ FILE = "metadata.yaml"
 
 
 class _Plain(yaml.SafeDumper):
-    """Writes equal things twice rather than by reference, which rosbag2's reader does not know."""
+    """Writes equal objects twice instead of using YAML references, which rosbag2's reader does not understand."""
 
     def ignore_aliases(self, data: Any) -> bool:
         """Never refer."""
@@ -29,7 +29,7 @@ def yaml_text(data: object) -> str:
 
 @dataclass
 class Topic:
-    """A topic of a bag: its type, how its publishers offer it, and how many messages there are."""
+    """A topic of a bag: its type, its publishers' QoS, and its number of messages."""
 
     name: str
     type: str
@@ -40,7 +40,7 @@ class Topic:
 
 @dataclass
 class Metadata:
-    """What a bag folder says of itself; times in ns since the epoch."""
+    """The metadata of a bag folder; times in ns since the epoch."""
 
     file: str
     begin: int = 0
@@ -49,11 +49,11 @@ class Metadata:
 
     @property
     def count(self) -> int:
-        """All messages."""
+        """The number of messages."""
         return sum(each.count for each in self.topics.values())
 
     def seen(self, stamp: int) -> None:
-        """A message with that time is in the bag."""
+        """Count a message with that time."""
         self.begin = min(self.begin or stamp, stamp)
         self.end = max(self.end, stamp)
 

@@ -1,4 +1,4 @@
-"""What bags need and a plain installation does not bring."""
+"""The optional library that bags need."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ class Missing(RuntimeError):
 
 
 def check() -> None:
-    """Raise `Missing` where there is no `mcap`."""
+    """Raise `Missing` if `mcap` is not installed."""
     try:
         import mcap.writer  # noqa: F401 # pyright: ignore[reportUnusedImport] # to see that it is there
     except ImportError as error:

@@ -1,4 +1,4 @@
-"""A bag as a console: its topics, log, parameter changes, robot and numbers, to be looked at and not to be acted on."""
+"""A bag as a read-only console: its topics, log, parameter changes, robot and series."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ WHY = "this is a recording: it can be looked at, and nothing can be changed in i
 
 
 class PastReading:
-    """What is known of a bag. The axis of time begins with it."""
+    """What is known from a bag. The time axis starts with it."""
 
     def __init__(self, contents: Contents, name: str) -> None:
         self._contents = contents
@@ -152,7 +152,7 @@ class PastReading:
 
 
 class OpenedBag(NoConsole):
-    """Shows a bag; all that would change something is refused with the reason."""
+    """Shows a bag; everything that would change something is refused with the reason."""
 
     def __init__(self, contents: Contents, name: str) -> None:
         self._reading = PastReading(contents, name)

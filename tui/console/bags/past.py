@@ -1,4 +1,4 @@
-"""The last minutes of what a process carries: kept while nobody asks, so that what has just happened can be saved."""
+"""The last minutes of what a process carries, kept while nobody asks, so that what has just happened can be saved."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ WAITING = 50_000
 
 
 class Carried(Protocol):
-    """The endpoint that a message came by."""
+    """The endpoint through which a message passed."""
 
     topic: str
     message_class: Any
@@ -33,14 +33,15 @@ class Carried(Protocol):
 
 
 class Past:
-    """Keeps what it is told of; its methods may be called from any thread.
+    """Keeps the messages that it is given; methods may be called from any thread.
 
-    It is fed by a middleware that hands over what it carries anyway, so it is no subscription: `topic info` does not
-    count it, and who publishes only while somebody listens does not begin to.
+    The middleware passes on what it carries anyway, so this is no subscription: `topic info` does not count it, and a
+    node that
+    publishes only while somebody listens does not start to.
     """
 
     def __init__(self, size: RingSize, serialize: Callable[[Any], bytes], hash_of: Callable[[Any], str]) -> None:
-        """`serialize` gives a message's CDR, `hash_of` the RIHS01 text of a class."""
+        """`serialize` returns a message's CDR, `hash_of` the RIHS01 text of a class."""
         self.kept_s = size.seconds
         self._serialize = serialize
         self._hash_of = hash_of
@@ -54,7 +55,7 @@ class Past:
         threading.Thread(target=self._serve, name="past", daemon=True).start()
 
     def hear(self, by: Carried, source: bytes, number: int, sent: int, message: Any) -> None:
-        """A message is carried: by which endpoint, whose (gid) how manieth, when it was sent (ns), it or its bytes."""
+        """Keep a message: endpoint, the publisher's gid and sequence number, time of sending (ns), message or bytes."""
         if by.topic != CLOCK:
             self._waiting.append((by, source, number, sent, message))
 
@@ -65,7 +66,7 @@ class Past:
         return outcome
 
     def close(self) -> None:
-        """Keep no more."""
+        """Stop keeping messages."""
         self._closing.set()
 
     def _pour(self, folder: str) -> Answer:
@@ -86,7 +87,7 @@ class Past:
                 self._turn()
 
     def _turn(self) -> None:
-        """Take what has come: objects become bytes, which are smaller and which the garbage collector passes by."""
+        """Process what has arrived: messages become bytes, which are smaller and cost the garbage collector nothing."""
         found: list[tuple[int, str, bytes]] = []
         for _ in range(len(self._waiting)):
             by, source, number, sent, message = self._waiting.popleft()

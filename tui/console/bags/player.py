@@ -1,4 +1,4 @@
-"""Plays a bag: publishes what is in it, in its order, as far apart as it came."""
+"""Plays a bag: publishes its messages in their order and with their original timing."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from rclpy.node import Node
 
 @dataclass(frozen=True)
 class Playing:
-    """How a bag is to be played."""
+    """The options for playing a bag."""
 
     rate: float = 1.0
     """How many seconds of the bag pass in one."""
@@ -34,7 +34,7 @@ class Player:
     """Publishes the messages of a bag by a node."""
 
     def __init__(self, node: Node, bag: Bag, how: Playing, find: Callable[[str], Any]) -> None:
-        """`find` gives the class of a type's name; topics whose type is not here are in `unknown` and left out."""
+        """`find` returns the class of a type name; topics of unknown types are listed in `unknown` and left out."""
         self._bag = bag
         self._how = how
         self._publishers: dict[str, Any] = {}
@@ -52,7 +52,7 @@ class Player:
         self._clock = Clock(node, how.clock) if how.clock > 0 else None
 
     def run(self, stopped: threading.Event) -> None:
-        """Play until the end, or until it is stopped; blocks."""
+        """Play until the end, or until stopped; blocks."""
         while not stopped.is_set():
             self._once(stopped)
             if not self._how.loop:
@@ -78,7 +78,7 @@ class Player:
 
 
 class Clock:
-    """The time of a bag on /clock."""
+    """Publishes the bag's time on /clock."""
 
     def __init__(self, node: Node, rate: float) -> None:
         from rosgraph_msgs.msg import Clock as Message

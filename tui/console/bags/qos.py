@@ -1,4 +1,4 @@
-"""How publishers offer a topic, as bags note it, and how a player offers it again."""
+"""The QoS of publishers, as bags note it, and the QoS with which a player publishes."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ FOREVER = {"sec": 9223372036, "nsec": 854775807}
 
 
 def noted(profiles: Iterable[QoSProfile]) -> list[dict[str, Any]]:
-    """Offers as entries of `offered_qos_profiles`."""
+    """Publisher profiles as entries of `offered_qos_profiles`."""
     return [
         {
             "history": "keep_last" if each.history == HistoryPolicy.KEEP_LAST else "keep_all",
@@ -30,7 +30,7 @@ def noted(profiles: Iterable[QoSProfile]) -> list[dict[str, Any]]:
 
 
 def offered(entries: Iterable[Mapping[str, Any]]) -> QoSProfile:
-    """What serves everybody that the noted publishers served: reliable if one was, latching if one was."""
+    """A profile that serves every subscriber the noted publishers served: reliable or latching if one of them was."""
     found = list(entries)
     latching = any(each.get("durability") in ("transient_local", 1) for each in found)
     weak = bool(found) and all(each.get("reliability") in ("best_effort", 2) for each in found)

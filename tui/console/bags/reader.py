@@ -1,4 +1,7 @@
-"""Reads bags: folders of rosbag2 (MCAP or SQLite), and single files. One that a killed program left is mended first."""
+"""Reads bags: rosbag2 folders (MCAP or SQLite) and single files.
+
+One left behind by a killed program is repaired first.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +24,7 @@ LATEST = 2**63 - 1
 
 
 class Entry(NamedTuple):
-    """A message of a bag: when it came (ns since the epoch), its topic, and its CDR bytes."""
+    """A message of a bag: its time of arrival (ns since the epoch), topic, and CDR bytes."""
 
     received: int
     topic: str
@@ -29,7 +32,7 @@ class Entry(NamedTuple):
 
 
 class Bag:
-    """A bag that is open for reading."""
+    """A bag opened for reading."""
 
     def __init__(self, path: Path) -> None:
         """Raises `NoBag`, and `Missing` without `mcap`."""
@@ -47,9 +50,9 @@ class Bag:
             self.metadata.save(path)
 
     def messages(self, topics: Collection[str] | None = None, begin: int = 0) -> Iterator[Entry]:
-        """All messages from a time (ns since the epoch) on, in the order in which they came.
+        """All messages from a time (ns since the epoch) on, in order of arrival.
 
-        Raises `NoBag` at a place that is damaged.
+        Raises `NoBag` at a damaged place.
         """
         return heapq.merge(*(_messages(each, topics, begin) for each in self.files), key=lambda entry: entry.received)
 
@@ -147,7 +150,7 @@ def _sqlite_messages(path: Path, topics: Collection[str] | None, begin: int) -> 
 
 
 def _profiles(text: str) -> list[dict[str, Any]]:
-    """How publishers offered a topic; what cannot be read says nothing."""
+    """The QoS profiles a topic was published with; unreadable ones are ignored."""
     try:
         data = yaml.load(text or "[]", getattr(yaml, "CSafeLoader", yaml.SafeLoader))
     except UNREADABLE:

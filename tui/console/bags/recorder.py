@@ -1,4 +1,4 @@
-"""Records topics: subscribes as they are offered, finds new ones as they come, and keeps the bytes as they are."""
+"""Records topics: subscribes to them as they appear, with the QoS they offer, and keeps the serialized bytes."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ BEST = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE, durability
 
 
 class Sink(Protocol):
-    """Where what was recorded goes."""
+    """Where recorded messages go."""
 
     def topic(self, name: str, kind: Any, qos: list[dict[str, Any]], type_hash: str = "") -> None:
         """Begin a topic."""
@@ -37,18 +37,19 @@ class Sink(Protocol):
         ...
 
     def flush(self) -> None:
-        """Let what was written be safe."""
+        """Make what was written safe."""
         ...
 
 
 class Recorder:
-    """Hands all messages of the topics that are wanted to a sink, whenever it is asked to.
+    """Passes all messages of the wanted topics to a sink, each time it is asked to.
 
-    Its node is spun by nobody: `turn` takes what waits, some times in a second, for a fraction of what callbacks cost.
+    Nobody spins its node: `turn` takes the waiting messages, a few times a second, at a fraction of the cost of
+    callbacks.
     """
 
     def __init__(self, node: Node, sink: Sink, wanted: Callable[[str], bool], find: Callable[[str], Any]) -> None:
-        """`find` gives the class of a type's name, and raises `ImportError` and the like where there is none."""
+        """`find` returns the class of a type name, and raises `ImportError` and the like if there is none."""
         self._node = node
         self._sink = sink
         self._wanted = wanted
@@ -61,13 +62,13 @@ class Recorder:
         self.turn()
 
     def close(self) -> None:
-        """Take what still waits and record no more; the sink can be closed then."""
+        """Take what still waits and stop recording; the sink can be closed then."""
         self._take()
         for each in self.subscribed.values():
             each.destroy()
 
     def turn(self) -> None:
-        """Take what waits; now and then look for new topics, and flush. To be called every `PACE` seconds."""
+        """Take what waits; from time to time look for new topics, and flush. To be called every `PACE` seconds."""
         self._take()
         if time.monotonic() - self._looked >= LOOK:
             self._looked = time.monotonic()
@@ -81,7 +82,7 @@ class Recorder:
             self._sink.write(name, data, received, sent)
 
     def _look(self) -> None:
-        """Subscribe what has come, follow what is offered now, and flush."""
+        """Subscribe to new topics, follow changes of QoS, and flush."""
         self._sink.flush()
         for name, types in self._node.get_topic_names_and_types():
             if self._wanted(name) and name not in self.unknown:
@@ -123,14 +124,14 @@ def _received(entry: tuple[int, str, bytes, int]) -> int:
 
 
 def _nobody(data: bytes) -> None:
-    """Called back by nobody: what comes is drained."""
+    """The callback of subscriptions that are drained and never called back."""
 
 
 class Ring:
-    """Keeps the last minutes in memory, so that what has just happened can be written after it has."""
+    """Keeps the last minutes in memory, so that an event can be saved after it has happened."""
 
     def __init__(self, seconds: float, most: int) -> None:
-        """At most so many bytes."""
+        """Limited to so many bytes."""
         self._seconds = seconds
         self._most = most
         self._held = 0
@@ -151,19 +152,19 @@ class Ring:
 
     @property
     def begin(self) -> int:
-        """When the first message that is kept came (ns since the epoch); 0 where there is none."""
+        """The time (ns since the epoch) of the oldest message that is kept; 0 if there is none."""
         return self._kept[0][0] if self._kept else 0
 
     @property
     def span(self) -> float:
-        """Seconds from the first message that is kept to the last."""
+        """Seconds from the oldest message that is kept to the newest."""
         return (self._kept[-1][0] - self._kept[0][0]) / 1e9 if self._kept else 0.0
 
     def flush(self) -> None:
-        """Nothing is written before it is asked for."""
+        """Nothing to do: nothing is written before `pour`."""
 
     def pour(self, sink: Sink) -> int:
-        """Write all that is kept, and give how many messages that were."""
+        """Write everything that is kept; returns the number of messages."""
         kept: Iterable[tuple[int, str, bytes]] = list(self._kept)
         for name, (kind, qos, type_hash) in self.topics.items():
             sink.topic(name, kind, qos, type_hash)
@@ -175,7 +176,7 @@ class Ring:
 
 
 def _hash(offers: Iterable[Any]) -> str:
-    """RIHS01 of the type, where the graph tells it."""
+    """The RIHS01 hash of the type, if the graph has it."""
     for each in offers:
         found = getattr(each, "topic_type_hash", None)
         if found is not None:

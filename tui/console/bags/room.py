@@ -1,4 +1,4 @@
-"""Recording in the console: a node and a thread of its own, so that a slow disk holds nobody up."""
+"""Recording in the console, in a node and a thread of its own, so that a slow disk delays nobody."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Recordings:
     """Records all topics; its methods may be called from any thread."""
 
     def __init__(self, past: Keeper | None = None) -> None:
-        """`past` keeps the last minutes; None: nobody does. Before something is recorded there is no node."""
+        """`past` keeps the last minutes, unless it is None. There is no node until something is recorded."""
         self._past = past
         self._tape = BagTape()
         self._info = RecordingInfo(kept_s=past.kept_s if past else 0.0)
@@ -41,7 +41,7 @@ class Recordings:
 
     @property
     def info(self) -> RecordingInfo:
-        """How it stands."""
+        """The state of recording."""
         writer = self._tape.writer
         now = RecordingInfo(str(writer.folder) if writer else "", self._info.kept_s, self._tape.problem)
         if now != self._info:
@@ -63,7 +63,7 @@ class Recordings:
         return self._order(begin)
 
     def stop(self) -> Future[Answer]:
-        """End the bag."""
+        """Close the bag."""
         if self._thread is None:
             return done(Answer(False, self._tape.problem or "nothing is being recorded"))
 
@@ -92,7 +92,7 @@ class Recordings:
             self._thread.join(CLOSING)
 
     def _order(self, work: Callable[[], Answer]) -> Future[Answer]:
-        """Have something done between two turns of the recorder."""
+        """Run something between two turns of the recorder."""
         future: Future[Answer] = Future()
         self._orders.put((work, future))
         if self._closing.is_set():

@@ -1,4 +1,4 @@
-"""Where what is recorded goes: into a bag that somebody begins and ends, or into the ring of the last minutes."""
+"""Where recorded messages go: into a bag, from start to stop, or into the ring of the last minutes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ LOG = "/rosout"
 
 
 class Tape:
-    """A sink that knows how a bag has to begin: with the topics, and with what latching publishers said before."""
+    """A sink that knows how a bag must begin: with the topics, and the earlier messages of latching publishers."""
 
     def __init__(self) -> None:
         self._topics: dict[str, tuple[Any, list[dict[str, Any]], str]] = {}
@@ -34,7 +34,7 @@ class Tape:
             self._latest[topic] = data, received
 
     def _open(self, bag: Sink, begin: int, before: float = math.inf) -> None:
-        """Write how a bag begins: the topics, and what was said before a time (both in ns since the epoch)."""
+        """Write the beginning of a bag: topics, and latched messages from before a time (ns since the epoch)."""
         for name, (kind, qos, type_hash) in self._topics.items():
             bag.topic(name, kind, qos, type_hash)
         for name, (data, received) in self._latest.items():
@@ -52,19 +52,19 @@ class BagTape(Tape):
         """Why a bag has ended by itself, for instance that the disk is full."""
 
     def begin(self, writer: BagWriter, now: int) -> None:
-        """Write a bag from now on (ns since the epoch)."""
+        """Start writing a bag (time in ns since the epoch)."""
         self._open(writer, now)
         self.writer, self.problem = writer, ""
 
     def end(self) -> BagWriter | None:
-        """Finish the bag and give it; raises `OSError` where the disk takes no more."""
+        """Close the bag and return it; raises `OSError` if the disk accepts no more."""
         writer, self.writer = self.writer, None
         if writer is not None:
             writer.close()
         return writer
 
     def fail(self, problem: str) -> None:
-        """Finish the bag as far as it has come, and say why."""
+        """Close the bag with what it has, and note why."""
         with suppress(OSError, NotSaved):
             self.end()
         self.problem = problem
@@ -99,14 +99,14 @@ class BagTape(Tape):
 
 
 class RingTape(Tape):
-    """Keeps the last minutes in memory until they are asked for."""
+    """Keeps the last minutes in memory until they are requested."""
 
     def __init__(self, ring: Ring) -> None:
         super().__init__()
         self.ring = ring
 
     def pour(self, writer: BagWriter) -> int:
-        """Write what is kept as a bag; the number of messages."""
+        """Write what is kept as a bag; returns the number of messages."""
         self._open(writer, self.ring.begin, before=self.ring.begin)
         return self.ring.pour(writer)
 

@@ -1,4 +1,4 @@
-"""Topics of a bag as a person looks at them: how often and how much in the mean, and the message of a moment."""
+"""`Traffic` of a bag: mean rates and sizes, and the messages at a moment."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bot_console.tui.console.traffic import LiveMessage, Measure
 
 
 class BagTraffic(IdleTraffic):
-    """Shows the last message up to the moment that is looked at; refuses to send, with the reason."""
+    """Shows the last message up to the moment in view; refuses to send, with the reason."""
 
     def __init__(self, contents: Contents, why: str) -> None:
         super().__init__(why)
@@ -22,7 +22,7 @@ class BagTraffic(IdleTraffic):
         self._measured: Mapping[str, Measure] | None = None
 
     def time_moved(self, stamp: int | None) -> None:
-        """Look at a moment (ns since the epoch); None is the end."""
+        """Show the messages at a moment (ns since the epoch); None is the end."""
         self._stamp = stamp
 
     def measured(self) -> Mapping[str, Measure]:
@@ -41,7 +41,7 @@ class BagTraffic(IdleTraffic):
         self._topic = topic
 
     def heard(self) -> LiveMessage:
-        """The message; the same object until another one is to be shown."""
+        """The message in view; the same object until it is another one."""
         topic, known = self._topic, self._contents.metadata.topics.get(self._topic)
         if known is None:
             return LiveMessage(topic, problem=f"{topic} is not in the recording" if topic else "")

@@ -1,4 +1,4 @@
-"""Writes a bag: what came in the last second is on its way to the disk, whatever ends the program."""
+"""Writes a bag so that at most the last second is lost, however the program ends."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ FLUSH = 0.5
 
 
 class BagWriter:
-    """A new bag folder. Raises `Missing` without `mcap`, and `NotSaved` where the folder cannot be made or is there."""
+    """A new bag folder. Raises `Missing` without `mcap`, and `NotSaved` if the folder exists or cannot be made."""
 
     def __init__(self, folder: Path) -> None:
         check()
@@ -56,7 +56,7 @@ class BagWriter:
         self.metadata.topics[name] = Topic(name, type, qos, type_hash)
 
     def write(self, topic: str, data: bytes, received: int, sent: int) -> None:
-        """Add a message (CDR) with the times (ns since the epoch) at which it came and was sent."""
+        """Add a message (CDR), with the times (ns since the epoch) at which it was received and sent."""
         channel = self._channels[topic]
         number = self._numbers[channel] = self._numbers.get(channel, -1) + 1
         self._writer.add_message(channel, log_time=received, data=data, publish_time=sent or received, sequence=number)
@@ -66,12 +66,12 @@ class BagWriter:
             self.flush()
 
     def flush(self) -> None:
-        """Hand to the system what is held in memory."""
+        """Pass what is buffered to the operating system."""
         self._flushed = time.monotonic()
         self._writer.flush()
 
     def close(self) -> None:
-        """Finish the file and what the folder says of itself."""
+        """Finish the file and the folder's metadata."""
         self._writer.finish()
         self._file.flush()
         os.fsync(self._file.fileno())

@@ -1,1 +1,1 @@
-"""The `Console` of each state: on a ROS system, linked to it, read only, and where there is none."""
+"""The implementations of `Console`: connected to a ROS system, forwarding to one, read-only, and without any."""

@@ -43,7 +43,7 @@ SHELF_PERIOD = 1.0
 
 
 class LinkedConsole:
-    """Answers from what the node has seen, and asks through it."""
+    """Answers from what the node has observed, and sends requests through it."""
 
     def __init__(
         self,
@@ -99,7 +99,7 @@ class LinkedConsole:
         )
 
     def _active_profile(self) -> str:
-        """The profile that runs; none once its file has been deleted, by whomever."""
+        """The active profile; none once its file has been deleted, by anyone."""
         name = self._node.setter.profile
         if self._profile(name) is not None:
             self._once_there.add(name)

@@ -1,4 +1,4 @@
-"""What stands where there is no console yet or any more: nothing can be asked of it, and it says why."""
+"""The console before there is a connection, or after it has ended: refuses every request, and says why."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class _NoNumbers(tuple[int, ...]):
 
 
 class EarlyView:
-    """A view that was asked for before there was a log: it has found nothing until it can be opened."""
+    """A search requested before there is a log: it finds nothing until it can be opened."""
 
     def __init__(self, which: LogFilter, open_view: OpenView) -> None:
         self._which = which
@@ -52,14 +52,14 @@ class EarlyView:
         self._view: LogView | None = None
 
     def look(self) -> LogFindings:
-        """What was found so far."""
+        """What has been found so far."""
         if self._view is None:
             self._view = self._open_view(self._which)
         return self._view.look() if self._view else LogFindings(_NoNumbers())
 
 
 class NothingKnown:
-    """What there is to read before a console has connected; `open_view` gives a view once there is a log."""
+    """What can be read before a console has connected; `open_view` opens searches once there is a log."""
 
     def __init__(self, snapshot: ConsoleSnapshot, open_view: OpenView) -> None:
         self._snapshot = snapshot
@@ -132,7 +132,7 @@ class NoRecording:
 
 
 class NoConsole:
-    """Refuses every request with the reason; what is to be read is `known`."""
+    """Refuses every request with the reason; what can be read is `known`."""
 
     def __init__(self, why: str, known: ConsoleReading) -> None:
         self._why = why
@@ -266,7 +266,7 @@ class NoConsole:
 
 
 class NoCommandLine:
-    """Where no `ros2` line can be run."""
+    """The command line where no `ros2` line can be run."""
 
     def run(self, line: str) -> Future[str]:
         """Say so."""
@@ -293,7 +293,7 @@ def refused_profile(why: str) -> Future[tuple[SetOutcome, ...]]:
 
 
 def done(value: T) -> Future[T]:
-    """A future that has its result."""
+    """A future that is already done, with its result."""
     future: Future[T] = Future()
     future.set_result(value)
     return future

@@ -1,4 +1,4 @@
-"""A console that only looks on: what would change anything is refused with the reason, below the screen."""
+"""A read-only console: everything that would change something is refused, with the reason."""
 
 from __future__ import annotations
 
@@ -34,10 +34,10 @@ READING: Mapping[str, frozenset[str]] = {
 
 
 class ReadOnlyConsole(NoConsole):
-    """Reads all, plots and saves to files; asks the system for nothing but to stop, which anybody may."""
+    """Reads, plots and saves to files; the one request it sends is to stop the robot, which anybody may."""
 
     def __init__(self, console: Console, tell: Callable[[str], None]) -> None:
-        """`tell` is given what was refused where no answer is expected."""
+        """`tell` receives refusals of requests that have no answer."""
         super().__init__(WHY, console)
         self._console = console
         self._tell = tell
@@ -45,7 +45,7 @@ class ReadOnlyConsole(NoConsole):
         self.snapshot = self._looked_at
 
     def _looked_at(self) -> ConsoleSnapshot:
-        """The newest, which says that nothing is steered from here; the same object when nothing changed."""
+        """The newest snapshot, which says that nothing is steered from here; the same object when nothing changed."""
         seen = self._console.snapshot()
         if seen is not self._seen:
             self._seen, self._shown = seen, replace(seen, drive=replace(seen.drive, refused=WHY))
@@ -119,7 +119,7 @@ class ReadOnlyConsole(NoConsole):
 
 
 class ReadOnlyLauncher:
-    """Starts and ends nothing."""
+    """Refuses to start or end anything."""
 
     def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
         """Refused."""

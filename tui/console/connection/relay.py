@@ -1,4 +1,4 @@
-"""A console that hands everything on to the one that stands behind it now."""
+"""A console that forwards everything to whichever console is behind it at the moment."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from bot_console.tui.console.traffic import Traffic
 
 
 class ConsoleRelay:
-    """Whoever holds it need not know that another has taken the place of the one that answers."""
+    """Lets its users keep one object while the console behind it is replaced."""
 
     def __init__(self, first: Console) -> None:
         self._now = first

@@ -166,19 +166,19 @@ class RosConsole(ConsoleRelay):
         return self._ready.wait(timeout) and self._linked is not None
 
     def record(self, stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:
-        """Take a log record that a process wrote to its console and that `/rosout` does not bring."""
+        """Add a log record that a process wrote to its output and that does not come over `/rosout`."""
         self._add(stamp, severity, name, text, site)
 
     def heard(self, name: str) -> bool:
-        """Whether `/rosout` has brought a line of the logger of that name."""
+        """Whether a line of the logger of that name has come over `/rosout`."""
         return name in self._heard
 
     def learn(self, kind: str, facts: Mapping[str, Any]) -> None:
-        """Take in what a program or a launch tells of where parameters come from."""
+        """Take in what a program or a launch reports about the origin of parameters."""
         self._learn(kind, facts)
 
     def start_values(self) -> Mapping[tuple[str, str], Value]:
-        """The values with which nodes have begun, by node and parameter, as far as they have told them."""
+        """The start values of nodes, by node and parameter, as far as the nodes have reported them."""
         return self._provenance.starts()
 
     def printed(self, severity: int, label: str, text: str) -> None:
@@ -207,7 +207,7 @@ class RosConsole(ConsoleRelay):
             super().drive(0.0, 0.0)
 
     def all_stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
-        """Stop the robot, or take that back; what is asked before there is a link is done as soon as there is one."""
+        """Stop the robot, or withdraw the stop; without a link it is done as soon as there is one."""
         with self._linking:
             self._early_stop = (hold, reason)
             super().all_stop(hold, reason)
@@ -218,7 +218,7 @@ class RosConsole(ConsoleRelay):
             self._linked.await_standing(patience)
 
     def _zero_again(self) -> None:
-        """After a long silence what had waited in the link is lost, the zero among it: it is said once more."""
+        """Repeat the zero velocity after a long silence, in which whatever waited in the link was lost."""
         if self._zeroed:
             self._zeroed = False
             super().drive(0.0, 0.0)
@@ -235,7 +235,7 @@ class RosConsole(ConsoleRelay):
 
 
 def _nobody_reads(stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:
-    """What is said before there is a log."""
+    """The answer to reading before there is a log."""
 
 
 def _parts(snapshot: ConsoleSnapshot) -> dict[str, object]:

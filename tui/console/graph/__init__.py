@@ -1,1 +1,1 @@
-"""The node graph, watched."""
+"""Watching the ROS graph."""

@@ -24,7 +24,7 @@ TOOLS = ("/rosout", "/parameter_events")
 
 @dataclass(frozen=True)
 class Topic:
-    """What is expected of a topic; None where the file says nothing about it."""
+    """The expectations for a topic; None where the file has none."""
 
     type: str | None = None
     publishers: frozenset[str] | None = None
@@ -35,7 +35,7 @@ class Topic:
 
 @dataclass(frozen=True)
 class Expected:
-    """What a file says about a graph."""
+    """The contents of such a file."""
 
     nodes: frozenset[str] = frozenset()
     topics: Mapping[str, Topic] = field(default_factory=lambda: {})
@@ -45,12 +45,12 @@ class Expected:
 
     @property
     def rated(self) -> list[str]:
-        """Topics whose rates are to be measured."""
+        """The topics whose rates are to be measured."""
         return [_full(name) for name, each in self.topics.items() if each.rate is not None]
 
 
 def read(text: str) -> Expected:
-    """What a file says; raises `ValueError` with what is wrong with it."""
+    """Parse such a file; raises `ValueError` with what is wrong with it."""
     try:
         whole: Any = yaml.safe_load(text)
     except UNREADABLE as error:
@@ -108,7 +108,7 @@ def _topic(name: str, value: Any) -> Topic:
 
 
 def differences(expected: Expected, info: GraphInfo, rates: Mapping[str, float | None] | None = None) -> list[str]:
-    """In what a graph is not as expected, a line each; rates in Hz, as far as they were measured."""
+    """How a graph differs from the expectations, one line each; rates in Hz, as far as they were measured."""
     nodes = {each.name: each for each in info.nodes if not each.hidden}
     found = [f"node {name} is missing" for name in sorted(expected.nodes - nodes.keys())]
     for name, topic in sorted(expected.topics.items()):
@@ -166,7 +166,7 @@ def _about_topic(name: str, topic: Topic, nodes: list[NodeInfo], rate: float | N
 
 
 def written(info: GraphInfo, rates: Mapping[str, float | None]) -> str:
-    """A file that a graph is like; with the rates that were measured."""
+    """A file that matches a graph, including measured rates."""
     nodes = [each for each in info.nodes if not each.hidden]
     topics: dict[str, Any] = {}
     types = {**_types_of(nodes, "subscriptions"), **_types_of(nodes, "publishers")}

@@ -1,4 +1,4 @@
-"""What is odd about a ROS graph, in words: what a person would look for in the picture. Standard library only."""
+"""What is odd about a ROS graph, in words: what a person would look for in its picture. Standard library only."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ SILENT = "has not answered for a second: it was killed, it hangs, or it is busy"
 
 @dataclass(frozen=True)
 class Finding:
-    """Something odd: the topic, service, action or node it is about, what it is, and whether it is surely wrong."""
+    """Something odd: the topic, service, action or node, what is odd, and whether it is certainly wrong."""
 
     subject: str
     text: str
@@ -27,7 +27,7 @@ class Finding:
 
 
 def findings(info: GraphInfo) -> tuple[Finding, ...]:
-    """All that is odd, faults first, by subject; hidden nodes and topics are left out."""
+    """Everything odd, faults first, by subject; hidden nodes and topics are left out."""
     nodes = [each for each in info.nodes if not each.hidden]
     visible = GraphInfo(tuple(nodes), info.topics, info.services)
     otherwise = (Finding(each.partition(": ")[0], each, True) for each in info.unheard)
@@ -38,7 +38,7 @@ def findings(info: GraphInfo) -> tuple[Finding, ...]:
 
 
 def mend(pid: int) -> str:
-    """What a person does about a process that is stopped."""
+    """How to resume a stopped process."""
     return f"process {pid} is stopped; `kill -CONT {pid}` lets it go on"
 
 
@@ -86,7 +86,7 @@ def _namesakes(nodes: list[NodeInfo]) -> Iterator[Finding]:
 
 
 def namesakes(node: NodeInfo) -> str:
-    """That several nodes have the name of this one, and what comes of it."""
+    """Says that several nodes share this name, and what that causes."""
     return (
         f"{_number(node.copies)} nodes are called {node.name}: what is shown and set may be of any of them; "
         "does one still run in another terminal?"
@@ -94,7 +94,7 @@ def namesakes(node: NodeInfo) -> str:
 
 
 def _ends(nodes: list[NodeInfo] | tuple[NodeInfo, ...], kind: str) -> dict[str, dict[str, Endpoint]]:
-    """For each name the nodes at it."""
+    """The nodes at each name."""
     found: dict[str, dict[str, Endpoint]] = {}
     for node in nodes:
         ends: tuple[Endpoint, ...] = getattr(node, kind)

@@ -1,4 +1,4 @@
-"""The full name of a node, as the graph gives it: in two parts."""
+"""The full name of a node, which the graph gives in two parts."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ if TYPE_CHECKING:
 
 
 def full_name(namespace: str, name: str) -> str:
-    """A node's name with its namespace before it."""
+    """A node's name, prefixed with its namespace."""
     return f"{namespace.rstrip('/')}/{name}"
 
 
 def name_of(endpoint: TopicEndpointInfo) -> str:
-    """That of the node of an endpoint."""
+    """The full name of an endpoint's node."""
     return full_name(endpoint.node_namespace, endpoint.node_name)

@@ -1,6 +1,6 @@
-"""What keeps messages from passing though both ends are there: ROS itself is silent about it, or logs it once.
+"""Why messages do not pass between two existing endpoints, which ROS itself logs once or not at all.
 
-Of the public rclpy API alone, so that it holds on every middleware.
+It uses the public rclpy API only, so that it works on every middleware.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ Ask = Callable[[str], "Sequence[TopicEndpointInfo]"]
 
 
 class UnheardPairs:
-    """Keeps what was found for each topic; a topic is asked about again only when its ends have changed."""
+    """Keeps the findings of each topic; a topic is examined again only when its endpoints have changed."""
 
     def __init__(self, node: Node) -> None:
         self._publishers: Ask = node.get_publishers_info_by_topic
@@ -32,7 +32,7 @@ class UnheardPairs:
         self.found: tuple[str, ...] = ()
 
     def follow(self, graph: GraphInfo) -> tuple[str, ...]:
-        """All findings of a graph; the same object where nothing is different."""
+        """All findings of a graph; the same object if nothing has changed."""
         nodes = {each.name: each for each in graph.nodes}
         touched: set[str] = set()
         for name in nodes.keys() | self._nodes.keys():
@@ -54,7 +54,7 @@ class UnheardPairs:
         return self.found
 
     def _moved(self, node: str, before: set[tuple[bool, Endpoint]], now: set[tuple[bool, Endpoint]]) -> set[str]:
-        """Note the ends that a node has and has not any more; the topics whose ends are others."""
+        """Update a node's endpoints; returns the topics whose endpoints have changed."""
         for publishes, each in before - now:
             self._ends[each.name].discard((publishes, node))
         for publishes, each in now:
@@ -62,7 +62,7 @@ class UnheardPairs:
         return {each.name for _, each in before ^ now}
 
     def _look(self, topic: str) -> tuple[str, ...]:
-        """Only what the QoS and types in the graph's own texts do not tell."""
+        """Only what cannot be seen from the QoS and types in the graph's own texts."""
         publishers, subscriptions = self._publishers(topic), self._subscriptions(topic)
         if len({hash_of(each) for each in (*publishers, *subscriptions)} - {""}) < 2:
             return ()
@@ -71,7 +71,7 @@ class UnheardPairs:
 
 
 def _ends(node: NodeInfo | None) -> set[tuple[bool, Endpoint]]:
-    """What a node publishes (True) and subscribes to."""
+    """What a node publishes (True) and subscribes to (False)."""
     if node is None:
         return set()
     return {(True, each) for each in node.publishers} | {(False, each) for each in node.subscriptions}
@@ -80,7 +80,7 @@ def _ends(node: NodeInfo | None) -> set[tuple[bool, Endpoint]]:
 def unheard(
     topic: str, publishers: Sequence[TopicEndpointInfo], subscriptions: Sequence[TopicEndpointInfo]
 ) -> Iterable[str]:
-    """What keeps messages of one topic from passing, each with what to do."""
+    """What keeps messages of one topic from passing, each with a remedy."""
     seen: set[str] = set()
     for publisher in publishers:
         for subscription in subscriptions:
@@ -105,7 +105,7 @@ def _pair(topic: str, publisher: TopicEndpointInfo, subscription: TopicEndpointI
 
 
 def otherwise_defined(topic: str, publisher: TopicEndpointInfo, subscription: TopicEndpointInfo) -> str:
-    """That two ends have another definition of the type; ROS passes that over in silence."""
+    """Types that two endpoints define differently; ROS says nothing about that."""
     hashes = {hash_of(publisher), hash_of(subscription)} - {""}
     if _hidden(publisher) or _hidden(subscription) or len(hashes) < 2:
         return ""
@@ -118,12 +118,12 @@ def otherwise_defined(topic: str, publisher: TopicEndpointInfo, subscription: To
 
 
 def _words(why: str) -> str:
-    """The reasons of rclpy without their shouting, such as `Best effort publisher and reliable subscription`."""
+    """The reasons of rclpy, less emphatic, such as `Best effort publisher and reliable subscription`."""
     return ", ".join(each.removeprefix("ERROR: ").strip() for each in why.split(";") if each.strip())
 
 
 def hash_of(endpoint: TopicEndpointInfo) -> str:
-    """The hash of its type; empty where this ROS, or that node's, has none."""
+    """The hash of its type; empty if this ROS, or that of the node, has none."""
     text = str(getattr(endpoint, "topic_type_hash", None) or "")
     digest = text.removeprefix("RIHS01_")
     return text if digest != text and set(digest) != {"0"} else ""

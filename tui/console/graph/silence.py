@@ -1,6 +1,7 @@
-"""Which nodes are in the graph and do not answer: DDS keeps a node that was killed for some ten seconds.
+"""Finds nodes that are in the graph but do not answer: DDS keeps a killed node for some ten seconds.
 
-rclpy tells of no node whether it lives, so each is asked for the types of no parameters, the least there is to ask.
+rclpy does not tell whether a node is alive, so each is asked for the types of no parameters, the smallest request there
+is.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ MOST = 25
 
 
 class _Asked:
-    """A node, and what it was asked last."""
+    """A node, and the last request it was sent."""
 
     def __init__(self, client: Any) -> None:
         self.client = client
@@ -38,14 +39,14 @@ class _Asked:
 
     @property
     def waiting(self) -> bool:
-        """Whether an answer is due."""
+        """Whether a response is pending."""
         return self.answer is not None and not self.answer.done()
 
 
 class SilentNodes:
-    """Asks the nodes of the graph, once a second at most, while somebody looks at them; nobody otherwise.
+    """Asks the nodes of the graph, at most once a second, and only while somebody looks at them.
 
-    `changed` is told the names of those that do not answer. The executor's thread calls all methods.
+    `changed` receives the names of those that do not answer. All methods are called by the executor's thread.
     """
 
     def __init__(self, node: Node, changed: Callable[[tuple[str, ...]], None]) -> None:
@@ -56,7 +57,7 @@ class SilentNodes:
         self._silent: frozenset[str] = frozenset()
 
     def look(self, on: bool, graph: GraphInfo) -> None:
-        """Somebody looks, or nobody any more."""
+        """Start or stop asking."""
         if on and self._timer is None:
             self._timer = self._node.create_timer(PERIOD, self.tick)
         elif not on and self._timer is not None:
@@ -65,7 +66,7 @@ class SilentNodes:
         self.follow(graph)
 
     def follow(self, graph: GraphInfo) -> None:
-        """The graph is another. A node without parameter services cannot be asked, and is never silent."""
+        """Take in a changed graph. A node without parameter services cannot be asked, and never counts as silent."""
         nodes = graph.nodes if self._timer is not None else ()
         asked = {each.name for each in nodes if any(own.name == f"{each.name}/{SERVICE}" for own in each.services)}
         for name in self._nodes.keys() - asked:
@@ -75,7 +76,7 @@ class SilentNodes:
         self._tell(self._silent & asked)
 
     def tick(self) -> None:
-        """Look who has not answered, and ask those whose turn it is."""
+        """Note which nodes have not answered, and ask those whose turn it is."""
         for each in self._nodes.values():
             each.looks += 1
         late = {name for name, each in self._nodes.items() if each.waiting and each.looks >= OVERDUE}

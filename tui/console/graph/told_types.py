@@ -1,4 +1,4 @@
-"""Types of topics, services and actions that this program does not have: asked from the nodes that use them."""
+"""Types of topics, services and actions that are unknown in this program: requested from the nodes that use them."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ the type cannot be had, as said of the node, and nothing when it can be imported
 
 
 class TypeSource(Protocol):
-    """What rclpy cannot do: tell the hashes of types that are not here, and make interfaces from their definitions."""
+    """What rclpy cannot do: find hashes of unknown types, and build interfaces from their definitions."""
 
     def inquiries(self, domain: int, type_name: str) -> Mapping[str, Inquiry]:
-        """What to ask for a type, by the nodes that can be asked."""
+        """The requests to send for a type, by the nodes that can be asked."""
         ...
 
 
 class ToldTypes:
-    """Asks for each type once, one after the other, and tells `learned` when there is one more.
+    """Asks for each type once, one at a time, and calls `learned` after each new one.
 
-    The executor's thread calls all methods but `explain`.
+    All methods but `explain` are called by the executor's thread.
     """
 
     def __init__(self, node: Node, calls: Calls, source: TypeSource | None, learned: Callable[[], None]) -> None:
@@ -50,7 +50,7 @@ class ToldTypes:
         self._why: dict[str, str] = {}
 
     def follow(self, graph: GraphInfo) -> None:
-        """The graph is another: there may be types that nobody here has, or nodes that were not asked yet."""
+        """Take in a changed graph: there may be new unknown types, or nodes that have not been asked yet."""
         if self._source is None:
             return
         nodes = {each.name for each in graph.nodes}
@@ -63,7 +63,7 @@ class ToldTypes:
             self._calls.run(self._ask_all(), lambda why: None)
 
     def explain(self, type_name: str, otherwise: str) -> str:
-        """Why a type is not known here, where it was asked for, and else another text; from any thread."""
+        """Why a type is unknown here, if it was asked for, else another text; from any thread."""
         why = self._why.get(type_name)
         return f"the type {type_name} is not known here: {why}" if why else otherwise
 
@@ -99,7 +99,7 @@ class ToldTypes:
             self._why[type_name] = f"{node} {problem}"
 
     async def _ask(self, node: str, inquiry: Inquiry) -> str:
-        """Ask a node all that is to be asked; why it is no use, else empty."""
+        """Send a node all requests for it; returns why the answer is unusable, else an empty text."""
         from type_description_interfaces.srv import GetTypeDescription
 
         service = f"{node}/get_type_description"
@@ -119,7 +119,7 @@ class ToldTypes:
 
 
 def _used(graph: GraphInfo) -> Iterator[str]:
-    """The types of topics and services; an action instead of what it is made of."""
+    """The types of topics and services; for an action, the action instead of its parts."""
     for each in (*graph.topics, *graph.services):
         for type_name in each.types:
             package, _, rest = type_name.partition("/action/")

@@ -1,4 +1,4 @@
-"""The ROS graph as the console sees it: asked twice a second, or after an event, a new object only when it changed."""
+"""Watches the ROS graph: polled twice a second, or after an event; a new object only when it has changed."""
 
 from __future__ import annotations
 
@@ -41,10 +41,11 @@ FrozenNodes = Callable[[int], Mapping[int, Sequence[str]]]
 
 
 class GraphWatch:
-    """Keeps `info` up to date while the node spins, and tells `changed` of each new graph.
+    """Keeps `info` up to date while the node spins, and calls `changed` with each new graph.
 
-    What has not changed is not described again, and stays the same object. Where events tell of changes, nodes that
-    have none are not even asked about.
+    What has not changed is not described again, and stays the same object. Where events report changes, nodes without
+    any are
+    not even queried.
     """
 
     def __init__(
@@ -80,7 +81,7 @@ class GraphWatch:
         self._look_for_frozen()
 
     def _look_for_frozen(self) -> None:
-        """A process that is stopped stays in the graph for long, and its nodes look alive."""
+        """Look for stopped processes, which stay in the graph for long with nodes that seem alive."""
         if self._frozen is None:
             return
         stopped = self._frozen(self._node.context.get_domain_id())
@@ -90,11 +91,11 @@ class GraphWatch:
             self._changed(self.info)
 
     def close(self) -> None:
-        """Hear of no more events."""
+        """Stop receiving events."""
         self._end()
 
     def look(self) -> None:
-        """Ask for the graph now."""
+        """Query the graph now."""
         known = self._unchanged()  # before the questions: what changes meanwhile is asked for again
         self._looked = True
         node = self._node
@@ -123,7 +124,7 @@ class GraphWatch:
         self._silence.follow(self.info)
 
     def look_at_nodes(self, on: bool) -> None:
-        """Find out which nodes do not answer from now on, or no more; events tell that already where there are any."""
+        """Start or stop finding out which nodes do not answer; where there are events, they tell that already."""
         if not self._told:
             self._silence.look(on, self.info)
 
@@ -132,7 +133,7 @@ class GraphWatch:
         self._changed(self.info)
 
     def _unchanged(self) -> dict[Owner, tuple[Answer, NodeInfo]]:
-        """What need not be asked for again."""
+        """What need not be queried again."""
         if not (self._told and self._looked):
             self._news.clear()
             return {}
@@ -142,7 +143,7 @@ class GraphWatch:
         return known
 
     def _names(self, nodes: Mapping[Owner, tuple[Answer, NodeInfo]], different: Sequence[Owner]) -> tuple[Pairs, Pairs]:
-        """Topics and services; the same objects as before where they are the same."""
+        """Topics and services; the same objects as before if they are unchanged."""
         changed = [(_answer(nodes, each), _answer(self._nodes, each)) for each in different]
         topics, services = self._topics, self._services
         if not self._told or any(now[:2] != before[:2] for now, before in changed):
@@ -152,7 +153,7 @@ class GraphWatch:
         return topics, services
 
     def _look_at(self, owner: Owner, profiles: Profiles) -> tuple[Answer, NodeInfo]:
-        """What a node answers and what it means; the same object as before where the answer is the same."""
+        """A node's answer and its meaning; the same object as before if the answer is unchanged."""
         answer, known = self._ask(*owner), self._nodes.get(owner)
         if known is None:
             return answer, _described(owner, answer, NodeInfo(""), profiles)
@@ -174,7 +175,7 @@ class GraphWatch:
 
 
 def _copied(described: tuple[Answer, NodeInfo], copies: int) -> tuple[Answer, NodeInfo]:
-    """With the number of nodes by this name; the same object where that is known."""
+    """The node with the number of nodes of this name; the same object if that is unchanged."""
     answer, info = described
     return described if info.copies == copies else (answer, replace(info, copies=copies))
 
@@ -188,14 +189,14 @@ def _same(pairs: Pairs, before: Pairs) -> Pairs:
 
 
 class Profiles:
-    """The QoS profiles of one look: each topic is asked about once, however many nodes are on it."""
+    """The QoS profiles seen in one look: each topic is queried once, however many nodes use it."""
 
     def __init__(self, node: Node) -> None:
         self._ask = {True: node.get_publishers_info_by_topic, False: node.get_subscriptions_info_by_topic}
         self._found: dict[tuple[str, bool], dict[Owner, str]] = {}
 
     def of(self, owner: Owner, topic: str, *, publisher: bool) -> str:
-        """What a node publishes or subscribes a topic with; empty where it has left."""
+        """The profile with which a node publishes or subscribes to a topic; empty if it has left."""
         key = topic, publisher
         if key not in self._found:
             infos = self._ask[publisher](topic)
@@ -207,7 +208,7 @@ class Profiles:
 
 
 def _described(owner: Owner, answer: Answer, before: NodeInfo, profiles: Profiles) -> NodeInfo:
-    """What an answer says of a node; of what the node had before, the profile is known."""
+    """A node as described by an answer; profiles of endpoints it had before are reused."""
     publishers, subscriptions, services, clients = answer
     name, space = owner
     return NodeInfo(
@@ -248,7 +249,7 @@ def _nothing() -> None:
 
 
 def _endpoints(pairs: Pairs, before: Sequence[Endpoint] = ()) -> tuple[Endpoint, ...]:
-    """As endpoints, by name; those of before where they are the same."""
+    """Endpoints by name; the previous ones if they are unchanged."""
     known = {each.name: each for each in before}
     found: list[Endpoint] = []
     for name, kinds in pairs:
@@ -258,7 +259,7 @@ def _endpoints(pairs: Pairs, before: Sequence[Endpoint] = ()) -> tuple[Endpoint,
 
 
 def _actions(topics: Pairs) -> tuple[Endpoint, ...]:
-    """An action is known by its status topic: its server publishes it, its clients subscribe."""
+    """Actions, recognised by their status topics: servers publish them, clients subscribe."""
     found: list[Endpoint] = []
     for name, _ in topics:
         if name.endswith(ACTION_SERVER_TOPIC):

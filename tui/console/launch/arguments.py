@@ -1,4 +1,4 @@
-"""The arguments that a launch file declares, for a form."""
+"""The arguments that a launch file declares, as data for a form."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def _argument(action: Any, context: Any) -> LaunchArgument:
 
 
 def _default(action: Any, context: Any) -> str | None:
-    """The default as text; one that only a running launch can tell is described, as `--show-args` does."""
+    """The default as text; one that only a running launch can evaluate is described, as `--show-args` does."""
     from launch.utilities import perform_substitutions
 
     if action.default_value is None:
@@ -43,7 +43,7 @@ def _default(action: Any, context: Any) -> str | None:
 
 
 def _description(text: str, choices: tuple[str, ...]) -> str:
-    """The description without the list of choices, which the form shows by itself."""
+    """The description without the list of choices, which the form shows itself."""
     if text == "no description given":
         return ""
     listed = str(list(choices))

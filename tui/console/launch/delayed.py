@@ -1,4 +1,4 @@
-"""Starts that a launch file has put off to a later time."""
+"""Counts the starts that a launch file has postponed with timers."""
 
 from __future__ import annotations
 
@@ -8,10 +8,11 @@ from bot_console.tui.console.launch.tree import below
 
 
 def delayed_starts(service: Any) -> int:
-    """How many timers of a LaunchService run that start something when they have run down.
+    """How many pending timers of a LaunchService will start something.
 
     Zero where the service does not tell what it waits for, as upstream's. What waits for an event, such as the end of
-    another process, may never happen and does not count.
+    another
+    process, may never happen and does not count.
     """
     from launch.actions import TimerAction
 
@@ -19,7 +20,7 @@ def delayed_starts(service: Any) -> int:
 
 
 def _starts(entity: Any) -> bool:
-    """Whether visiting it may start a process; what only a running launch can tell does."""
+    """Whether visiting it may start a process; what only a running launch can tell counts as yes."""
     from launch.actions import ExecuteLocal, IncludeLaunchDescription, OpaqueCoroutine, OpaqueFunction
 
     starting = (ExecuteLocal, IncludeLaunchDescription, OpaqueCoroutine, OpaqueFunction)

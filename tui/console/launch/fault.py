@@ -38,7 +38,7 @@ def fault_text(
 
 
 def _text(error: BaseException) -> str:
-    """The words of an error that launch or a parser has found."""
+    """The message of an error raised by launch or a parser."""
     if _is_missing_package(error):
         return _no_package(str(error.args[0]))
     if isinstance(error, OSError) and error.strerror:
@@ -55,7 +55,7 @@ def _is_missing_package(error: BaseException) -> bool:
 
 
 def _no_package(said: str) -> str:
-    """A package that was not found, and what to do."""
+    """A package that was not found, with a remedy."""
     from difflib import get_close_matches
 
     from ament_index_python.packages import get_packages_with_prefixes
@@ -72,7 +72,7 @@ def _at(place: Place, text: str) -> str:
 
 
 def _causes(error: BaseException) -> Iterator[BaseException]:
-    """An error, then what the reader for files of that ending has said; the other readers have only tried."""
+    """An error, then the error of the parser for the file's ending; the other parsers only tried."""
     from launch.invalid_launch_file_error import InvalidLaunchFileError
 
     yield error
@@ -81,7 +81,7 @@ def _causes(error: BaseException) -> Iterator[BaseException]:
 
 
 def _user_line(error: BaseException) -> Place | None:
-    """The innermost line that is neither launch's nor a library's."""
+    """The innermost traceback line that belongs neither to launch nor to a library."""
     libraries = library_folders()
     lines = [
         (frame.filename, frame.lineno)
@@ -92,7 +92,7 @@ def _user_line(error: BaseException) -> Place | None:
 
 
 def _parsers_line(error: BaseException) -> int | None:
-    """Where a parser of YAML or XML has stopped."""
+    """Where a YAML or XML parser stopped."""
     mark: Any = getattr(error, "problem_mark", None)
     position: Any = getattr(error, "position", None)
     if mark is not None:
@@ -101,7 +101,7 @@ def _parsers_line(error: BaseException) -> int | None:
 
 
 def _told(causes: Sequence[BaseException], file_of: Callable[[Any], str]) -> Place | None:
-    """What launch has told of the innermost error; in place of a library's line the launch file that it stands for."""
+    """What launch has noted on the innermost error; a library's line is replaced by the launch file that caused it."""
     for told in _all_told(reversed(causes)):
         if told.file and not (told.entity is not None and told.file.startswith(library_folders())):
             return told.file, told.line
@@ -112,7 +112,7 @@ def _told(causes: Sequence[BaseException], file_of: Callable[[Any], str]) -> Pla
 
 
 def _include_line(causes: Sequence[BaseException]) -> Place | None:
-    """Where an include stands that was being visited."""
+    """The line of the include that was being visited."""
     return next(((told.file, told.line) for told in _all_told(causes) if told.line), None)
 
 

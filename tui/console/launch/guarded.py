@@ -1,4 +1,4 @@
-"""A launch action whose failure to start is told where it was asked for, and does not end the whole launch."""
+"""A launch action whose failure to start is reported to whoever asked for it, and does not end the whole launch."""
 
 from __future__ import annotations
 
@@ -9,10 +9,11 @@ from launch import Action
 
 
 class GuardedStart(Action):
-    """Makes an action and executes it; waits for it as launch does.
+    """Makes an action, executes it, and waits for it as launch does.
 
-    `begun` is called with the action when it was executed, `failed` with the reason why it was not. A launch that is
-    shutting down executes nothing more.
+    `begun` is called with the action once it was executed, `failed` with the reason if it was not. A launch that is
+    shutting
+    down executes nothing more.
     """
 
     def __init__(self, make: Callable[[], Any], begun: Callable[[Any], None], failed: Callable[[str], None]) -> None:

@@ -1,4 +1,4 @@
-"""Processes as the console sees and steers them: the public `launch` API and its event handlers, nothing else."""
+"""Processes as the console sees and steers them, using only the public `launch` API and its event handlers."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ BUSY_S = 6.0
 
 
 class Joinable(Protocol):
-    """A thread, or what can be waited for like one."""
+    """A thread, or anything that can be joined like one."""
 
     def join(self, timeout: float | None = None) -> object:
         """Wait for the end, at most so many seconds."""
@@ -41,7 +41,7 @@ class Joinable(Protocol):
 
 
 class _Held:
-    """A process with the action that runs it, the run it belongs to, and all that looks at it."""
+    """A process, the action that runs it, its run, and its monitors."""
 
     def __init__(self, process: LaunchedProcess, run: LaunchRun, action: Any, made_from: Recipe) -> None:
         self.process = process
@@ -54,7 +54,7 @@ class _Held:
 
 
 class RosLauncher(AskedForProcesses):
-    """Runs launch files, each in a LaunchService and thread of its own. Methods may be called from any thread."""
+    """Runs launch files, each in a LaunchService and a thread of its own. Methods may be called from any thread."""
 
     def __init__(
         self,
@@ -105,7 +105,7 @@ class RosLauncher(AskedForProcesses):
             return self._info
 
     def _look(self) -> None:
-        """Measure what no event tells."""
+        """Measure what no event reports."""
         now = time.monotonic()
         delayed = sum(run.delayed_starts for run in self._runs)
         self._dirty |= delayed != self._delayed
@@ -147,7 +147,7 @@ class RosLauncher(AskedForProcesses):
         return self._files_of_workspace()
 
     def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
-        """Run one more launch file; the answer comes when its first process runs or it has failed or ended."""
+        """Run another launch file; answered when its first process runs, or when it has failed or ended."""
         outcome: Future[Answer] = Future()
         given = dict(arguments)
         with self._lock:
@@ -189,7 +189,7 @@ class RosLauncher(AskedForProcesses):
             of_file.set_result(Answer(not problem, problem or f"{run.title} has ended"))
 
     def _left_over(self, held: _Held) -> None:
-        """Its run is over: what was to be started in it is started in one of its own."""
+        """Take note that a run is over: later starts of its processes get runs of their own."""
         if held.process.info.state is ProcessState.STARTING and not self._closed:
             self._order(held, Order.START)
         else:
@@ -259,7 +259,7 @@ class RosLauncher(AskedForProcesses):
             outcome.set_result(Answer(True, f"{run.title} runs"))
 
     def _found(self, run: LaunchRun, event: ProcessStarted, context: LaunchContext) -> _Held:
-        """A process that was not seen before."""
+        """Add a process that is new."""
         key = f"{event.process_name}@{len(self._held)}"
         place = run.tree.place(event.action, context)
         process = LaunchedProcess(key, event.process_name, place)
@@ -307,7 +307,7 @@ class RosLauncher(AskedForProcesses):
                 self._ended(held)
 
     def _ended(self, held: _Held, why: str = "") -> None:
-        """Nothing runs of it, and launch will not start it (again)."""
+        """Take note that a process has ended, and launch will not start it (again)."""
         with self._lock:
             before = held.process.info
             order = held.process.over(why)
@@ -327,7 +327,7 @@ class RosLauncher(AskedForProcesses):
         self._printed(Severity.ERROR, "bot-console", f"the launch pane misses something: {error!r}")
 
     def close(self, patience: float = 10.0) -> None:
-        """Shut every launch down and wait for it, at most so many seconds in all; a second call does nothing."""
+        """Shut all launches down and wait, at most so many seconds in total; a second call does nothing."""
         with self._lock:
             if self._closed:
                 return
@@ -348,7 +348,7 @@ def _thread(target: Callable[[], None], file: str) -> threading.Thread:
 
 
 def _node_names(action: Any) -> tuple[str, ...]:
-    """The ROS names of the nodes in a process, where the action tells them."""
+    """The ROS names of the nodes in a process, if the action tells them."""
     if not hasattr(action, "expanded_node_name"):
         return _full_node_name(action)
     name, namespace = action.expanded_node_name, getattr(action, "expanded_node_namespace", "")
@@ -358,7 +358,7 @@ def _node_names(action: Any) -> tuple[str, ...]:
 
 
 def _full_node_name(action: Any) -> tuple[str, ...]:
-    """The same of a launch_ros that tells it by `node_name`; placeholders stand for what the program itself decides."""
+    """The same for a launch_ros that offers `node_name`; placeholders stand for what the program itself decides."""
     try:
         name = str(getattr(action, "node_name", ""))
     except RuntimeError:  # it was not executed

@@ -1,4 +1,4 @@
-"""The life of one launched process: what was wanted of it, what became of it. Knows no launch, takes no lock."""
+"""The life of one launched process: what was asked of it, and what happened to it. No launch API, no locks."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ ENDED = (ProcessState.EXITED, ProcessState.CRASHED, ProcessState.ABANDONED, Proc
 
 
 class Order(Enum):
-    """What is to be done with the process now."""
+    """What to do with the process next."""
 
     NOTHING = 0
     START = 1
@@ -29,7 +29,7 @@ class Order(Enum):
 
 
 class LaunchedProcess:
-    """What is shown of a process, and who waits for what becomes of it."""
+    """The displayed state of a process, and who waits for its next change."""
 
     def __init__(self, key: str, label: str, group: tuple[str, ...] = ()) -> None:
         self.info = ProcessInfo(key, label, ProcessState.STARTING, group=group)
@@ -47,7 +47,7 @@ class LaunchedProcess:
         return self._alive
 
     def want(self, verb: str) -> tuple[Order, Future[Answer]]:
-        """Somebody wants a `start`, `stop`, `kill` or `restart`; the answer comes when that is done."""
+        """Ask for `start`, `stop`, `kill` or `restart`; answered when that is done."""
         outcome: Future[Answer] = Future()
         refusal = self._refusal(verb)
         if refusal:
@@ -93,13 +93,13 @@ class LaunchedProcess:
         return Order.SHUT_DOWN
 
     def told_to_end(self) -> None:
-        """It was told to end, by a person or because its launch ends."""
+        """Take note that a person, or the end of its launch, has told it to end."""
         if self.info.state not in ENDED:
             self._told = True
             self.info = replace(self.info, state=ProcessState.STOPPING)
 
     def started(self, label: str, pid: int, nodes: tuple[str, ...] = ()) -> Order:
-        """It runs, by itself or because somebody wanted it; launch may give it another label each time."""
+        """Take note that it runs, by itself or on request; launch may change its label each time."""
         restarts, self._starts, self._alive = self._starts, self._starts + 1, True
         self._ran, self._stands = True, ""
         state = ProcessState.STOPPING if self._told else ProcessState.RUNNING
@@ -111,11 +111,11 @@ class LaunchedProcess:
         return Order.NOTHING
 
     def missing(self, why: str) -> None:
-        """Its executable is not here, and the launch goes on without it."""
+        """Take note that its executable is missing, and that the launch goes on without it."""
         self.info = replace(self.info, state=ProcessState.MISSING, problem=why)
 
     def exited(self, code: int, respawns: bool, fault: str = "") -> Order:
-        """It has ended; `respawns` says that launch will start it again by itself, `fault` which exception it left."""
+        """Take note that it has ended; `respawns`: launch will start it again, `fault`: the exception it left."""
         self._fault = fault
         self._alive = False
         self.info = replace(self.info, exit_code=code, pid=None, cpu=None, memory=None)
@@ -130,7 +130,7 @@ class LaunchedProcess:
         return Order.NOTHING
 
     def over(self, why: str = "") -> Order:
-        """Launch will not start it any more; where it never ran, `why` says what went wrong."""
+        """Take note that launch will not start it again; `why` says what went wrong if it never ran."""
         if self._alive or self.info.state in ENDED:
             return Order.NOTHING
         if not self._ran and not self._told:
@@ -154,23 +154,23 @@ class LaunchedProcess:
         return Order.NOTHING
 
     def _why(self, code: int) -> str:
-        """Why it has ended, by the exception where it left one."""
+        """Why it has ended, with the exception if it left one."""
         return _reason(code) if code < 0 or not self._fault else self._fault
 
     def abandoned(self, where: str) -> None:
-        """Code of it goes on although it was killed."""
+        """Take note that its code still runs although it was killed."""
         problem = f"was killed, but code of it does not end: {where}"
         self.info = replace(self.info, state=ProcessState.ABANDONED, problem=problem)
 
     def uses(self, cpu: float | None, memory: int | None) -> bool:
-        """Note its share of a processor (1.0 is one whole) and its memory (MB); whether that is news."""
+        """Set its share of a CPU (1.0 is one whole) and its memory (MB); returns whether that is news."""
         if (cpu, memory) == (self.info.cpu, self.info.memory) or not self._alive:
             return False
         self.info = replace(self.info, cpu=cpu, memory=memory)
         return True
 
     def stands(self, why: str) -> bool:
-        """Note why nothing of it runs, or that it does (empty); whether that is news."""
+        """Set why nothing of it runs, empty if it does; returns whether that is news."""
         if why == self._stands or not self._alive:
             return False
         self._stands = why

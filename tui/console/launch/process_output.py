@@ -49,7 +49,7 @@ def marking(environment: Mapping[str, str]) -> dict[str, str]:
 
 
 class ProcessOutput:
-    """What one process prints, on either stream."""
+    """The output of one process, on both streams."""
 
     def __init__(
         self,
@@ -67,11 +67,11 @@ class ProcessOutput:
         self._readers = {stderr: OutputReader(self.logged, each.line) for stderr, each in self._streams.items()}
 
     def feed(self, text: str, *, stderr: bool) -> None:
-        """Take the next piece."""
+        """Take the next piece of output."""
         self._readers[stderr].feed(text)
 
     def logged(self, record: Record, on_rosout: bool | None) -> None:
-        """Take a line that a logger wrote; None where its writer could not tell whether it went out on `/rosout`."""
+        """Take a logger's line; None where the writer could not tell whether it went out on `/rosout`."""
         if self._every is not None:
             self._every(*record)
         if on_rosout is None:
@@ -81,15 +81,15 @@ class ProcessOutput:
 
     @property
     def fault(self) -> str:
-        """The exception that was printed last and where in the user's code, on one line; empty when it was none."""
+        """The last exception printed, and where in the user's code, on one line; empty if there was none."""
         return self._streams[True].fault or self._streams[False].fault
 
     def settle(self) -> None:
-        """Decide on lines that have waited long enough; to be called now and then."""
+        """Decide on lines that have waited long enough; to be called from time to time."""
         self._undecided.settle()
 
     def close(self) -> None:
-        """The process has ended."""
+        """Take note that the process has ended."""
         for stderr, reader in self._readers.items():
             reader.close()
             self._streams[stderr].close()
@@ -97,9 +97,10 @@ class ProcessOutput:
 
 
 class Undecided:
-    """Lines of a real rclpy or rclcpp, which cannot say whether `/rosout` had them: it had, if it has that logger's.
+    """Lines of a real rclpy or rclcpp, which do not say whether `/rosout` had them: it had, if it has that logger's.
 
-    The first line of a logger can come here sooner than by `/rosout`, so each waits `PATIENCE_S` before it counts.
+    A logger's first line can arrive here before it does over `/rosout`, so each line waits `PATIENCE_S` before it
+    counts.
     """
 
     def __init__(self, record: Add, heard: Callable[[str], bool], now: Callable[[], float] = time.monotonic) -> None:
@@ -109,13 +110,13 @@ class Undecided:
         self._waiting: deque[tuple[float, Record]] = deque()
 
     def wait(self, record: Record) -> None:
-        """Take a line, unless `/rosout` has its logger's lines anyway."""
+        """Take a line, unless `/rosout` has that logger's lines anyway."""
         if not self._heard(record[2]):
             self._waiting.append((self._now() + PATIENCE_S, record))
         self.settle()
 
     def settle(self, *, ended: bool = False) -> None:
-        """Pass on what has waited in vain; everything when the process has ended."""
+        """Pass on lines that have waited in vain; all of them when the process has ended."""
         now = self._now()
         while self._waiting and (ended or self._waiting[0][0] <= now):
             _, record = self._waiting.popleft()
@@ -124,7 +125,7 @@ class Undecided:
 
 
 class OutputReader:
-    """Turns the output of one stream, in whatever pieces it comes, into records and printed lines."""
+    """Splits the output of one stream, which arrives in pieces of any size, into records and printed lines."""
 
     def __init__(self, logged: Callable[[Record, bool | None], None], printed: Callable[[str], None]) -> None:
         self._logged = logged
@@ -132,7 +133,7 @@ class OutputReader:
         self._rest = ""
 
     def feed(self, text: str) -> None:
-        """Take the next piece of output; an unfinished line or record waits for its end, but for a very long one."""
+        """Take the next piece; an unfinished line or record waits for its end, unless it is very long."""
         self._take(self._rest + text)
         if len(self._rest) > LONGEST:
             rest, self._rest = self._rest, ""
@@ -152,7 +153,7 @@ class OutputReader:
         self._rest = self._lines(text[at:])
 
     def close(self) -> None:
-        """The process has ended: what is left is a line without an end."""
+        """Take note that the process has ended: the rest is a line without an end."""
         rest, self._rest = self._rest, ""
         begin = _BEGIN.match(rest)
         if begin and END in rest:
@@ -180,5 +181,5 @@ class OutputReader:
 
 
 def _is_number(text: str) -> bool:
-    """Whether it is a whole number that a column of the log holds; a node may print anything as a mark."""
+    """Whether it is an integer that fits a column of the log; a node may print anything as a mark."""
     return text.isascii() and text.isdecimal() and len(text) <= len(str(LARGEST)) and int(text) <= LARGEST

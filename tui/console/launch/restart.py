@@ -1,8 +1,8 @@
-"""Starting a process again that launch has started once: an action of its own, of the public launch API.
+"""Starting a process again that launch has started once, by a new action of the public launch API.
 
-An action can be executed only once, so the second start needs another, made from what the first one's event tells.
-Event handlers of the launch file that wait for that very action do not know the new one; `on_exit` is kept where it
-holds no process of its own.
+An action can be executed only once, so a second start needs another one, made from what the first one's event tells.
+Event handlers of the launch file that wait for the original action do not know the new one; `on_exit` is kept if it
+contains no process of its own.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Recipe:
-    """All that is needed to start a process again; `package` is None where the program's path says it all."""
+    """What is needed to start a process again; `package` is None if the path of the program suffices."""
 
     command: list[str]
     label: str
@@ -31,7 +31,7 @@ class Recipe:
     package: str | None
 
     def action(self) -> Any:
-        """A new action that runs the same."""
+        """A new action that runs the same program."""
         from launch.actions import ExecuteProcess
         from launch_ros.actions import Node
 
@@ -46,7 +46,7 @@ class Recipe:
 
 
 def recipe(event: ProcessStarted, context: LaunchContext) -> Recipe:
-    """What a process was started with, from its `ProcessStarted`."""
+    """What a process was started with, taken from its `ProcessStarted` event."""
     from launch_ros.actions import Node
 
     action = event.action
@@ -89,6 +89,6 @@ def _on_exit(action: Any) -> Any:
 
 
 def _respawn(action: Any) -> dict[str, Any]:
-    """Whether launch starts it again by itself, where the action tells that."""
+    """Whether launch respawns it, if the action tells."""
     wanted = getattr(action, "respawn", None)
     return {"respawn": wanted, "respawn_delay": getattr(action, "respawn_delay", None)} if wanted else {}

@@ -1,4 +1,4 @@
-"""One run of launch: a LaunchService, what is put into it and what is heard of it."""
+"""One run of launch: a LaunchService, what is sent to it and what it reports."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ CAUGHT = "Caught exception in launch (see debug for traceback): "
 
 @dataclass(frozen=True)
 class Listener:
-    """Called in the thread of a run, for all of its processes."""
+    """Called in the thread of a run, for all its processes."""
 
     started: Callable[[LaunchRun, ProcessStarted, LaunchContext], None]
     """With `ProcessStarted` and the launch context."""
@@ -60,7 +60,7 @@ class LaunchRun:
         """Whether launch itself has logged why it failed."""
 
     def run_file(self, path: str, arguments: Mapping[str, str]) -> str:
-        """Run a launch file to its end; why it could not be run, empty when it could."""
+        """Run a launch file to its end; returns why it could not be run, and an empty text if it could."""
         from launch.actions import IncludeLaunchDescription
         from launch.launch_description_sources import AnyLaunchDescriptionSource
 
@@ -75,7 +75,7 @@ class LaunchRun:
         return self._run([IncludeLaunchDescription(source, launch_arguments=arguments.items())])
 
     def run_action(self, make: Callable[[], Any], failed: Callable[[str], None]) -> str:
-        """Run one process to its end, see `start`; what went wrong with the launch itself, if anything."""
+        """Run one process to its end, see `start`; returns what went wrong with the launch itself, if anything."""
         return self._run([self._guarded(make, failed)])
 
     def _run(self, entities: list[Any]) -> str:
@@ -164,11 +164,11 @@ class LaunchRun:
 
     @property
     def delayed_starts(self) -> int:
-        """How many starts are put off to a later time."""
+        """How many starts are postponed."""
         return 0 if self._service is None else delayed_starts(self._service)
 
     def start(self, make: Callable[[], Any], failed: Callable[[str], None]) -> None:
-        """Run what `make` gives, out of the scope of whatever the launch file has set; `failed` is told why not."""
+        """Run the action that `make` returns, outside the launch file's scopes; `failed` receives the reason."""
         from launch.events import IncludeLaunchDescription
 
         from launch import LaunchDescription
@@ -176,7 +176,7 @@ class LaunchRun:
         self.emit(IncludeLaunchDescription(LaunchDescription([self._guarded(make, failed)])))
 
     def _guarded(self, make: Callable[[], Any], failed: Callable[[str], None]) -> Any:
-        """A process whose failure to start is no failure of the launch."""
+        """Wrap a process so that its failure to start does not end the launch."""
         from bot_console.tui.console.launch.guarded import GuardedStart
         from launch.actions import GroupAction
 
@@ -184,9 +184,9 @@ class LaunchRun:
         return GroupAction([start], scoped=True, forwarding=False)
 
     def emit(self, event: Any) -> None:
-        """Put an event into the queue, without waiting for the launch: `LaunchService.emit_event` would.
+        """Queue an event without waiting for the launch, as `LaunchService.emit_event` would.
 
-        The caller may hold what the launch is just waiting for.
+        The caller may hold a lock that the launch is waiting for.
         """
         with self._lock:
             service = self._service
@@ -200,7 +200,7 @@ class LaunchRun:
             loop.call_soon_threadsafe(service.context.emit_event_sync, event)
 
     def shut_down(self) -> None:
-        """End all of it, or never begin."""
+        """End everything, or never begin."""
         with self._lock:
             self._unwanted = True
             service = self._service

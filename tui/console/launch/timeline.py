@@ -11,14 +11,14 @@ KEPT = 500
 
 
 class LaunchTimeline:
-    """Launch events, numbered from 0; the oldest fall out."""
+    """Launch events, numbered from 0; the oldest are dropped."""
 
     def __init__(self) -> None:
         self._events: deque[LaunchEvent] = deque(maxlen=KEPT)
         self._count = 0
 
     def tell(self, text: str, severity: Severity = Severity.INFO) -> None:
-        """Add an event that has happened now."""
+        """Add an event that happens now."""
         self._events.append(LaunchEvent(self._count, time.time_ns(), text, severity))
         self._count += 1
 

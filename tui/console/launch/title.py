@@ -1,4 +1,4 @@
-"""What a launch goes by in the list of processes."""
+"""The title of a launch in the list of processes."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ PROGRAM = "program.launch.py"
 
 
 def title_of(path: str, arguments: Mapping[str, str]) -> str:
-    """The name of a launch file, or of the program that it is there for."""
+    """The name of a launch file, or of the program that it exists for."""
     name = Path(path).name
     return Path(arguments.get("program", name)).name if name == PROGRAM else name
 
 
 def line_of(path: str, arguments: Mapping[str, str]) -> str:
-    """What was asked for, as a person would ask for it again: a launch file with its arguments, or a program."""
+    """The request as a person would repeat it: a launch file with its arguments, or a program."""
     if Path(path).name == PROGRAM and "program" in arguments:
         words = (arguments.get(each, "") for each in ("package", "program", "words"))
         return " ".join(["run", *(each for each in words if each)])
@@ -25,5 +25,5 @@ def line_of(path: str, arguments: Mapping[str, str]) -> str:
 
 
 def unused(title: str, used: Collection[str]) -> str:
-    """A title, with a number where another launch that is shown has it."""
+    """A title, with a number appended if another launch in the list has it."""
     return next(each for number in count(1) if (each := title if number == 1 else f"{title} ({number})") not in used)

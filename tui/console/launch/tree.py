@@ -1,4 +1,4 @@
-"""Where in the launch files a process stands: the files included on the way to it, and groups with a namespace."""
+"""The position of a process in the launch files: the includes that lead to it, and groups with a namespace."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ if TYPE_CHECKING:
 
 
 class LaunchTree:
-    """The entities of one launch, as far as they were visited. `title` names its launch file."""
+    """The entities of one launch that have been visited. `title` names its launch file."""
 
     def __init__(self, title: str) -> None:
         self._title = title
         self._parents: dict[int, tuple[Any, Any]] = {}
 
     def included(self, include: Any) -> None:
-        """An include was executed, so that its description is known without reading anything."""
+        """Take note that an include was executed: its description is now known without reading anything."""
         description = include.launch_description_source.try_get_launch_description_without_context()
         if description is not None:
             self._add(description.entities, include)
@@ -34,14 +34,14 @@ class LaunchTree:
                 self._add(below(entity), entity)
 
     def _chain(self, entity: Any) -> Iterator[Any]:
-        """What an entity stands in, innermost first."""
+        """What contains an entity, innermost first."""
         _, parent = self._parents.get(id(entity), (None, None))
         while parent is not None:
             yield parent
             _, parent = self._parents.get(id(parent), (None, None))
 
     def file_of(self, entity: Any) -> str:
-        """The launch file that an entity stands in; empty when that is not known."""
+        """The launch file that contains an entity; empty when unknown."""
         from launch.actions import IncludeLaunchDescription
 
         includes = (each for each in self._chain(entity) if isinstance(each, IncludeLaunchDescription))
@@ -62,7 +62,7 @@ class LaunchTree:
 
 
 def below(entity: Any) -> Iterator[Any]:
-    """The entities that an entity holds, whether or not they are ever visited."""
+    """The entities within an entity, whether or not they are ever visited."""
     yield from getattr(entity, "entities", None) or ()
     yield from entity.get_sub_entities() if hasattr(entity, "get_sub_entities") else ()
     yield from entity.describe_sub_entities()

@@ -1,4 +1,4 @@
-"""What launch's events do not tell of a running process: processor time, and code that survives a SIGKILL."""
+"""What launch's events do not tell about a running process: CPU time, and code that survives a SIGKILL."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ STATE_PERIOD = 0.5
 
 
 class Vitals(Protocol):
-    """One running process, looked at from outside."""
+    """One running process, observed from outside."""
 
     def cpu_seconds(self) -> float | None:
-        """Processor time that it has used, in s; None where the system does not tell."""
+        """The CPU time it has used (s); None if the system does not tell."""
         ...
 
     def wanted_seconds(self) -> float | None:
-        """How long (s) it has run or waited for a processor, and for nothing else; None where that is not told."""
+        """How long (s) it has run or waited for a CPU, and for nothing else; None if unknown."""
         ...
 
     def memory_bytes(self) -> int | None:
-        """What it holds in main memory; None where the system does not tell, or where it has none of its own."""
+        """Its main memory; None if the system does not tell, or if it has none of its own."""
         ...
 
     def is_stopped(self) -> bool:
@@ -33,11 +33,11 @@ class Vitals(Protocol):
         ...
 
     def holds_lock_in(self) -> str:
-        """The line in which code in C has held its interpreter's lock for 1 s; empty where none does."""
+        """The line in which C code has held its interpreter lock for 1 s; empty if none does."""
         ...
 
     def hangs_in(self) -> str:
-        """Where code of it still is, although it was killed; empty when there is none."""
+        """Where its code still runs although it was killed; empty if none does."""
         ...
 
 
@@ -51,7 +51,7 @@ FindVitals: TypeAlias = Callable[[int], "Vitals | None"]
 
 
 class Usage:
-    """What a process uses, measured anew every second: its share of one processor, and its memory."""
+    """What a process uses, measured every second: its share of one CPU, and its memory."""
 
     def __init__(self, vitals: Vitals, now: float) -> None:
         self._vitals = vitals
@@ -69,7 +69,7 @@ class Usage:
         """How long (s) it has not waited for anything but a processor."""
 
     def look(self, now: float) -> None:
-        """Measure, if it is time to, at a moment in steady s."""
+        """Measure if it is due; the argument is a steady time (s)."""
         if now - self._asked >= STATE_PERIOD:
             self._asked, self.stands = now, self._why_it_stands()
         passed = now - self._at

@@ -1,4 +1,4 @@
-"""One JSON object a line over a stream socket, both ways, without ever holding up whoever sends."""
+"""One JSON object per line over a stream socket, in both directions, without ever blocking the sender."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ MOST_BYTES = 64 << 20
 
 
 class Channel:
-    """A connection with a thread that reads and one that writes."""
+    """A connection with a reading thread and a writing thread."""
 
     def __init__(
         self, connection: socket.socket, received: Callable[[Message], None], lost: Callable[[], None]
     ) -> None:
-        """`received` is called in the reading thread; `lost` once, when the other side has gone or this one closes."""
+        """`received` is called in the reading thread; `lost` once, when either side closes the connection."""
         self._socket = connection
         self._received = received
         self._lost = lost
@@ -36,12 +36,12 @@ class Channel:
         ]
 
     def start(self) -> None:
-        """Begin to read and write."""
+        """Start reading and writing."""
         for each in self._threads:
             each.start()
 
     def send(self, message: Message, *, spare: bool = False) -> None:
-        """Queue a message; one that can be spared is dropped where the other side does not read."""
+        """Queue a message; an expendable one is dropped if the other side does not read."""
         line = json.dumps(message).encode() + b"\n"
         with self._news:
             if self._closed:
@@ -61,7 +61,7 @@ class Channel:
             self._news.notify()
 
     def close(self, patience: float = 1.0) -> None:
-        """Write what waits, at most so many seconds, then hang up; a second call does nothing."""
+        """Write what is queued, for at most so many seconds, then disconnect; a second call does nothing."""
         with self._news:
             self._news.wait_for(lambda: self._closed or not self._bytes, patience)
             self._shut()

@@ -1,4 +1,4 @@
-"""The socket by which further consoles reach a launch host: `<pid>.host` in a folder of the user alone."""
+"""The socket through which further consoles reach a launch host: `<pid>.host` in a folder of the user alone."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ BACKLOG = 8
 
 
 class Door:
-    """Lets consoles in until it is closed."""
+    """Accepts consoles until it is closed."""
 
     def __init__(self, folder: str, enter: Callable[[socket.socket], None]) -> None:
-        """`enter` is given each connection; raises `OSError` where the folder takes no socket."""
+        """`enter` receives each connection; raises `OSError` if the folder cannot hold a socket."""
         self.path = os.path.join(folder, f"{os.getpid()}{DOOR}")
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         self._enter = enter
@@ -40,7 +40,7 @@ class Door:
             self._enter(connection)
 
     def close(self) -> None:
-        """Let nobody in any more."""
+        """Accept no more consoles."""
         with contextlib.suppress(FileNotFoundError):
             os.unlink(self.path)
         with contextlib.suppress(OSError):
@@ -49,17 +49,17 @@ class Door:
 
 
 def doors(folder: str) -> list[str]:
-    """The paths of all doors in a folder, of dead hosts, too."""
+    """The paths of all doors in a folder, including those of dead hosts."""
     return sorted(str(each) for each in Path(folder).iterdir() if _NAME.fullmatch(each.name))
 
 
 def pid_behind(path: str) -> int:
-    """The process that a door is of."""
+    """The pid of a door's process."""
     return int(os.path.basename(path).removesuffix(DOOR))
 
 
 def knock(path: str) -> socket.socket | None:
-    """A connection to the host behind a door; the door of one that is dead is removed."""
+    """A connection to the host behind a door; the door of a dead host is removed."""
     connection = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
     try:
         connection.connect(path)

@@ -1,4 +1,4 @@
-"""Serves a launcher to consoles: their wishes come in, what it knows and what processes print goes out."""
+"""Serves a launcher to consoles: takes their requests, and sends them its state and what processes print."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ Printed = Callable[[int, str, str], None]
 
 
 class HostedService(Protocol):
-    """What a host serves: a launcher that tells what it knows and can be closed."""
+    """What a host serves: a launcher that reports its state and can be closed."""
 
     def info(self) -> LaunchInfo:
         """What is known now; the same object until something changes."""
@@ -89,7 +89,7 @@ class LaunchHost:
         threading.Thread(target=self._look, name="look", daemon=True).start()
 
     def connect(self, connection: socket.socket, *, owner: bool = False) -> None:
-        """Serve one more console; when an owner hangs up, everything ends."""
+        """Serve one more console; when an owner disconnects, everything ends."""
         console = _Console(owner)
         console.channel = Channel(connection, partial(self._received, console), partial(self._lost, console))
         with self._lock:
@@ -103,16 +103,16 @@ class LaunchHost:
         self._line({"record": [stamp, severity, name, text, list(site)]})
 
     def printed(self, severity: int, name: str, text: str) -> None:
-        """Pass a line on to all consoles."""
+        """Send a line to all consoles."""
         self._also_told(severity, name, text)
         self._line({"printed": [severity, name, text]})
 
     def learn(self, kind: str, facts: Mapping[str, Any]) -> None:
-        """Pass a fact of a program or a launch on to all consoles."""
+        """Send a fact about a program or a launch to all consoles."""
         self._pass_on({"fact": [kind, dict(facts)]}, self._facts, spare=False)
 
     def noticed(self, severity: int, name: str, text: str) -> None:
-        """Pass on what is told of a process, which no flood of its lines drowns."""
+        """Send a notice about a process, which a flood of its lines cannot displace."""
         self._also_told(severity, name, text)
         self._pass_on({"printed": [severity, name, text]}, self._facts, spare=False)
 
@@ -130,7 +130,7 @@ class LaunchHost:
                 each.channel.send(message, spare=spare)
 
     def _look(self) -> None:
-        """Tell what is new; alone in doing so, or an older state might come after a newer one."""
+        """Send what is new; serialized by a lock, or an older state might follow a newer one."""
         while not self.over.is_set():
             self._wake.wait(LOOK_S)
             self._wake.clear()
@@ -190,7 +190,7 @@ class LaunchHost:
             self._close()
 
     def close(self) -> None:
-        """End everything, then hang up."""
+        """End everything, then disconnect."""
         if not self.over.is_set():
             self._close()
             self.over.wait(1.0)

@@ -1,4 +1,4 @@
-"""What a launcher tells, as plain data and back."""
+"""A launcher's state as plain data and back."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from bot_console.tui.console.model import (
 
 
 def of_info(info: LaunchInfo, timeline_from: int) -> dict[str, Any]:
-    """What a launcher knows, with the events of the timeline from that number on."""
+    """A launcher's state, with the timeline events from that number on."""
     return {
         "files": list(info.files),
         "problem": info.problem,
@@ -30,7 +30,7 @@ def of_info(info: LaunchInfo, timeline_from: int) -> dict[str, Any]:
 
 
 def to_info(data: Mapping[str, Any], before: LaunchInfo, kept: int) -> LaunchInfo:
-    """What `of_info` has made, on top of what was known before; what has not changed is the same object."""
+    """The state from `of_info`, on top of the previous one; unchanged parts are the same objects."""
     known = {each.key: each for each in before.processes}
     processes: list[ProcessInfo] = []
     for each in data["processes"]:
@@ -54,7 +54,7 @@ def of_arguments(arguments: Iterable[LaunchArgument]) -> list[dict[str, Any]]:
 
 
 def to_arguments(data: Sequence[Mapping[str, Any]]) -> tuple[LaunchArgument, ...]:
-    """What `of_arguments` has made."""
+    """The arguments from `of_arguments`."""
     return tuple(
         LaunchArgument(each["name"], each["description"], each["default"], tuple(each["choices"])) for each in data
     )

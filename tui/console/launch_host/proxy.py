@@ -1,4 +1,4 @@
-"""A launcher that lives in another process, as the console sees it."""
+"""A launcher in another process, as the console sees it."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ ARGUMENTS_S = 30.0
 
 
 class HostedLauncher(AskedForProcesses):
-    """The stand-in of a launch host. Methods may be called from any thread."""
+    """The proxy of a launch host. Methods may be called from any thread."""
 
     def __init__(
         self,
@@ -70,7 +70,7 @@ class HostedLauncher(AskedForProcesses):
 
     @property
     def is_gone(self) -> bool:
-        """Whether the host has ended, or hung up."""
+        """Whether the host has ended or disconnected."""
         return self._gone.is_set()
 
     def info(self) -> LaunchInfo:
@@ -86,11 +86,11 @@ class HostedLauncher(AskedForProcesses):
         return self._shown if self._hangs else self._info
 
     def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
-        """Run one more launch file; the answer comes when its first process runs or it has failed or ended."""
+        """Run another launch file; answered when its first process runs, or when it has failed or ended."""
         return self._want("launch", path, dict(arguments))
 
     def keep(self, folder: str) -> Future[Answer]:
-        """Save the last minutes, which the host keeps, as a bag."""
+        """Save the host's memory of the last minutes as a bag."""
         return self._want("keep", folder)
 
     def arguments(self, path: str) -> Sequence[LaunchArgument]:
@@ -111,7 +111,7 @@ class HostedLauncher(AskedForProcesses):
             return ()
 
     def close(self, patience: float = 12.0) -> None:
-        """End what runs where this is the owner's, and hang up, after so many seconds at most."""
+        """Disconnect, within so many seconds; if this is the owner's, everything that runs ends."""
         with self._lock:
             if self._closed:
                 return

@@ -1,4 +1,4 @@
-"""The launch hosts of a domain as one launcher: what others have started, and what this console starts itself."""
+"""The launch hosts of a domain as one launcher: those of other consoles, and this console's own."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class SeveralLaunchers(AskedForProcesses):
         launcher.close()
 
     def info(self) -> LaunchInfo:
-        """What is known of all; the same object until something changes."""
+        """The state of all of them; the same object until something changes."""
         with self._lock:
             gone = [door for door, each in self._others.items() if each.is_gone]
             for door in gone:
@@ -80,7 +80,7 @@ class SeveralLaunchers(AskedForProcesses):
             return self._merged.of(infos)
 
     def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
-        """Run one more launch file, which ends with this console; the first starts a host, which nobody waits for."""
+        """Run another launch file, which ends with this console; the first one starts a host in the background."""
         with self._lock:
             own = self._own
         if own is not None:
@@ -125,7 +125,7 @@ class SeveralLaunchers(AskedForProcesses):
             return self._own
 
     def close(self) -> None:
-        """End what this console has started, and let go of the others."""
+        """End what this console has started, and disconnect from the other hosts."""
         self._over.set()
         with self._lock:
             launchers = [*([self._own] if self._own else []), *self._others.values()]
@@ -138,7 +138,7 @@ SEPARATOR = "|"
 
 
 class _Merged:
-    """The infos of several hosts as one: keys by door, events in the order in which they came, numbered anew."""
+    """The states of several hosts as one: keys prefixed by door, events renumbered in order of arrival."""
 
     def __init__(self) -> None:
         self._infos: dict[str, LaunchInfo] = {}
@@ -146,7 +146,7 @@ class _Merged:
         self._info = LaunchInfo()
 
     def forget(self, door: str, why: str) -> None:
-        """A host has gone."""
+        """Remove a host."""
         self._infos = {}  # what comes next differs from it, or is empty, too
         self._seen.pop(door, None)
         number = door.rpartition("/")[2].partition(".")[0]
@@ -154,7 +154,7 @@ class _Merged:
         self._add([LaunchEvent(0, stamp, f"the launch host {number} has gone: {why}")])
 
     def of(self, infos: Mapping[str, LaunchInfo]) -> LaunchInfo:
-        """The merged info; the same object where nothing is new."""
+        """The merged state; the same object if nothing is new."""
         same = infos.keys() == self._infos.keys() and all(infos[door] is self._infos[door] for door in infos)
         if same and (infos or not self._info.processes):
             return self._info

@@ -1,1 +1,1 @@
-"""Log records of all nodes: kept, searched, told apart."""
+"""Log records of all nodes: stored, searched, classified."""

@@ -1,4 +1,4 @@
-"""A saved log read as the live one is: filtered, searched, and followed while it grows or is rotated."""
+"""A saved log, used like the live one: filtered, searched, and followed while it grows or is rotated."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ AT_ONCE = 1 << 18
 
 
 class LogFile:
-    """The records of a file; `tui.console.log_protocol.LogSource`."""
+    """The records of a file; implements `tui.console.log_protocol.LogSource`."""
 
     def __init__(self, path: Path) -> None:
         """Raises `OSError` where the file cannot be read."""
@@ -41,7 +41,7 @@ class LogFile:
         self._tail.close()
 
     def take_in(self) -> bool:
-        """Read what there is more; whether there was any."""
+        """Read what has been added; returns whether there was anything."""
         any_more = False
         for text in self._tail.more():
             any_more = True
@@ -53,7 +53,7 @@ class LogFile:
 
     @property
     def state(self) -> LogState:
-        """What is kept."""
+        """Which records are kept."""
         return self._store.state
 
     def record(self, seq: int) -> LogRecord | None:
@@ -61,7 +61,7 @@ class LogFile:
         return self._store.record(seq)
 
     def view(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
-        """Search for what passes a filter."""
+        """Start a search that follows new records."""
         return self._views.open(which, instead_of)
 
     def clear(self) -> None:
@@ -75,7 +75,7 @@ class LogFile:
 
 
 class Tail:
-    """What is in a file, then what is added to it, also where another file takes its name meanwhile."""
+    """The contents of a file and what is appended to it, even after another file takes over its name."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -83,7 +83,7 @@ class Tail:
         self._rest = b""
 
     def more(self) -> Iterator[str]:
-        """Pieces of whole lines, as far as there are any now."""
+        """Whole lines, in pieces, as far as they are available."""
         yield from self._whole_lines()
         if self._file is None or self._was_replaced(self._file):
             yield from self._whole_lines()  # what came between the last look and the rotation
@@ -100,7 +100,7 @@ class Tail:
                 yield (lines + end).decode("utf-8", "replace")
 
     def _was_replaced(self, file: BinaryIO) -> bool:
-        """Whether the name leads to another file now, or the file was cut."""
+        """Whether the name now refers to another file, or the file was truncated."""
         try:
             there = os.stat(self._path)
         except OSError:
@@ -122,14 +122,14 @@ class Tail:
         return True
 
     def close(self) -> None:
-        """Let go of the file."""
+        """Close the file."""
         if self._file is not None:
             self._file.close()
             self._file = None
 
 
 def open_log(text: str) -> LogFile:
-    """Read the log that a person names; raises `ValueError` with the reason."""
+    """Read the log file that a person names; raises `ValueError` with the reason."""
     try:
         path = typed_path(text)
     except NotSaved as error:

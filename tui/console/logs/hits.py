@@ -1,4 +1,4 @@
-"""In which of many texts, one after the other in a blob, a pattern is found: all at once, never text by text."""
+"""Finds which of many texts, concatenated in a blob, match a pattern: all at once, never text by text."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def _re2_hits(engine: Re2Engine, blob: bytes, ends: Rows) -> Mask:
 
 
 def _mark_texts_of_many_lines(engine: Re2Engine, blob: bytes, ends: Rows, after: int, found: Mask) -> None:
-    """Look at texts of several lines one by one: a match in them may reach over the end of a line."""
+    """Search texts of several lines one by one: a match in them may span lines."""
     lines = np.flatnonzero(np.frombuffer(blob, np.uint8) == ord("\n")) + 1
     for row in set(np.searchsorted(ends, np.setdiff1d(lines, ends, assume_unique=True), side="right").tolist()):
         if row > after and not found[row]:
@@ -74,7 +74,7 @@ def _mark_texts_of_many_lines(engine: Re2Engine, blob: bytes, ends: Rows, after:
 
 
 def _rows(engine: Re2Engine, blob: bytes, ends: Rows) -> Iterator[int]:
-    """The texts with a match, one search for each; a match that runs on into the next text is looked at again."""
+    """The texts with a match, one search for each; a match that continues into the next text is checked again."""
     at, length = 0, len(blob)
     while at < length:
         first, last = engine.match(engine.anywhere, blob, at, length)[0]

@@ -1,4 +1,4 @@
-"""Levels of loggers, asked and set live by the logger services of their nodes."""
+"""Levels of loggers, read and set through the logger services of their nodes."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ class Names(Iterable[str], Container[str], Protocol):
 
 
 class LoggerLevels:
-    """Asks nodes in the console's executor."""
+    """Queries nodes, in the console's executor."""
 
     def __init__(self, calls: Calls, heard: Names) -> None:
-        """`heard` are the loggers that have logged: a node cannot be asked for those it has."""
+        """`heard` are the loggers that have logged: a node cannot be asked which ones it has."""
         self._calls = calls
         self._heard = heard
 
@@ -39,7 +39,7 @@ class LoggerLevels:
         return tuple(LoggerLevel(node, each.name, severity_of(each.level)) for each in answer.levels)
 
     async def set(self, node: str, severity: Severity, logger: str) -> Answer:
-        """Set the level of a node's logger, or of a child of it."""
+        """Set the level of a node's logger, or of one of its children."""
         level = LevelMessage(name=logger or logger_of(node), level=int(severity))
         try:
             answer = await self._calls.ask(
@@ -53,10 +53,10 @@ class LoggerLevels:
 
 
 def logger_of(node: str) -> str:
-    """The name of a node's own logger: that of `/arm/left` is `arm.left`."""
+    """The name of a node's own logger: `arm.left` for `/arm/left`."""
     return node.strip("/").replace("/", ".")
 
 
 def severity_of(level: int) -> Severity:
-    """The severity with a number, or the next above it."""
+    """The severity with a number, or the next one above it."""
     return next((each for each in Severity if each >= level), Severity.FATAL)

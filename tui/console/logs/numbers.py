@@ -1,4 +1,4 @@
-"""Numbers of log records that pass a filter, rising: each for itself, or a row of equal records as one."""
+"""Numbers of log records that match a filter, ascending: one by one, or runs of equal records as one."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ Block = npt.NDArray[np.int64]
 
 
 class Numbers:
-    """Rising numbers in parts, to which older and newer ones are joined without copying all of them each time."""
+    """Ascending numbers in parts, to which older and newer ones can be added without copying everything."""
 
     def __init__(self, parts: Sequence[Block] = ()) -> None:
         self._parts = tuple(each for each in parts if len(each))
         self._ends: list[int] = np.cumsum([len(each) for each in self._parts], dtype=np.int64).tolist()
 
     def __len__(self) -> int:
-        """How many there are."""
+        """The number of entries."""
         return self._ends[-1] if self._ends else 0
 
     def __getitem__(self, index: int) -> int:
@@ -33,61 +33,61 @@ class Numbers:
         return sum(int(np.searchsorted(each, number)) for each in self._parts)
 
     def count(self, index: int) -> int:
-        """One: each stands for itself."""
+        """One: each entry stands for itself."""
         return 1
 
     def array(self) -> Block:
-        """All of them."""
+        """All entries."""
         return np.concatenate(self._parts) if self._parts else np.zeros(0, np.int64)
 
     def joined(self, older: Block | None = None, newer: Block | None = None, keys: Block | None = None) -> Numbers:
-        """These with older ones before or newer ones behind; what they say (`keys`) makes no difference."""
+        """These, with older ones prepended or newer ones appended; their `keys` make no difference."""
         parts = [each for each in (older, *self._parts, newer) if each is not None]
         while len(parts) > 1 and len(parts[-2]) <= 2 * len(parts[-1]):
             parts[-2:] = [np.concatenate(parts[-2:])]
         return Numbers(parts)
 
     def since(self, first: int) -> Numbers:
-        """Those from a number on."""
+        """The entries from a number on."""
         if not self._parts or self._parts[0][0] >= first:
             return self
         return Numbers([each[np.searchsorted(each, first) :] for each in self._parts])
 
 
 class Folded:
-    """Rising numbers in which a row of equal records is one: its newest."""
+    """Ascending numbers in which a run of equal records is one entry: its newest record."""
 
     def __init__(self, every: Numbers | None = None, begins: Numbers | None = None, ends: tuple[int, int] = (0, 0)):
-        """`begins` are the first of each row, `ends` the keys of the very first and the very last record."""
+        """`begins` are the first records of each run, `ends` the keys of the very first and very last record."""
         self._every = every or Numbers()
         self._begins = begins or Numbers()
         self._ends = ends
 
     def __len__(self) -> int:
-        """How many rows there are."""
+        """The number of runs."""
         return len(self._begins)
 
     def __getitem__(self, index: int) -> int:
-        """The newest number of a row; raises `IndexError` beyond the ends."""
+        """The newest number of a run; raises `IndexError` beyond the ends."""
         if not 0 <= index < len(self):
             raise IndexError(index)
         return self._every[self._behind(index) - 1]
 
     def _behind(self, index: int) -> int:
-        """Where, among all, the row after this one begins."""
+        """The position, among all records, where the next run begins."""
         return self._every.place(self._begins[index + 1]) if index + 1 < len(self) else len(self._every)
 
     def place(self, number: int) -> int:
-        """The index of the first row whose newest is not below a number."""
+        """The index of the first run whose newest record is not below a number."""
         before = self._begins.place(number + 1)
         return before - 1 if before and self[before - 1] >= number else before
 
     def count(self, index: int) -> int:
-        """How many equal records a row has; raises `IndexError` beyond the ends."""
+        """The number of records in a run; raises `IndexError` beyond the ends."""
         return self._behind(index) - self._every.place(self._begins[index])
 
     def joined(self, older: Block | None = None, newer: Block | None = None, keys: Block | None = None) -> Folded:
-        """These with older ones before or newer ones behind; equal records have equal `keys`."""
+        """These, with older ones prepended or newer ones appended; equal records have equal `keys`."""
         block = older if older is not None else newer
         if block is None or keys is None or not len(block):
             return self
@@ -103,7 +103,7 @@ class Folded:
         return Folded(self._every.joined(newer=block), self._begins.joined(newer=begins), (self._ends[0], last))
 
     def since(self, first: int) -> Folded:
-        """Those from a number on; of a row that reaches over it what is left."""
+        """The entries from a number on; a run that spans it is cut."""
         every = self._every.since(first)
         begins = self._begins.since(first)
         if every is self._every or not len(every):

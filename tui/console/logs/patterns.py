@@ -27,7 +27,7 @@ re2 = _library()
 
 
 class Pattern:
-    """A pattern without regard to case, `^` and `$` meaning each line; raises `ValueError` with a readable text."""
+    """A case-insensitive pattern, `^` and `$` matching at each line; raises `ValueError` with a readable message."""
 
     def __init__(self, text: str, *, literal: bool = False) -> None:
         body = _escaped(text) if literal else text
@@ -38,7 +38,7 @@ class Pattern:
         """A plain word in lower case, for those who have texts in lower case."""
 
     def search(self, text: str) -> bool:
-        """Whether it is found in a text."""
+        """Whether it matches in a text."""
         return self.engine.search(text.encode("utf-8", "replace"))
 
 
@@ -54,11 +54,11 @@ def _escaped(text: str) -> str:
 
 
 class WordEngine:
-    """A plain word, where there is no google-re2."""
+    """A plain word, where google-re2 is not installed."""
 
     def __init__(self, word: str) -> None:
         self.word = word.lower()
 
     def search(self, text: bytes) -> bool:
-        """Whether it is found in a text."""
+        """Whether it occurs in a text."""
         return self.word in text.decode("utf-8", "replace").lower()

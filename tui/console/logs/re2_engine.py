@@ -1,4 +1,4 @@
-"""Patterns compiled by google-re2. Standard library only but for that; `hits` looks through many texts with them."""
+"""Patterns compiled by google-re2, for searching many texts with `hits`. Otherwise standard library only."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ WITHIN = {r"\s": r"[\t\f\r ]", r"\D": r"[^\d\n]", r"\W": r"[^\w\n]"}
 
 
 class Re2Engine:
-    """One pattern; raises `ValueError` with a readable text. `word` is a plain word in lower case, where it is one."""
+    """One pattern; raises `ValueError` with a readable message. `word` is set, in lower case, for a plain word."""
 
     def __init__(self, re2: Any, written: str, body: str, word: bytes | None) -> None:
         self.anywhere = re2._Anchor.UNANCHORED
@@ -31,7 +31,7 @@ class Re2Engine:
             self.run = _compiled(re2, written, f"{FLAGS}(?:^[^\\n]*(?:{within})[^\\n]*\\n)+")
 
     def search(self, text: bytes) -> bool:
-        """Whether it is found in a text."""
+        """Whether it matches in a text."""
         return self.match(self.anywhere, text, 0, len(text))[0][0] >= 0
 
 

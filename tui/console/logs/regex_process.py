@@ -1,7 +1,7 @@
-"""Python's own regular expressions in a process of their own, with a time limit.
+"""Python's own regular expressions, in a process of their own with a time limit.
 
-They backtrack, some patterns without end, and hold Python's lock meanwhile: here they would freeze everything. The
-process is started with the first pattern, serves all of them, and is killed when one takes too long.
+They backtrack, some patterns without end, and hold the interpreter lock meanwhile: in this process they would freeze
+everything. The process is started with the first pattern, serves all of them, and is killed when one takes too long.
 """
 
 from __future__ import annotations
@@ -29,18 +29,18 @@ KNOWN = 20_000
 
 
 class TooCostlyError(ValueError):
-    """A pattern took longer than it may."""
+    """A pattern took longer than allowed."""
 
 
 class RegexProcess:
-    """The process, from any thread."""
+    """The process; usable from any thread."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._process: subprocess.Popen[bytes] | None = None
 
     def ask(self, pattern: bytes, blob: bytes, ends: Sequence[int]) -> bytes:
-        """One byte for each text, 1 where the pattern is found; raises `ValueError` with `re`'s words, or why not."""
+        """One byte per text, 1 where the pattern matches; raises `ValueError` with the words of `re`, or other."""
         with self._lock:
             process = self._running()
             try:
@@ -111,7 +111,7 @@ _costly: dict[str, str] = {}
 
 
 class ProcessEngine:
-    """One pattern, looked for by that process; raises `ValueError` with a readable text."""
+    """One pattern, searched by that process; raises `ValueError` with a readable message."""
 
     def __init__(self, written: str) -> None:
         self._written = written
@@ -132,7 +132,7 @@ class ProcessEngine:
             raise ValueError(f"regular expression '{self._written}': {error}") from None
 
     def search(self, text: bytes) -> bool:
-        """Whether it is found in a text; a pattern that takes too long is found nowhere, from then on."""
+        """Whether it matches in a text; once a pattern has taken too long, it never matches again."""
         if text not in self._known and self._written not in _costly:
             with contextlib.suppress(ValueError):
                 if len(self._known) >= KNOWN:
@@ -141,7 +141,7 @@ class ProcessEngine:
         return self._known.get(text, False)
 
     def found(self, blob: bytes, ends: Sequence[int]) -> bytes:
-        """One byte for each of many texts, 1 where it is found; raises `ValueError` where that takes too long."""
+        """One byte per text, 1 where it matches; raises `ValueError` if that takes too long."""
         if self._written in _costly:
             raise ValueError(_costly[self._written])
         return self._ask(blob, ends)

@@ -16,17 +16,17 @@ GOOD, BAD = b"+", b"-"
 
 
 def block(data: bytes) -> bytes:
-    """Bytes with their length before them."""
+    """Bytes, prefixed with their length."""
     return struct.pack("<I", len(data)) + data
 
 
 def request(pattern: bytes, blob: bytes, ends: Sequence[int]) -> bytes:
-    """A pattern and the texts in a blob in which it is looked for; `ends` are behind their newlines."""
+    """A pattern, and the texts to search in a blob; `ends` are the positions after their newlines."""
     return block(pattern) + block(blob) + block(array.array("q", ends).tobytes())
 
 
 def answer(pattern: bytes, blob: bytes, ends: Sequence[int]) -> bytes:
-    """One byte for each text, 1 where the pattern is found; or what `re` says of the pattern."""
+    """One byte per text, 1 where the pattern matches; or the error message of `re`."""
     try:
         search = re.compile(pattern.decode()).search
     except (re.error, OverflowError, RecursionError) as error:

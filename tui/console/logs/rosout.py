@@ -1,4 +1,4 @@
-"""Log lines that come by `/rosout`."""
+"""Log lines from `/rosout`."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ OTHERS = QoSProfile(
 
 
 class RosoutWatch:
-    """Hands each line to the log; in a `foreign` system it subscribes when somebody offers the topic."""
+    """Adds each line to the log; in a `foreign` system it subscribes only once somebody publishes the topic."""
 
     def __init__(self, node: Node, log: Add, *, foreign: bool) -> None:
         self._log = log
@@ -37,7 +37,7 @@ class RosoutWatch:
         )
 
     def follow(self) -> None:
-        """The graph is another: the topic may be offered with another QoS."""
+        """Take in a changed graph: the topic may be offered with another QoS."""
         self._subscription.follow()
 
     def _take(self, message: Log) -> None:
@@ -48,5 +48,5 @@ class RosoutWatch:
 
 
 def _number(level: Any) -> int:
-    """A severity as a number; before Jazzy it came as a byte."""
+    """A severity as an integer; before Jazzy it was a byte."""
     return level[0] if isinstance(level, bytes) else int(level)

@@ -31,17 +31,17 @@ Add = Callable[[int, int, str, str], None]
 
 
 class SavedLines:
-    """Takes text in pieces of whole lines and gives records."""
+    """Parses text, in pieces of whole lines, into records."""
 
     def __init__(self, add: Add, name: str) -> None:
-        """`name` stands for the node of lines that name none."""
+        """`name` is the node of lines that name none."""
         self._add = add
         self._head: tuple[int, int, str] = (0, Severity.INFO, name)
         self._texts: list[str] = []
         self._length = 0
 
     def feed(self, text: str) -> None:
-        """Take more lines; the last record waits for those that may belong to it."""
+        """Take more lines; the last record stays open for its continuation."""
         for given in (_COLOUR.sub("", text) if "\x1b" in text else text).removesuffix("\n").split("\n"):
             line = given.removesuffix("\r")
             found = next((match for each in _HEADS if (match := each.match(line))), None)
@@ -56,7 +56,7 @@ class SavedLines:
             self._length += len(line)
 
     def settle(self) -> None:
-        """Nothing more belongs to the last record."""
+        """Close the last record."""
         if self._texts:
             self._add(*self._head, "\n".join(self._texts))
             self._texts, self._length = [], 0

@@ -1,4 +1,4 @@
-"""Which records of a log pass a filter, found for many at a time: never line by line, and without a lock."""
+"""Searches a log for records that match a filter: many at a time, never line by line, and without a lock."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ T = TypeVar("T")
 
 
 class LogSearch:
-    """A filter made ready; raises `ValueError` for one that does not parse."""
+    """A prepared filter; raises `ValueError` if it does not parse."""
 
     def __init__(self, store: LogStore, which: LogFilter) -> None:
         self._words = _Words(store, which.words, which.minimum)
@@ -30,7 +30,7 @@ class LogSearch:
         self._only = [_Words(store, each) for each in which.only]
 
     def passing(self, segment: LogSegment, begin: int, end: int) -> Rows:
-        """Numbers, rising, of the records from index `begin` to before `end` of a segment that pass."""
+        """The ascending numbers of the matching records among indices `begin` to `end` - 1 of a segment."""
         mask = self._words.holding(segment, begin, end)
         for each in self._hidden:
             if not mask.any():
@@ -45,7 +45,7 @@ class LogSearch:
 
 
 class _Words:
-    """The words of one filter over a store, from a severity on."""
+    """The words of one filter, prepared for a store, from a minimum severity on."""
 
     def __init__(self, store: LogStore, words: str, minimum: Severity = Severity.UNSET) -> None:
         query = parse(words)
@@ -62,7 +62,7 @@ class _Words:
         self._texts = [(each, _Judged(store.names, each.name.stands_in) if each.name else None) for each in query.texts]
 
     def holding(self, segment: LogSegment, begin: int, end: int) -> Mask:
-        """For each record from index `begin` to before `end` of a segment whether it passes."""
+        """For each record among indices `begin` to `end` - 1 of a segment, whether it matches."""
         severity = segment.severity[begin:end]
         mask = self._levels[severity] if self._least is None else severity >= self._least
         nodes = segment.node[begin:end]
@@ -83,7 +83,7 @@ class _Words:
 
 
 class _Judged(Generic[T]):
-    """What a test says of the items of a table, each looked at once."""
+    """The results of a test on the items of a table, each tested once."""
 
     def __init__(self, table: Table[T], test: Callable[[T], bool]) -> None:
         self._table = table
@@ -91,7 +91,7 @@ class _Judged(Generic[T]):
         self._known = np.zeros(0, np.bool_)
 
     def of(self, numbers: npt.NDArray[np.uint32]) -> Mask:
-        """What it says of items by their numbers."""
+        """The results for items by their numbers."""
         new = self._table.items[len(self._known) :]
         if new:
             self._known = np.append(self._known, np.array([self._test(each) for each in new], np.bool_))
@@ -106,7 +106,7 @@ def _within(span: Span, stamps: Rows) -> Mask:
 
 
 def _offsets(stamps: Rows) -> Rows | int:
-    """What local time is ahead of UTC at each moment, in ns."""
+    """The offset of local time from UTC at each moment, in ns."""
     quarters = stamps // OFFSET_LASTS
     if not len(quarters) or quarters.min() == quarters.max():
         return utc_offset(int(stamps[0])) if len(stamps) else 0
@@ -115,7 +115,7 @@ def _offsets(stamps: Rows) -> Rows | int:
 
 
 def matching(store: LogStore, which: LogFilter, after: int = 0, limit: int | None = None) -> list[int]:
-    """Numbers, rising, of all kept records from `after` on that pass; with a limit the newest ones."""
+    """The ascending numbers of all kept records from `after` on that match; with a limit, the newest ones."""
     search = LogSearch(store, which)
     parts = [
         search.passing(segment, max(0, after - segment.first), segment.count)

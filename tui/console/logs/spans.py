@@ -1,6 +1,6 @@
-"""Spans of time that a filter names: `14:03..14:05`, `>=14:03:20.5`, `2026-11-22T14:03`, `-5m`, `@12.5`.
+"""Time spans in filters: `14:03..14:05`, `>=14:03:20.5`, `2026-11-22T14:03`, `-5m`, `@12.5`.
 
-A time without a date is one of any day, in local time: a log may be read on another day than it was written.
+A time without a date applies to any day, in local time: a log may be read on another day than it was written.
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ _UNITS = {"ms": SECOND // 1000, "s": SECOND, "m": 60 * SECOND, "min": 60 * SECON
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """From `begin` to before `end`, in ns: since the epoch, or of each local day where it is `daily`."""
+    """From `begin` to before `end`, in ns: since the epoch, or since local midnight if `daily`."""
 
     begin: int
     end: int
     daily: bool = False
 
     def holds(self, stamp: int) -> bool:
-        """Whether a moment (ns since the epoch) lies in it; a daily span may reach over midnight."""
+        """Whether it contains a moment (ns since the epoch); a daily span may cross midnight."""
         at = (stamp + utc_offset(stamp)) % DAY if self.daily else stamp
         if self.begin > self.end:
             return at >= self.begin or at < self.end
@@ -41,7 +41,7 @@ class Span:
 
 @dataclass(frozen=True, slots=True)
 class _Point:
-    """A moment as exactly as it was written: `14:03` is a whole minute."""
+    """A moment, as precise as it was written: `14:03` is a whole minute."""
 
     begin: int
     end: int
@@ -50,12 +50,12 @@ class _Point:
 
 
 def utc_offset(stamp: int) -> int:
-    """What local time is ahead of UTC at a moment (ns since the epoch), in ns."""
+    """The offset of local time from UTC at a moment (ns since the epoch), in ns."""
     return time.localtime(stamp // SECOND).tm_gmtoff * SECOND
 
 
 def parse_span(text: str, now: int) -> Span:
-    """The span that a text names; `now` (ns since the epoch) is what `-5m` counts from. Raises `ValueError`."""
+    """Parse a span; `-5m` counts back from `now` (ns since the epoch). Raises `ValueError`."""
     first, dots, last = text.partition("..")
     if dots:
         begin, end = (_point(each, now) if each else None for each in (first, last))
@@ -94,7 +94,7 @@ def _point(text: str, now: int) -> _Point:
 
 
 def _sized(begin: int, part: str, whole: int = SECOND) -> _Point:
-    """A moment with so many digits behind the second."""
+    """A moment with so many digits after the second."""
     return _Point(
         begin + int(part.ljust(9, "0")), begin + int(part.ljust(9, "0")) + (10 ** (9 - len(part)) if part else whole)
     )

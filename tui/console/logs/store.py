@@ -23,7 +23,7 @@ CAPACITY = 63 * SEGMENT
 
 
 class LogSegment:
-    """Some records in columns of a fixed size, and their texts one after the other, each with a newline after it."""
+    """Some records in fixed-size columns, and their texts in a row, each with a newline after it."""
 
     def __init__(self, first: int, size: int) -> None:
         self.first = first
@@ -39,7 +39,7 @@ class LogSegment:
         self._blob: bytes | bytearray = bytearray()
 
     def append(self, stamp: int, severity: int, node: int, site: int, raw: bytes) -> None:
-        """Add a record; one writer at a time."""
+        """Add a record; only one writer at a time."""
         index = self.count
         self.stamp[index], self.severity[index], self.node[index], self.site[index] = stamp, severity, node, site
         self.key[index] = hash((node, severity, raw))
@@ -62,14 +62,14 @@ class LogSegment:
 
 
 class Table(Generic[T]):
-    """Numbers for values that repeat."""
+    """Numbers for repeated values."""
 
     def __init__(self) -> None:
         self.items: list[T] = []
         self._ids: dict[T, int] = {}
 
     def id(self, item: T) -> int:
-        """The number of an item, given at its first use."""
+        """The number of an item, assigned at its first use."""
         number = self._ids.get(item)
         if number is None:
             number = self._ids[item] = len(self.items)
@@ -78,7 +78,7 @@ class Table(Generic[T]):
 
 
 class LogStore:
-    """A ring of log records numbered from 0. Any thread may add; readers never wait, nor make a writer wait."""
+    """A ring of log records numbered from 0. Any thread may add; readers neither wait nor block a writer."""
 
     def __init__(self, capacity: int = CAPACITY) -> None:
         self._size = max(1, min(SEGMENT, capacity // 2))
@@ -93,7 +93,7 @@ class LogStore:
 
     @property
     def state(self) -> LogState:
-        """What is kept; the same object until a record is added or the log cleared."""
+        """Which records are kept; the same object until a record is added or the log is cleared."""
         segments = self.segments
         first, end = segments[0].first, segments[-1].first + segments[-1].count
         if (self._state.first, self._state.end) != (first, end):

@@ -1,4 +1,4 @@
-"""Printed lines as log records: a traceback is one ERROR that begins with the exception, then the user's own frames."""
+"""Parses printed lines into log records: a traceback is one ERROR that starts with the exception, then user frames."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _CARETS = re.compile(r"\s+[\^~\s]+$")
 
 @dataclass(frozen=True)
 class Frame:
-    """One call of a traceback, with its line of source where that was printed."""
+    """One call of a traceback, with its source line if that was printed."""
 
     file: str
     line: int
@@ -35,7 +35,7 @@ class Frame:
 
 
 class Traceback:
-    """A traceback as Python prints it, its lines in order; the last one is the exception."""
+    """A traceback as Python prints it, line by line; the last line is the exception."""
 
     def __init__(self, lines: Sequence[str], link: str = "") -> None:
         self.exception = lines[-1]
@@ -45,16 +45,16 @@ class Traceback:
 
     @property
     def own(self) -> Frame | None:
-        """The innermost frame that is neither the runtime's nor a library's."""
+        """The innermost frame outside the runtime and libraries."""
         return next((each for each in reversed(self.frames) if not is_library(each.file)), None)
 
     @property
     def reason(self) -> str:
-        """The exception and where in the user's code, on one line."""
+        """The exception and its place in the user's code, on one line."""
         return f"{self.exception} ({self.own.place})" if self.own else self.exception
 
     def text(self) -> str:
-        """The exception, then the frames, the innermost first; those of libraries folded unless there are no others."""
+        """The exception, then the frames, innermost first; library frames are folded unless there are no others."""
         lines = [self.exception, *([f"  {self._link}"] if self._link else [])]
         for library, group in groupby(reversed(self.frames), lambda each: is_library(each.file)):
             frames = list(group)
@@ -81,7 +81,7 @@ def _frames(lines: Sequence[str]) -> Iterator[Frame]:
 
 
 class Printed:
-    """Printed lines of one stream as log records: a traceback is one ERROR, every other line one INFO or WARN."""
+    """Turns the lines of one stream into log records: a traceback is one ERROR, any other line one INFO or WARN."""
 
     def __init__(self, label: str, add: Callable[[int, str, str], None], *, stderr: bool) -> None:
         self._label = label
@@ -115,7 +115,7 @@ class Printed:
         self._add(ERROR, self._label, self.last.text())
 
     def close(self) -> None:
-        """The process has ended: a traceback that was cut off is shown as far as it came."""
+        """Take note that the process has ended: a truncated traceback is shown as it is."""
         if self._open:
             self._add(ERROR, self._label, "\n".join(["a traceback that was cut off", *self._open[1:]]))
             self._open = []

@@ -1,7 +1,8 @@
-"""A live view of the log: the records that pass a filter, found beside the threads that draw and that log.
+"""A live search over the log, independent of the threads that draw and that log.
 
-A thread of its own searches in slices, the newest records first, then whatever has come since. Whoever draws looks at
-what was found so far, by pulling.
+A thread of its own searches in slices, the newest records first, then whatever has arrived since. The panes poll for
+what
+was found so far.
 """
 
 from __future__ import annotations
@@ -52,7 +53,7 @@ class SearchedView:
         return self._found
 
     def work(self) -> bool:
-        """Look through one slice; False when there is nothing to do."""
+        """Search one slice; False if there is nothing to do."""
         if self._search is None:
             return False
         first, found = self._store.segments[0].first, self._found
@@ -95,12 +96,12 @@ class SearchedView:
         return replace(found, complete=True)
 
     def _keys(self, segment: LogSegment, numbers: Block) -> Block | None:
-        """What tells records of a segment apart, where that is asked for."""
+        """What distinguishes the records of a segment, if that is asked for."""
         return segment.key[numbers - segment.first] if self._folds else None
 
 
 class LogViews:
-    """All views of a store, and the thread that works for them."""
+    """All searches over a store, and the thread that runs them."""
 
     def __init__(self, store: LogStore) -> None:
         self._store = store
@@ -110,7 +111,7 @@ class LogViews:
         self._thread: threading.Thread | None = None
 
     def open(self, which: LogFilter, instead_of: LogView | None = None) -> SearchedView:
-        """A view, which takes the place of another where one is given."""
+        """Start a search, in place of another one if given."""
         view = SearchedView(self._store, which, self.wake)
         self._views = (*(each for each in self._views if each is not instead_of), view)
         if self._thread is None and not self._closed:
@@ -120,11 +121,11 @@ class LogViews:
         return view
 
     def wake(self) -> None:
-        """There may be something to do."""
+        """Wake the thread: there may be something to do."""
         self._wanted.set()
 
     def close(self) -> None:
-        """Search no more."""
+        """Stop searching."""
         self._closed = True
         self._wanted.set()
 

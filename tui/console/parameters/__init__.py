@@ -1,1 +1,1 @@
-"""Parameters of all nodes: what they are, how they are set, saved and put back."""
+"""Parameters of all nodes: their values, how they are set, saved and restored."""

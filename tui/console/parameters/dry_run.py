@@ -1,8 +1,9 @@
-"""Asking nodes what they would say to values, without setting them: who can be asked, and how the question is put.
+"""Asks nodes how they would answer values, without setting them: which nodes can be asked, and the request.
 
-ROS 2 has no service for that, and to set values and put them back is no dry run: the robot would have had them. A node
-that offers `~/check_parameters` of the type of `set_parameters_atomically` answers as that would, and sets nothing.
-Those of `bot_console_robot` that have rules of their own offer it. Pure.
+ROS 2 has no service for that, and setting values and putting them back is no dry run: the robot would have acted on
+them. A node that offers `~/check_parameters`, of the type of `set_parameters_atomically`, answers as that would and
+sets
+nothing. Nodes of `bot_console_robot` with rules of their own do. Pure.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ def can_be_asked(graph: GraphInfo) -> frozenset[str]:
 
 
 def question(values: Mapping[str, tuple[Kind, Value]]) -> dict[str, object]:
-    """The request that asks for some values, each with its kind."""
+    """The request that checks some values, each with its kind."""
     return {"parameters": [_parameter(name, kind, value) for name, (kind, value) in values.items()]}
 
 

@@ -1,4 +1,4 @@
-"""The announcements that must come of sets made here, so that each change is told whose it was."""
+"""The parameter events expected after sets made here, so that each change is attributed to its source."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ EACH = 20
 
 @dataclass(frozen=True, slots=True)
 class Wish:
-    """A value that somebody asked for: who, and what it was a part of."""
+    """A requested value: its source, and the operation it was part of."""
 
     node: str
     name: str
@@ -23,24 +23,24 @@ class Wish:
 
 
 class Expected:
-    """What was asked for and not announced yet."""
+    """The requests that have not been announced yet."""
 
     def __init__(self) -> None:
         self._wishes: dict[tuple[str, str], deque[Wish]] = {}
 
     def add(self, wish: Wish) -> None:
-        """Something was asked for."""
+        """Add a request."""
         self._wishes.setdefault((wish.node, wish.name), deque(maxlen=EACH)).append(wish)
 
     def announced(self, node: str, name: str, value: Value) -> Wish | None:
-        """The wish that an announcement answers; None where nobody here has asked for it."""
+        """The request that an event answers; None if nobody here made one."""
         found = next((each for each in self._wishes.get((node, name), ()) if each.value == value), None)
         if found:
             self.forget(found)
         return found
 
     def forget(self, wish: Wish) -> None:
-        """A wish was refused, or answered."""
+        """Remove a request that was refused or answered."""
         wishes = self._wishes.get((wish.node, wish.name))
         if wishes and wish in wishes:
             wishes.remove(wish)

@@ -1,4 +1,4 @@
-"""What has become of parameters, kept between runs: a bounded table in a SQLite file that a crash leaves whole."""
+"""The history of parameter changes, kept between runs in a bounded table of a SQLite file that survives crashes."""
 
 from __future__ import annotations
 
@@ -44,10 +44,10 @@ ORDER BY number DESC LIMIT ?
 
 
 class History:
-    """The changes of all runs. A change that `add` has taken is there again after the program was killed."""
+    """The changes of all runs. A change that `add` has accepted survives the program being killed."""
 
     def __init__(self, file: Path, run: int, rows: int = ROWS) -> None:
-        """`run` is a number that no other run has, such as the time of its start (ns)."""
+        """`run` is a number unique to this run, such as the time of its start (ns)."""
         self._file = file
         self._run = run
         self._rows = rows
@@ -72,7 +72,7 @@ class History:
             self.problem = f"changes are not kept: {self._file}: {error.strerror}"
 
     def _begin_anew(self) -> None:
-        """Put a file aside that is no database, so that nothing of it is lost, and begin another one."""
+        """Set aside a file that is not a database, so that nothing of it is lost, and start a new one."""
         aside = self._file.with_name(f"{self._file.name}{BROKEN}-{self._run}")
         try:
             self._file.replace(aside)
@@ -84,7 +84,7 @@ class History:
             self.problem = f"changes are not kept: {self._file}: {error}"
 
     def add(self, change: Change) -> None:
-        """Keep a change; what cannot be written now is tried again with the next one."""
+        """Store a change; one that cannot be written now is retried with the next."""
         row = (
             *(self._run, change.stamp, change.node, change.name, written(change.old), written(change.new)),
             *(change.source.value, int(change.accepted), change.reason, change.by),
@@ -111,7 +111,7 @@ class History:
     def earlier(self, most: int) -> Sequence[Change]:
         """The newest changes of other runs, oldest first, numbered up to -1.
 
-        Where two consoles saw the same change, the row of the one that has made it stands for both.
+        If two consoles saw the same change, the row of the one that made it stands for both.
         """
         with self._lock:
             if self._link is None:
@@ -124,7 +124,7 @@ class History:
         return [_change(-1 - at, row) for at, row in enumerate(found)][::-1]
 
     def close(self) -> None:
-        """Let go of the file; a second call does nothing."""
+        """Close the file; a second call does nothing."""
         with self._lock:
             link, self._link = self._link, None
             if link is not None:
@@ -133,7 +133,7 @@ class History:
 
 
 def _opened(file: Path) -> sqlite3.Connection:
-    """A connection whose commits outlast the death of the program."""
+    """A connection whose commits survive the program being killed."""
     link = sqlite3.connect(file, timeout=PATIENCE, check_same_thread=False)
     try:
         # A write-ahead log is whole after a crash, and other consoles can read while one writes.
@@ -161,14 +161,14 @@ def _source(word: str) -> ChangeSource:
 
 
 def written(value: Value) -> str:
-    """A value as text that `read` makes the very same value of."""
+    """A value as text, from which `read` makes exactly that value again."""
     if isinstance(value, tuple):
         return json.dumps([{"byte": each[0]} if isinstance(each, bytes) else each for each in value])
     return json.dumps(value)
 
 
 def read(text: str) -> Value:
-    """The value that was written."""
+    """The value of such a text."""
     value: Any = json.loads(text)
     if isinstance(value, list):
         return tuple(bytes([each["byte"]]) if isinstance(each, dict) else each for each in value)  # type: ignore[misc] -- JSON as it was written here

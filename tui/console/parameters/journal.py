@@ -16,7 +16,7 @@ OURS = (ChangeSource.EDIT, ChangeSource.PROFILE, ChangeSource.FILE, ChangeSource
 
 @dataclass(frozen=True, slots=True)
 class Move:
-    """Values before and after, of parameters that were set together on one node."""
+    """Old and new values of parameters that were set together on one node."""
 
     node: str
     before: Mapping[str, Value]
@@ -25,7 +25,7 @@ class Move:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """What one undo takes back: an edit of one node, or a profile on all of them."""
+    """What one undo reverts: an edit of one node, or a profile on all of them."""
 
     moves: tuple[Move, ...]
     profiles: tuple[str, str] | None = None
@@ -82,7 +82,7 @@ class Journal:
             self._renew()
 
     def did(self, step: Step, source: ChangeSource) -> None:
-        """Remember an accepted set made from this console so that it can be taken back."""
+        """Remember an accepted set made by this console, so that it can be undone."""
         with self._lock:
             for move in step.moves:
                 self._unsaved.moved(move.node, move.before, move.after, source)
@@ -116,13 +116,13 @@ class Journal:
             self._renew()
 
     def saved(self, nodes: Collection[str]) -> None:
-        """The values of some nodes are in a file now; of all nodes where none is named."""
+        """Take note that the values of some nodes, or of all when none is named, are in a file now."""
         with self._lock:
             self._unsaved.saved(nodes)
             self._renew()
 
     def begun_anew(self, node: str, name: str) -> None:
-        """A node has begun again with another value: what was set before is neither taken back nor lost any more."""
+        """Take note that a node restarted with another value: earlier sets can be neither undone nor lost any more."""
         with self._lock:
             for steps in (self._undo, self._redo):
                 left = [each for each in (_without(step, node, name) for step in steps) if each.moves]
@@ -132,14 +132,14 @@ class Journal:
             self._renew()
 
     def after(self, seq: int) -> Sequence[Change]:
-        """Entries numbered `seq` and up, oldest first; from a number below 0 on with those of earlier runs."""
+        """Entries from number `seq` on, oldest first; a number below 0 includes those of earlier runs."""
         with self._lock:
             first = self._end - len(self._changes)
             here = list(self._changes)[max(0, seq - first) :]
         return here if seq >= 0 else [*self._earlier[seq:], *here]
 
     def close(self) -> None:
-        """Let go of the history."""
+        """Close the history."""
         if self._history:
             self._history.close()
 

@@ -1,4 +1,4 @@
-"""What a parameter's descriptor leaves unsaid; nothing but the model."""
+"""What a parameter's descriptor lacks. Uses nothing but the model."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ NUMBERS = (Kind.INTEGER, Kind.DOUBLE)
 
 
 def faults(parameter: ParameterInfo) -> tuple[str, ...]:
-    """The faults of a descriptor, in a few words each; none of a parameter that every node has."""
+    """The faults of a descriptor, in a few words each; none for parameters that every node has."""
     if parameter.name == "use_sim_time" or parameter.name.startswith(("qos_overrides.", "start_type_description")):
         return ()
     found: list[str] = []

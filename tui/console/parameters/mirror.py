@@ -1,4 +1,4 @@
-"""A copy of all nodes' parameters: read once by service, then kept true by `/parameter_events`."""
+"""A copy of all nodes' parameters: read once by service, then kept up to date from `/parameter_events`."""
 
 from __future__ import annotations
 
@@ -66,14 +66,14 @@ class ParameterMirror:
         node.create_timer(RELIST, self._look_again)
 
     def get(self, node: str, name: str) -> ParameterInfo | None:
-        """A parameter as last known."""
+        """A parameter's last known state."""
         tree = self.trees.get(node)
         return tree.get(name) if tree else None
 
     def follow(self, graph: GraphInfo) -> None:
-        """Take in nodes that have come and forget nodes that have left.
+        """Take in nodes that have appeared, and forget nodes that have left.
 
-        Of nodes with one name it is not known whose values are shown: when one leaves, who stays is read as if new.
+        Among nodes of one name it is unknown whose values are shown: when one leaves, the others are read as if new.
         """
         self._offering = offering = {node.name for node in graph.nodes if _offers(node, f"{node.name}/list_parameters")}
         before, self._copies = self._copies, {node.name: node.copies for node in graph.nodes}
@@ -95,7 +95,7 @@ class ParameterMirror:
         self._queue(self._read, node)
 
     def _queue(self, reading: Reading, node: str) -> None:
-        """Ask a node as soon as there is room in the window, unless it is being asked."""
+        """Query a node as soon as there is room in the window, unless that is under way."""
         if node not in self._loading:
             self._loading.add(node)
             self._waiting.append((reading, node))
@@ -130,7 +130,7 @@ class ParameterMirror:
                 self._compare(tree, self._left.pop(node, None))
 
     def _compare(self, tree: ParameterTree, before: ParameterTree | None) -> None:
-        """Tell of each value that is another one than when its node left."""
+        """Report each value that differs from when the node left."""
         for each in tree.parameters:
             old = before.get(each.name) if before else None
             if old is not None and old.value != each.value:
@@ -148,7 +148,7 @@ class ParameterMirror:
         ]
 
     async def _values(self, node: str, names: Sequence[str]) -> list[ParameterValue]:
-        """Values of parameters; one that is not initialised empties the whole answer, so those are asked singly."""
+        """Values of parameters; an uninitialised one empties the whole response, so those are read one by one."""
         service = f"{node}/get_parameters"
         answer = await self._calls.ask(GetParameters, service, GetParameters.Request(names=list(names)))
         if len(answer.values) == len(names):
@@ -160,7 +160,7 @@ class ParameterMirror:
         return values
 
     async def refresh(self, node: str) -> None:
-        """More is known of where a node's values come from; in the thread that serves the node."""
+        """Take in new facts about the origin of a node's values; in the thread that serves the node."""
         tree = self.trees.get(node)
         if tree is not None:
             told = tuple(self._provenance.applied(each) for each in tree.parameters)
@@ -226,7 +226,7 @@ class ParameterMirror:
         return before if same else replace(before, value=value, kind=kind, origin=origin_text(source, time.time_ns()))
 
     def _begun_anew(self, before: ParameterInfo, message: Parameter) -> ParameterInfo:
-        """A parameter that is declared again: its node was restarted before anybody saw that it was gone."""
+        """Take in a parameter that is declared again: its node restarted before its absence was noticed."""
         value = from_message(message.value)
         if value != before.value:
             self._anew(before.node, before.name, before.value, value)

@@ -1,4 +1,4 @@
-"""Where the value of a parameter came from, in words."""
+"""The origin of a parameter's value, in words."""
 
 from __future__ import annotations
 
@@ -22,5 +22,5 @@ SET_BY = {
 
 
 def origin_text(source: ChangeSource, stamp: int) -> str:
-    """Who has set a value, and when (ns since the epoch, shown in local time)."""
+    """Who set a value, and when (ns since the epoch, shown in local time)."""
     return f"{SET_BY[source]} at {time.strftime('%H:%M:%S', time.localtime(stamp // 10**9))}"

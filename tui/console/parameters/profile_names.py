@@ -1,4 +1,4 @@
-"""What a profile may be called. Standard library only."""
+"""Valid names of profiles. Standard library only."""
 
 from __future__ import annotations
 
@@ -8,5 +8,5 @@ _NAME = re.compile(r"[\w][\w .+-]*")
 
 
 def profile_name_problem(name: str) -> str:
-    """Why a profile cannot be called so; empty when it can."""
+    """Why a text cannot be the name of a profile; empty when it can."""
     return "" if _NAME.fullmatch(name) else f"'{name}' is no name for a profile: letters, digits, blanks, . + - _"

@@ -80,7 +80,7 @@ def load(path: Path) -> Profile:
 
 
 def _launch_profile(path: Path, title: str, text: str) -> Profile | None:
-    """A launch file with arguments: `launch: FILE` and `arguments:` below it; None for a parameter file."""
+    """A launch file with arguments (`launch: FILE`, `arguments:` below it); None for a parameter file."""
     if not any(line.startswith("launch:") for line in text.splitlines()):
         return None
     try:
@@ -136,7 +136,7 @@ _Entry = tuple[int, str, str, Value]
 
 
 def _by_key(profile: Profile) -> dict[str, list[_Entry]]:
-    """What stands below each key, so that a key is compared with a node once and not for each of its values."""
+    """The parameters below each key, so that a key is compared with a node once and not for each of its values."""
     found: dict[str, list[_Entry]] = {}
     for place, ((key, name), value) in enumerate(profile.values.items()):
         found.setdefault(key, []).append((place, name, key, value))
@@ -144,15 +144,17 @@ def _by_key(profile: Profile) -> dict[str, list[_Entry]]:
 
 
 def _given(entries: Mapping[str, list[_Entry]], node: str) -> dict[str, tuple[str, Value]]:
-    """What a node gets of a profile, with the key that says so; of two keys the later one counts, as in ROS."""
+    """What a profile gives a node, with the key that says so; as in ROS, the later of two keys wins."""
     meant = chain.from_iterable(below for key, below in entries.items() if means(key, node))
     return {name: (key, value) for _, name, key, value in sorted(meant, key=itemgetter(0))}
 
 
 def cannot_apply(profile: Profile, trees: Mapping[str, ParameterTree]) -> str:
-    """Why a profile has nobody to go to; empty where it has. Without this its name would stand for values it is not.
+    """Why a profile applies to nobody; empty when it applies.
 
-    A launch profile has no values: whoever has launched it applies it, so that it is the one in force.
+    Without this check its name would stand for values that nobody has. A launch profile has no values: launching it is
+    applying
+    it.
     """
     if profile.launch:
         return ""
@@ -161,6 +163,6 @@ def cannot_apply(profile: Profile, trees: Mapping[str, ParameterTree]) -> str:
 
 
 def unmatched(profile: Profile, trees: Mapping[str, ParameterTree]) -> tuple[str, ...]:
-    """The keys of a profile that mean no running node."""
+    """The keys of a profile that match no running node."""
     keys = dict.fromkeys(key for key, _ in profile.values)
     return tuple(key for key in keys if not any(means(key, node) for node in trees))

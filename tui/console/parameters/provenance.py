@@ -1,7 +1,7 @@
-"""Where the values of parameters come from, as the programs themselves and the launch tell it.
+"""The origin of parameter values, as reported by the programs themselves and by launch.
 
-Two kinds of fact. `declared`: a node names what it has declared, in which line, and which override it took. `given`: a
-launch names what its file gives a node, by a launch argument or in a line of its own.
+There are two kinds of facts. `declared`: a node names what it has declared, in which line, and which override it took.
+`given`: a launch names what its file gives a node, by a launch argument or in a line of its own.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ Key = tuple[str, str]
 
 @dataclass(frozen=True, slots=True)
 class Declaration:
-    """A parameter as it was declared: the default, `file:line`, and what overrode the default; empty for nothing."""
+    """A parameter's declaration: the default, `file:line`, and what overrode the default; empty for nothing."""
 
     default: Value
     place: str
@@ -39,13 +39,13 @@ class Provenance:
     """All facts so far. `learn` may be called from any thread."""
 
     def __init__(self, profile_of: Callable[[str], str] = lambda path: "") -> None:
-        """`profile_of` is the name of the profile that is a file; empty where it is none."""
+        """`profile_of` returns the name of the profile that a file is; empty if it is none."""
         self._profile_of = profile_of
         self._declared: dict[Key, Declaration] = {}
         self._given: dict[Key, str] = {}
 
     def learn(self, kind: str, facts: Mapping[str, Any]) -> str:
-        """Take a fact in; the node that it is about, empty where it is none that counts here."""
+        """Take in a fact; returns the node that it is about, empty if it is irrelevant here."""
         node = str(facts.get("node", ""))
         if kind == "declared":
             for name, default, place, override, *start in facts["parameters"]:
@@ -57,11 +57,11 @@ class Provenance:
         return ""
 
     def starts(self) -> Mapping[Key, Value]:
-        """The values with which nodes have begun, as far as they have told them."""
+        """The start values of nodes, as far as they have reported them."""
         return {key: each.start for key, each in tuple(self._declared.items()) if each.start is not None}
 
     def applied(self, parameter: ParameterInfo) -> ParameterInfo:
-        """A parameter with what is known: the declared value is its default, and its first value has an origin."""
+        """A parameter with what is known: its declared default, and the origin of its first value."""
         key = parameter.node, parameter.name
         declared = self._declared.get(key)
         if declared is None or declared.default is None:

@@ -1,7 +1,7 @@
-"""Which changes of a parameter take from the robot's safety: the one place where that is decided.
+"""Which parameter changes make the robot less safe: the one place where that is decided.
 
-ROS has no mark for such parameters, so that names and descriptions tell: distances at which a robot stops or slows
-down, limits of its speed, filters and protections that are switched. Whoever sets a value is judged alike.
+ROS has no mark for such parameters, so names and descriptions decide: distances at which a robot stops or slows down,
+limits of its speed, filters and protections that can be switched. The rules are the same whoever sets a value.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from bot_console.tui.console.model import ParameterInfo, Value
 
 
 class Worse(Enum):
-    """Which way takes from safety."""
+    """Which direction of change makes the robot less safe."""
 
     LOWER = "lowers a safety margin"
     HIGHER = "raises a limit"
@@ -26,14 +26,14 @@ class Worse(Enum):
 
 @dataclass(frozen=True)
 class Rule:
-    """Parameters with such a name, or with such a description, and which way of theirs is the worse one."""
+    """Parameters with such a name or description, and which direction of change is the worse one."""
 
     worse: Worse
     name: re.Pattern[str]
     description: re.Pattern[str] | None = None
 
     def fits(self, name: str, description: str) -> bool:
-        """Whether it is about a parameter."""
+        """Whether it applies to a parameter."""
         return bool(self.name.search(name) or (self.description and self.description.search(description)))
 
 
@@ -67,7 +67,7 @@ SWITCHES = (
 
 
 def takes_safety(parameter: ParameterInfo, before: Value, after: Value) -> str:
-    """What a change takes from the robot's safety, as the end of a sentence; empty when nothing."""
+    """How a change makes the robot less safe, as the end of a sentence; empty when it does not."""
     name = parameter.name.rpartition(".")[2]
     for rule in SWITCHES if isinstance(after, bool) else NUMBERS:
         if rule.fits(name, parameter.description):
@@ -76,7 +76,7 @@ def takes_safety(parameter: ParameterInfo, before: Value, after: Value) -> str:
 
 
 def foretold(parameter: ParameterInfo) -> str:
-    """Which change of a parameter would take from the robot's safety, and what; empty when none would."""
+    """Which change of a parameter would make the robot less safe, and how; empty when none would."""
     name = parameter.name.rpartition(".")[2]
     for rule in SWITCHES if isinstance(parameter.value, bool) else NUMBERS:
         if rule.fits(name, parameter.description):

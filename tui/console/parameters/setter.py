@@ -1,4 +1,4 @@
-"""Setting parameters, with every outcome: taken, refused by whom and why, or not answered."""
+"""Sets parameters and reports every outcome: accepted, refused (by whom and why), or not answered."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class ParameterSetter:
         self._expected = Expected()
 
     def announced(self, node: str, name: str, old: Value, new: Value) -> ChangeSource:
-        """A parameter event came: ours when it was expected, else a change made elsewhere; who has made it."""
+        """Take in a parameter event, ours if it was expected, else a change made elsewhere; returns who made it."""
         wish = self._expected.announced(node, name, new)
         source = wish.source if wish else ChangeSource.OTHER
         if old != new or wish:
@@ -37,21 +37,21 @@ class ParameterSetter:
         return source
 
     def begun_anew(self, node: str, name: str, old: Value, new: Value) -> None:
-        """A node came back with another value than it had: nobody has set that one."""
+        """Take note that a node came back with another value: nobody has set that one."""
         self._journal.record(time.time_ns(), node, name, (old, new), ChangeSource.OTHER, by=BEGUN_ANEW)
         self._journal.begun_anew(node, name)
 
     async def set(
         self, node: str, values: Mapping[str, Value], source: ChangeSource, *, atomically: bool = False
     ) -> tuple[SetOutcome, ...]:
-        """Ask a node to take values; never raises, every failure is an outcome. What is taken can be undone."""
+        """Set parameters of one node; never raises, every failure is an outcome. What is accepted can be undone."""
         outcomes, move = await self._moved(_wishes(node, values, source), atomically=atomically)
         if move.after:
             self._journal.did(Step((move,)), source)
         return outcomes
 
     async def apply(self, name: str, wanted: Mapping[str, Mapping[str, Value]]) -> tuple[SetOutcome, ...]:
-        """Set a profile's values as `set_all` does; the profile is the active one when nothing was refused."""
+        """Set a profile's values as `set_all` does; it becomes the active profile if nothing was refused."""
         before = self.profile
         outcomes, moves = await self._all_or_nothing(wanted, ChangeSource.PROFILE, name)
         if all(each.accepted for each in outcomes):
@@ -64,7 +64,7 @@ class ParameterSetter:
     async def set_all(
         self, wanted: Mapping[str, Mapping[str, Value]], source: ChangeSource, by: str
     ) -> tuple[SetOutcome, ...]:
-        """Set values on several nodes, all of them or none; one undo takes all of them back."""
+        """Set parameters of several nodes, all or none; a single undo reverts all of them."""
         outcomes, moves = await self._all_or_nothing(wanted, source, by)
         if moves:
             self._journal.did(Step(moves), source)
@@ -73,7 +73,7 @@ class ParameterSetter:
     async def _all_or_nothing(
         self, wanted: Mapping[str, Mapping[str, Value]], source: ChangeSource, by: str
     ) -> tuple[tuple[SetOutcome, ...], tuple[Move, ...]]:
-        """The outcomes, and what of it can be taken back: everything, or what could not be taken back at once."""
+        """The outcomes, and what can be undone: everything, or what could not be reverted at once."""
         outcomes: list[SetOutcome] = []
         moves: list[Move] = []
         # ROS has no transaction over nodes. Who is going to refuse is asked first: nobody else has moved then.
@@ -92,7 +92,7 @@ class ParameterSetter:
         return any(refusal(self._mirror.get(node, name), value)[1] for name, value in values.items())
 
     async def _taken_back(self, moves: Sequence[Move], why: str) -> Mapping[str, str]:
-        """Put the values before back; what nodes said that refused that."""
+        """Restore the old values; returns what the nodes said that refused."""
         stuck: dict[str, str] = {}
         for move in reversed(moves):
             outcomes = await self._set(_wishes(move.node, move.before, ChangeSource.ROLLBACK, why), atomically=True)
@@ -100,7 +100,7 @@ class ParameterSetter:
         return stuck
 
     async def _moved(self, wishes: Sequence[Wish], *, atomically: bool) -> tuple[tuple[SetOutcome, ...], Move]:
-        """What became of each value, and what of it can be taken back."""
+        """The outcome of each value, and what of it can be undone."""
         before = {each.name: self._value(each.node, each.name) for each in wishes}
         outcomes = await self._set(wishes, atomically=atomically)
         taken = {each.name: each.value for each in outcomes if each.accepted}
@@ -108,7 +108,7 @@ class ParameterSetter:
         return outcomes, Move(node, {name: before[name] for name in taken}, taken)
 
     async def _set(self, wishes: Sequence[Wish], *, atomically: bool) -> tuple[SetOutcome, ...]:
-        """Ask one node for all of some wishes."""
+        """Send one node all requests for it."""
         before = {each.name: self._value(each.node, each.name) for each in wishes}
         try:
             messages = [self._message(each) for each in wishes]
@@ -163,7 +163,7 @@ class ParameterSetter:
         return to_message(wish.name, wish.value, known.kind) if known else to_message(wish.name, wish.value)
 
     async def undo(self) -> Answer:
-        """Take the last accepted change of this console back."""
+        """Undo the last accepted change of this console."""
         step = self._journal.take_undo()
         return Answer(False, "nothing to undo") if step is None else await self._move(step, ChangeSource.UNDO)
 
@@ -173,7 +173,7 @@ class ParameterSetter:
         return Answer(False, "nothing to redo") if step is None else await self._move(step, ChangeSource.REDO)
 
     async def _move(self, step: Step, source: ChangeSource) -> Answer:
-        """Take a step back, or make it again; what a node refuses stays to be tried again."""
+        """Undo a step, or redo it; what a node refuses stays on the list."""
         done: list[Move] = []
         left: list[Move] = []
         refused: list[SetOutcome] = []
@@ -202,7 +202,7 @@ def _wishes(node: str, values: Mapping[str, Value], source: ChangeSource, by: st
 def _none_of(
     wanted: Mapping[str, Mapping[str, Value]], asked: Sequence[SetOutcome], stuck: Mapping[str, str], told: str
 ) -> tuple[SetOutcome, ...]:
-    """The outcomes where not all was taken: refusals as they are, and nothing else taken but what did not go back."""
+    """The outcomes when not everything was accepted: only refusals, and accepted values that could not be reverted."""
     known = {(each.node, each.name): each for each in asked}
     outcomes: list[SetOutcome] = []
     for node, values in wanted.items():
@@ -221,7 +221,7 @@ def _values(move: Move, source: ChangeSource) -> Mapping[str, Value]:
 
 
 def _text(step: Step, source: ChangeSource) -> str:
-    """A step in words: its values, or, where it is one of several nodes, how many there are."""
+    """A step in words: its values, or how many there are if it spans several nodes."""
     if len(step.moves) == 1:
         (move,) = step.moves
         return f"{move.node} " + ", ".join(f"{name} = {value}" for name, value in _values(move, source).items())

@@ -1,4 +1,4 @@
-"""All profiles that there are: those found, those opened by name, and those saved here."""
+"""All available profiles: found in folders, opened by name, or saved here."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from bot_console.tui.files.save_file import NotSaved, typed_path
 
 
 class Shelf:
-    """Looks for profiles in folders; `own` is where new ones are saved, and is looked into first."""
+    """Finds profiles in folders; `own` is where new ones are saved, and is searched first."""
 
     def __init__(
         self,
@@ -28,7 +28,7 @@ class Shelf:
         mixed: Sequence[Path] = (),
         fetch: Callable[[str], Path] | None = None,
     ) -> None:
-        """`fetch` gives the copy of what stands at an address, or raises `OSError`; it is called in another thread."""
+        """`fetch` returns the local copy of an address or raises `OSError`; it is called in another thread."""
         self._folders = tuple(folders)
         self._own = own
         self._mixed = tuple(mixed)
@@ -43,7 +43,7 @@ class Shelf:
         self.look_again()
 
     def look_if_changed(self) -> None:
-        """Read all of them anew where a file has come, gone or changed, whoever has done that."""
+        """Read all of them again if a file was added, removed or changed, by anyone."""
         if self._stamps() != self._seen:
             self.look_again()
 
@@ -59,7 +59,7 @@ class Shelf:
         return frozenset(found)
 
     def look_again(self) -> None:
-        """Read all of them anew."""
+        """Read all of them again."""
         self._seen = self._stamps()  # before they are read: what changes meanwhile is read again at the next look
         # The names of those that come with the robot stay theirs: launch files and command lines know them.
         own = [self._own] if self._own is not None else []
@@ -75,7 +75,7 @@ class Shelf:
         return self._own is not None and Path(profile.path).parent == self._own
 
     def _load(self, path: Path) -> Profile:
-        """An opened file; one that was fetched has the name that its address ends in."""
+        """An opened file; a fetched one is named after the end of its address."""
         profile = load(path)
         address = self._addresses.get(path)
         if address is None:
@@ -84,7 +84,7 @@ class Shelf:
         return replace(profile, name=name, title=f"{profile.title} ({address})".lstrip())
 
     def fetch(self, address: str) -> Future[Answer]:
-        """Fetch a parameter file and take it in; the answer's text as of `open`."""
+        """Download a parameter file and add it; the answer's text is that of `open`."""
         answer: Future[Answer] = Future()
         fetch = self._fetch
         if fetch is None:
@@ -104,7 +104,7 @@ class Shelf:
         return answer
 
     def open(self, path: str) -> Answer:
-        """Take a file in; the answer's text is the name under which it stands, or why it cannot be used."""
+        """Add a file; the answer's text is the name it gets, or why it cannot be used."""
         try:
             place = typed_path(path)
         except NotSaved as error:
@@ -117,7 +117,7 @@ class Shelf:
         return Answer(not found.problem, found.name if not found.problem else f"{place}: {found.problem}")
 
     def save(self, name: str, description: str, trees: Mapping[str, ParameterTree]) -> Answer:
-        """Save what runs as a profile of the user's; one of that name is brought up to date, its comments stay."""
+        """Save what runs as one of the user's profiles; an existing one is updated, and its comments stay."""
         if self._own is None:
             return Answer(False, "this console has no folder for profiles")
         if problem := profile_name_problem(name):
@@ -132,7 +132,7 @@ class Shelf:
         return Answer(True, saved.text(path))
 
     def rename(self, name: str, to: str) -> Answer:
-        """Give a profile of the user's another name; the answer says what came of it."""
+        """Rename one of the user's profiles; the answer says how that went."""
         path, problem = self._own_file(name)
         if path is None or (problem := profile_name_problem(to)):
             return Answer(False, problem)
@@ -142,14 +142,14 @@ class Shelf:
         return self._change(path, lambda: path.rename(place), "renamed", f"{name} is {to} now: {place}")
 
     def delete(self, name: str) -> Answer:
-        """Delete the file of a profile of the user's; the answer says what came of it."""
+        """Delete the file of one of the user's profiles; the answer says how that went."""
         path, problem = self._own_file(name)
         if path is None:
             return Answer(False, problem)
         return self._change(path, path.unlink, "deleted", f"{path} is deleted")
 
     def _own_file(self, name: str) -> tuple[Path | None, str]:
-        """The file of a profile of the user's; None, and why, where there is none."""
+        """The file of one of the user's profiles; None, and why, if there is none."""
         found = next((each for each in self.profiles if each.name == name), None)
         if found is None:
             return None, f"there is no profile {name}"

@@ -1,4 +1,4 @@
-"""What would be lost: values that were set from this console and stand in no file."""
+"""Unsaved values: set by this console, and in no file."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ UNDONE = ChangeSource.UNDO
 
 
 class Unsaved:
-    """Knows for each parameter that was set here which values can be had again without anybody typing them.
+    """Knows, for each parameter set here, which values can be restored without typing them again.
 
-    These are the one it started with, those of profiles and files, and those that were saved.
+    These are the start value, the values of profiles and files, and those that were saved.
     """
 
     def __init__(self) -> None:
@@ -22,7 +22,7 @@ class Unsaved:
         self._now: dict[tuple[str, str], Value] = {}
 
     def moved(self, node: str, before: Mapping[str, Value], after: Mapping[str, Value], source: ChangeSource) -> None:
-        """Values of a node went from `before` to `after`, or back where it was undone."""
+        """Take note that values of a node changed from `before` to `after`, or back when undone."""
         for name, value in (before if source is UNDONE else after).items():
             key = (node, name)
             safe = self._safe.setdefault(key, [before[name]])
@@ -31,13 +31,13 @@ class Unsaved:
                 safe.append(value)
 
     def saved(self, nodes: Collection[str]) -> None:
-        """The values of some nodes, or of all where none is named, are in a file now."""
+        """Take note that the values of some nodes, or of all when none is named, are in a file now."""
         for key, value in self._now.items():
             if not nodes or key[0] in nodes:
                 self._safe[key].append(value)
 
     def begun_anew(self, node: str, name: str) -> None:
-        """A parameter has the value again that its node begins with."""
+        """Take note that a parameter has its start value again."""
         self._now.pop((node, name), None)
         self._safe.pop((node, name), None)
 

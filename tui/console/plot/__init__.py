@@ -1,1 +1,1 @@
-"""Series collected from topics and parameters."""
+"""Time series collected from topics and parameters."""

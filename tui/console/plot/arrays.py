@@ -1,4 +1,4 @@
-"""One number of a whole array, or of a quaternion: what `min(/scan/ranges)` makes of each message."""
+"""Reduces a whole array, or a quaternion, to one number: what `min(/scan/ranges)` makes of each message."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _MADE: Mapping[str, Callable[[npt.NDArray[np.float64]], float]] = {
 
 
 def make(value: Any, made: str, name: str) -> float:
-    """The number; what is not finite (a beam that hits nothing) counts for nothing. Raises `NotPlottable`."""
+    """The number; non-finite elements (a beam that hits nothing) are ignored. Raises `NotPlottable`."""
     if made == "yaw":
         return _yaw(value, name)
     if isinstance(value, (str, bool, int, float, np.number)) or not hasattr(value, "__len__"):

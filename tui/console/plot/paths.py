@@ -1,4 +1,4 @@
-"""What of a message type can be plotted: the paths to its numbers, its arrays and its quaternions."""
+"""Which paths of a message type can be plotted: its numbers, arrays and quaternions."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ WHOLE = ("min", "max", "mean")
 
 
 def message_class(type_name: str) -> Any:
-    """The class of a type such as `std_msgs/msg/String`; raises `NotPlottable` when it is not installed."""
+    """The class of a type such as `std_msgs/msg/String`; raises `NotPlottable` if it is not installed."""
     package, _, rest = type_name.partition("/")
     try:
         return getattr(importlib.import_module(f"{package}.msg"), rest.rsplit("/", 1)[-1])
@@ -26,7 +26,7 @@ def message_class(type_name: str) -> Any:
 
 
 def number_paths(type_name: str) -> tuple[str, ...]:
-    """The paths to the numbers of a type: fields first, then elements of arrays, then what is made of whole arrays."""
+    """The paths to the numbers of a type: fields first, then elements of arrays, then functions of whole arrays."""
     fields: list[str] = []
     elements: list[str] = []
     made: list[str] = []
@@ -43,7 +43,7 @@ def number_paths(type_name: str) -> tuple[str, ...]:
 
 
 def example(type_name: str) -> str:
-    """A path that could be plotted."""
+    """An example of a path that could be plotted."""
     return next(iter(number_paths(type_name)), "data")
 
 

@@ -1,4 +1,4 @@
-"""Samples of a plotted value: a bounded ring of (time, value), read by cursor; and paths into messages."""
+"""Time series of plotted values: a bounded ring of (time, value), read by cursor; and paths into messages."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Step: TypeAlias = "str | int | slice[int | None]"
 
 
 class Series:
-    """A ring of samples; times in s, one cursor step for each sample."""
+    """A ring of samples; times in s, one cursor step per sample."""
 
     def __init__(self, capacity: int = 20_000) -> None:
         self._samples = np.zeros((3, capacity))
@@ -25,12 +25,12 @@ class Series:
         self._end = 0
 
     def add(self, time: float, value: float, header: float = math.nan) -> None:
-        """Append one sample, with the time in its message's header; the oldest falls out of a full ring."""
+        """Append a sample, with the time from its message's header; a full ring drops the oldest."""
         self._samples[:, self._end % self._capacity] = (time, value, header)
         self._end += 1
 
     def after(self, cursor: int) -> Samples:
-        """Samples from the cursor on, oldest first."""
+        """The samples from the cursor on, oldest first."""
         end = self._end
         begin = max(cursor, end - self._capacity, 0)
         times, values, headers = self._samples[:, np.arange(begin, end) % self._capacity]
@@ -77,7 +77,7 @@ def _step(match: re.Match[str]) -> Step:
 
 
 def reader(steps: Sequence[Step], made: str = "") -> Callable[[Any], float]:
-    """A function that takes a message to the number at the path; it raises `NotPlottable` where there is none."""
+    """A function from a message to the number at the path; it raises `NotPlottable` if there is none."""
 
     def read(message: Any) -> float:
         value = message

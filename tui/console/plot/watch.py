@@ -1,4 +1,4 @@
-"""The series that a person plots: fields of topics, and parameters."""
+"""The time series being plotted: fields of topics, and parameters."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ NUMBERS = (Kind.BOOL, Kind.INTEGER, Kind.DOUBLE)
 
 
 class _Watched:
-    """A series and what feeds it."""
+    """A series and its source."""
 
     def __init__(self) -> None:
         self.series = Series()
@@ -50,11 +50,11 @@ class PlotWatch:
         return time.monotonic() - self._start
 
     def axis_time(self, stamp: int | None) -> float:
-        """Where a moment (ns since the epoch; None is now) lies on that axis."""
+        """The position of a moment (ns since the epoch; None is now) on that axis."""
         return self.now() if stamp is None else (stamp - self._started_at) / 1e9
 
     def watch(self, path: str, graph: GraphInfo, trees: Mapping[str, ParameterTree], asker: str = "") -> Answer:
-        """Begin to collect a path, or say why it cannot be plotted."""
+        """Start collecting a path, or say why it cannot be plotted."""
         if path in self._watched:
             self._watched[path].askers.add(asker)
             return Answer(True, f"{path} is plotted already")
@@ -102,7 +102,7 @@ class PlotWatch:
         return collect
 
     def _header_time(self, message: Any) -> float:
-        """The time in a message's header on the axis; NaN where there is none."""
+        """The time in a message's header, on the axis; NaN if there is none."""
         stamp = getattr(getattr(message, "header", None), "stamp", None)
         if stamp is None or not (stamp.sec or stamp.nanosec):
             return math.nan
@@ -114,13 +114,13 @@ class PlotWatch:
         return time + self._other_clock
 
     def parameter_is(self, node: str, name: str, value: Value) -> None:
-        """A parameter has this value from now on."""
+        """Take in a parameter's new value."""
         watched = self._watched.get(f"{node}:{name}")
         if watched and isinstance(value, (bool, int, float)):
             watched.series.add(self.now(), float(value))
 
     def unwatch(self, path: str, asker: str = "") -> None:
-        """Stop collecting and forget, unless somebody else wants it still."""
+        """Stop collecting and forget, unless somebody else still wants the series."""
         watched = self._watched.get(path)
         if watched is None:
             return
@@ -131,7 +131,7 @@ class PlotWatch:
                 self._node.destroy_subscription(watched.subscription)
 
     def samples(self, path: str, after: int) -> Samples:
-        """New samples; nothing for a path that is not watched."""
+        """New samples; none for a path that is not watched."""
         watched = self._watched.get(path)
         if watched is None:
             return Samples((), (), after)
@@ -139,7 +139,7 @@ class PlotWatch:
         return replace(new, problem=watched.problem)
 
     def plottable(self, graph: GraphInfo, trees: Mapping[str, ParameterTree]) -> Sequence[str]:
-        """Paths to numbers: fields of the graph's topics and parameters, then elements and what is made of arrays."""
+        """Paths to numbers: topic fields and parameters first, then elements and functions of arrays."""
         paths = [
             f"{topic.name}/{field}" for topic in graph.topics if topic.types for field in number_paths(topic.types[0])
         ]
@@ -150,7 +150,7 @@ class PlotWatch:
 
 
 def _split(path: str, graph: GraphInfo) -> tuple[str, tuple[str, ...], str]:
-    """Topic, its types, and the rest of a path; the longest topic name that fits wins."""
+    """Topic, its types, and the rest of a path; the longest matching topic name wins."""
     path = "/" + path.lstrip("/")
     fitting = [
         each for each in graph.topics if path == each.name or path.startswith((each.name + "/", each.name + "."))

@@ -1,1 +1,1 @@
-"""What the console knows and asks of the robot itself."""
+"""The console's view of the robot, and its commands to it."""

@@ -1,4 +1,4 @@
-"""Where the beams of a scan end, worked out when somebody looks: of ten scans a second most are never drawn."""
+"""Where the beams of a scan end, computed when somebody looks: of ten scans per second most are never drawn."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ FARTHEST = 1e7
 
 
 class BeamEnds(Sequence[tuple[float, float]]):
-    """Ends of beams in the pose's frame (x, y in m); none where pose or angles are no numbers."""
+    """The ends of beams in the pose's frame (x, y in m); none if pose or angles are not finite."""
 
     def __init__(self, scan: LaserScan, pose: Pose | None) -> None:
-        """What is no return is infinite or outside of the scan's limits (REP 117)."""
+        """Beams without a return are infinite or outside the scan's limits (REP 117)."""
         ranges = np.asarray(scan.ranges, float)
         self._valid = np.isfinite(ranges) & (ranges >= scan.range_min) & (ranges <= scan.range_max)
         self._ranges: npt.NDArray[np.float64] = ranges[self._valid]
@@ -33,7 +33,7 @@ class BeamEnds(Sequence[tuple[float, float]]):
 
     @cached_property
     def points(self) -> npt.NDArray[np.float64]:
-        """One row for each end."""
+        """One row per end."""
         pose = self._pose
         if pose is None:
             return np.empty((0, 2))

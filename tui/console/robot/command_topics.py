@@ -1,4 +1,4 @@
-"""Where robots take velocity commands: found by type and last token, in whatever namespace, stamped or not."""
+"""Where robots take velocity commands: found by type and last name token, in any namespace, stamped or not."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ TWIST, STAMPED = "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"
 
 @dataclass(frozen=True)
 class CommandTopics:
-    """Those of one robot by their last token; where a robot takes a command by another name, that topic is its name."""
+    """The command topics of one robot by their last token; a topic of any other name stands for itself."""
 
     robot: str
     topics: Mapping[str, str]
@@ -22,7 +22,7 @@ class CommandTopics:
     """Whether they have the names that every robot's have, so that it is one for sure."""
 
     def get(self, token: str) -> str:
-        """A topic; empty where there is none."""
+        """The topic of a token; empty if there is none."""
         return self.topics.get(token, "")
 
 
@@ -30,13 +30,13 @@ NOBODY = CommandTopics("", MappingProxyType({}))
 
 
 def types_of(graph: GraphInfo) -> dict[str, str]:
-    """The type of each topic of velocities."""
+    """The type of each velocity topic."""
     ends = (each for node in graph.nodes for each in (*node.publishers, *node.subscriptions))
     return {each.name: kind for each in ends for kind in each.types if kind in (TWIST, STAMPED)}
 
 
 def robots_of(graph: GraphInfo) -> tuple[CommandTopics, ...]:
-    """All robots that listen: those with the usual names first, the shortest namespace before the others."""
+    """All robots that listen: those with the usual names first, shorter namespaces before longer ones."""
     listened = {
         each.name
         for node in graph.nodes

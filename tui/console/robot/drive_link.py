@@ -1,4 +1,4 @@
-"""Velocity commands from the console, and what became of them on their way to the robot."""
+"""Velocity commands from the console, and what happens to them on their way to the robot."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ Velocity = tuple[float, float]
 
 @dataclass(frozen=True)
 class Verdict:
-    """What an arbiter made of the command that it chose: the rule or parameter that limited it, and what was left."""
+    """What an arbiter made of the command it chose: the rule or parameter that limited it, and the result."""
 
     limited_by: str = ""
     asked: Velocity | None = None
@@ -56,7 +56,7 @@ class Verdict:
 
 @dataclass(frozen=True)
 class Surroundings:
-    """What a graph has of robots."""
+    """The robots in a graph."""
 
     types: Mapping[str, str]
     """The type of each topic of velocities."""
@@ -69,7 +69,7 @@ class Surroundings:
 
     @classmethod
     def of(cls, graph: GraphInfo) -> Surroundings:
-        """Look for them."""
+        """Find the robots of a graph."""
         published = [each for node in graph.nodes for each in node.publishers]
         return cls(
             types_of(graph),
@@ -106,11 +106,11 @@ class DriveLink:
         node.create_timer(HOLD_PERIOD, self._repeat)
 
     def follow(self, graph: GraphInfo) -> None:
-        """Find the robots' command topics, and what goes on on those of the one that is steered."""
+        """Find the robots' command topics, and listen to those of the steered one."""
         self.take(Surroundings.of(graph))
 
     def take(self, found: Surroundings) -> None:
-        """Take over what was found in a graph; in the thread that serves the node."""
+        """Take in what was found in a graph; in the thread that serves the node."""
         self._types, self._robots, self._simulated = found.types, found.robots, found.simulated
         self._follow_robot()
         self._stop.follow(found.locks)
@@ -134,7 +134,7 @@ class DriveLink:
                 self._publisher(robot.get(each))  # now, since a first message may be too early for whoever listens
 
     def choose(self, robot: str) -> None:
-        """Steer another one of `DriveInfo.robots`; the one before gets a zero, if it was driven from here."""
+        """Steer another one of `DriveInfo.robots`; the previous one is sent a zero if it was driven from here."""
         if robot != self._robot.robot:
             if self._acted:
                 self.zero()
@@ -159,7 +159,7 @@ class DriveLink:
             )
 
     def _told(self, message: DiagnosticArray) -> None:
-        """What an arbiter of velocities says about its last decision."""
+        """What a velocity arbiter says about its last decision."""
         for status in message.status:
             values = {each.key: each.value for each in status.values}
             if "limited_by" in values:
@@ -180,12 +180,15 @@ class DriveLink:
 
     @property
     def topic(self) -> str:
-        """Where commands of this console go; empty when no robot listens."""
+        """The topic of this console's commands; empty if no robot listens."""
         return self._robot.get(self._token)
 
     @property
     def _token(self) -> str:
-        """A robot whose arbiter has left is not driven past it: what kept it safe is gone."""
+        """The last token of that topic.
+
+        A robot whose arbiter has left is not driven directly: its protection is gone.
+        """
         return TELEOP if self._arbitrated else FINAL
 
     def drive(self, linear: float, angular: float) -> None:
@@ -197,9 +200,9 @@ class DriveLink:
             self._send(self._token, linear, angular)
 
     def stop(self, hold: bool, reason: str, others: Sequence[str] = ()) -> None:
-        """Lock the robot, or take that back with the stops of these `others`, and zero velocity now.
+        """Lock the robot, or withdraw that along with the stops of these `others`, and send zero velocity now.
 
-        A robot without a lock gets zeros again and again.
+        A robot without a lock is sent zeros again and again.
         """
         if hold:
             self._stop.stop(reason)
@@ -209,16 +212,16 @@ class DriveLink:
         self._zero_all()
 
     def steer(self, hold: bool) -> None:
-        """Say that a person holds the steering, or does no more; while held to be called ten times a second."""
+        """Claim or hand back the steering; a claim is to be repeated ten times a second."""
         if hold:
             self._stop.steer()
         else:
             self._stop.hand_back()
 
     def close(self, patience: float = 0.0) -> None:
-        """The last word: zero velocity, and a lock where this console leaves while it holds the steering.
+        """Send zero velocity, and lock the robot if this console leaves while it holds the steering.
 
-        A robot that was only looked at is left alone, and not waited for; any other is as by `await_standing`.
+        A robot that was only watched is left alone, and not waited for; any other is waited for as in `await_standing`.
         """
         steering, acted = self._stop.steering, self._acted
         if steering:
@@ -229,9 +232,9 @@ class DriveLink:
             self.await_standing(patience)
 
     def await_standing(self, patience: float) -> None:
-        """Wait until all locks hold the robot, so many seconds at most.
+        """Wait until all locks hold the robot, at most so many seconds.
 
-        All of them for one that is not held: nobody acknowledges a zero. Without anybody who listens nothing is waited
+        Without a lock that is the whole time, since nobody acknowledges a zero; if nobody listens, nothing is waited
         for.
         """
         if self._stop.info.stopped and self._stop.info.locks:
@@ -246,17 +249,17 @@ class DriveLink:
         return any(each.get_subscription_count() > own.count(each.topic_name) for each in published)
 
     def zero(self) -> None:
-        """One zero to every topic on which the robot that is steered, or its arbiter, listens."""
+        """Send a zero to every topic on which the steered robot, or its arbiter, listens."""
         for token in (TELEOP, FINAL):
             self._send(token, 0.0, 0.0)
 
     def _each_robot(self) -> Iterable[CommandTopics]:
-        """All that are robots for sure, and the one that is steered."""
+        """All robots with the usual topic names, and the steered one."""
         every = {each.robot: each for each in (*self._robots, self._robot)}
         return [each for each in every.values() if each.standard or each is self._robot]
 
     def _zero_all(self) -> None:
-        """The same to every robot there is."""
+        """Send a zero to every topic of every robot."""
         for topic in (topic for robot in self._each_robot() for topic in robot.topics.values()):
             self._publish(topic, 0.0, 0.0)
 
@@ -272,7 +275,7 @@ class DriveLink:
 
     @property
     def _holds_by_zeros(self) -> bool:
-        """Whether nobody else holds the robot: no lock was there, or none has acknowledged our stop."""
+        """Whether zeros hold the robot: it has no lock, or none has acknowledged our stop."""
         return self._zeros or self._stop.stopping
 
     def _send(self, token: str, linear: float, angular: float) -> None:
@@ -296,7 +299,7 @@ class DriveLink:
         self._publisher(topic).publish(message)
 
     def info(self, world: WorldInfo) -> DriveInfo:
-        """The chain as known now, the robot's own word included; the same object while nothing changes."""
+        """The command chain as known now, the robot's own report included; the same object while nothing changes."""
         silent = FINAL in self._seen and time.monotonic() - self._heard > SILENCE
         gone = silent and world.silent_s > 0
         why = NO_COMMAND if silent else self._verdict.limited_by
@@ -334,7 +337,7 @@ def _topic(names: Set[str], token: str) -> str:
 
 
 def _velocity(values: Mapping[str, str], prefix: str) -> Velocity | None:
-    """A velocity written out under `<prefix>.linear` and `<prefix>.angular`; None where that is not there."""
+    """A velocity given as `<prefix>.linear` and `<prefix>.angular`; None if they are missing."""
     try:
         return float(values[f"{prefix}.linear"]), float(values[f"{prefix}.angular"])
     except (KeyError, ValueError):

@@ -1,4 +1,4 @@
-"""The link to the robot in a node and thread of its own, so that a stop waits for nothing else the console does."""
+"""The link to the robot, in a node and a thread of its own, so that a stop waits for nothing else the console does."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ NAME = "_bot_console_drive"
 
 
 class DriveNode:
-    """Serves a `DriveLink`: the robot's word of its lock is heard while graph and parameters are read.
+    """Serves a `DriveLink`, so that the robot's lock is heard while graph and parameters are being read.
 
-    Beside 500 nodes that come at once the console's own thread is busy for seconds.
+    When 500 nodes appear at once, the console's own thread is busy for seconds.
     """
 
     def __init__(self, context: Context) -> None:
@@ -42,6 +42,6 @@ class DriveNode:
         self._executor.create_task(self.link.take, Surroundings.of(graph))
 
     def close(self) -> None:
-        """Serve no more, and leave the graph."""
+        """Stop serving, and leave the graph."""
         self._executor.shutdown(timeout_sec=1.0)
         self._node.destroy_node()

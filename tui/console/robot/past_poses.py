@@ -1,4 +1,4 @@
-"""Where the robot was, moment by moment, for the last minutes."""
+"""The robot's poses over the last minutes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ APART = 100_000_000
 
 
 class PastPoses:
-    """A ring of poses by the time at which they came."""
+    """A ring of poses by time of arrival."""
 
     def __init__(self, capacity: int = KEPT) -> None:
         self._stamps = np.zeros(capacity, np.int64)
@@ -23,7 +23,7 @@ class PastPoses:
         self._end = 0
 
     def add(self, stamp: int, pose: Any) -> None:
-        """Keep a pose (`geometry_msgs/Pose`) that came at a time (ns since the epoch), unless one came just before."""
+        """Keep a pose (`geometry_msgs/Pose`) received at a time (ns since the epoch), unless one came just before."""
         capacity = len(self._stamps)
         if self._end and 0 <= stamp - int(self._stamps[(self._end - 1) % capacity]) < APART:
             return
@@ -32,7 +32,7 @@ class PastPoses:
         self._end += 1
 
     def at(self, stamp: int) -> Pose | None:
-        """The pose at a moment; None before the first that is kept."""
+        """The pose at a moment; None before the first one kept."""
         order = np.arange(max(0, self._end - len(self._stamps)), self._end) % len(self._stamps)
         place = int(np.searchsorted(self._stamps[order], stamp, side="right")) - 1
         return None if place < 0 else Pose(*self._poses[order[place]].tolist())

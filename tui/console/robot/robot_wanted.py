@@ -1,4 +1,4 @@
-"""What the nodes of a ROS system lack of a robot: its scans, its odometry, somebody who obeys their velocities."""
+"""What the nodes of a ROS system need from a robot that is missing: scans, odometry, somebody who obeys velocities."""
 
 from __future__ import annotations
 
@@ -38,20 +38,20 @@ def robot_wanted(node: Node) -> str:
 
 
 def drives_stamped(node: Node) -> bool:
-    """Whether those who drive give their velocities with a time stamp, and none without."""
+    """Whether velocities are published with a time stamp, and none without."""
     found = node.get_publishers_info_by_topic(VELOCITY)
     return bool(_visible(found, STAMPED)) and not _visible(found, TWIST)
 
 
 def endpoints(node: Node) -> object:
-    """All of the graph that bears on `robot_wanted`: equal as long as nothing of that has changed."""
+    """The part of the graph that `robot_wanted` depends on: equal as long as none of that has changed."""
     topics = (*SOURCES, VELOCITY)
     found = [each for topic in topics for each in _both(node, topic)]
     return sorted(node.get_node_names_and_namespaces()), [(each.node_name, each.topic_type) for each in found]
 
 
 def visible_nodes(node: Node) -> int:
-    """How many nodes there are, without tools and the console."""
+    """The number of nodes, not counting tools and the console."""
     return sum(not name.startswith("_") for name in node.get_node_names())
 
 

@@ -1,4 +1,4 @@
-"""Whether those who hold the robot still live, as far as this machine can tell."""
+"""Whether the processes that hold the robot are still alive, as far as this machine can tell."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ _PROCESS = re.compile(r"@(?P<machine>[^@]*) \(pid (?P<pid>[0-9]{1,9})\)")
 
 
 def with_gone(stops: Sequence[RobotStop]) -> tuple[RobotStop, ...]:
-    """The stops, those marked whose holder was a process of this machine that has ended.
+    """The stops, marking those whose holder was a process of this machine that has ended.
 
-    Of processes of other machines, and of holders without a process, nothing is known: they are not marked.
+    Nothing is known about processes of other machines and about holders without a process: they are not marked.
     """
     return tuple(replace(each, gone=True) if not each.here and _is_gone(each.holder) else each for each in stops)
 

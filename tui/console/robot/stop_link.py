@@ -1,4 +1,4 @@
-"""The robot's emergency stop as the console asks for it and sees it: requests, and what every lock has acknowledged.
+"""The robot's emergency stop as the console requests and sees it: requests, and what every lock has acknowledged.
 
 The interface is that of `docs/safety.md`; a robot without it is stopped by zero velocities, which nobody acknowledges.
 """
@@ -36,7 +36,7 @@ PATIENCE = 2.0
 
 @dataclass(frozen=True, slots=True)
 class StopInfo:
-    """What is known of the stop: asked for or seen, acknowledged by every lock there is, by whom and why."""
+    """What is known about the stop: requested or seen, acknowledged by every lock, by whom and why."""
 
     stopped: bool = False
     confirmed: bool = False
@@ -51,13 +51,13 @@ class StopInfo:
 
 
 class StopLink:
-    """Asks all locks of the robots on the graph, again and again until they acknowledge.
+    """Sends requests to all locks of the robots on the graph, repeatedly until they acknowledge.
 
     `stop`, `release`, `steer` and `hand_back` may be called from any thread and send at once.
     """
 
     def __init__(self, node: Node, holder: str = "", key: str = "") -> None:
-        """`key` tells this asker's stops from others'; another one each time unless it is given."""
+        """`key` distinguishes this requester's stops from others'; a new one each time unless given."""
         self._node = node
         self.holder = holder or f"bot-console of {user()} (pid {os.getpid()})"
         self._key = key or uuid.uuid4().hex
@@ -99,7 +99,7 @@ class StopLink:
             self._telling.notify_all()
 
     def await_held(self, patience: float) -> bool:
-        """Wait until every lock has acknowledged what was asked for and holds, so many seconds at most; whether so."""
+        """Wait, at most so many seconds, until every lock has acknowledged the request and holds; whether so."""
         with self._telling:
             return self._telling.wait_for(lambda: self.info.confirmed, patience)
 
@@ -128,11 +128,11 @@ class StopLink:
         )
 
     def stop(self, reason: str) -> None:
-        """Lock, and say so until every lock has acknowledged it."""
+        """Lock, repeating the request until every lock has acknowledged it."""
         self._want(STOP, reason)
 
     def release(self, others: Sequence[str] = ()) -> None:
-        """Take back our own stop, and the stops of others by their keys; the rest holds on."""
+        """Withdraw our own stop, and the stops of others by their keys; the remaining stops hold."""
         self._of = (self._key, *others)
         self._want(RELEASE, "")
 
@@ -142,7 +142,7 @@ class StopLink:
         self._update()
 
     def steer(self) -> None:
-        """Hold the steering; to be called again and again by whoever sees that a person is there."""
+        """Claim the steering; to be repeated by whoever sees that a person is there."""
         now = time.monotonic()
         if not self.steering or now - self._steered >= HEARTBEAT:
             self.steering, self._steered = True, now
@@ -150,27 +150,27 @@ class StopLink:
 
     @property
     def stopping(self) -> bool:
-        """Whether a stop was asked for that is not acknowledged yet."""
+        """Whether a requested stop has not been acknowledged yet."""
         return self._wanted == STOP
 
     @property
     def releasing(self) -> bool:
-        """Whether a release was asked for that is not acknowledged yet."""
+        """Whether a requested release has not been acknowledged yet."""
         return self._wanted == RELEASE
 
     @property
     def heard(self) -> bool:
-        """Whether every lock that was found has said how it is."""
+        """Whether every lock that was found has reported its state."""
         return all(each in self._states for each in list(self._watching))
 
     def hand_back(self) -> None:
-        """Hold the steering no more."""
+        """Hand the steering back."""
         if self.steering:
             self.steering = False
             self._send(HAND_BACK, "")
 
     def repeat(self) -> None:
-        """Say again what has not been acknowledged; to be called ten times a second."""
+        """Repeat what has not been acknowledged; to be called ten times a second."""
         if self._wanted == RELEASE and time.monotonic() - self._since > PATIENCE:
             self._wanted = ""
         if self._wanted:
@@ -201,7 +201,7 @@ def user() -> str:
 
 
 def _stops(state: Mapping[str, str], own: str) -> list[RobotStop]:
-    """The stops that a lock tells of; one that only tells who holds it has one stop, which is everybody's."""
+    """The stops in a lock's report; a lock that only tells who holds it has one stop, which is everybody's."""
     try:
         entries = json.loads(state.get("stops", ""))
         found = [[str(part) for part in entry[:3]] for entry in entries if len(entry) >= 3]

@@ -1,6 +1,6 @@
-"""What the console knows of turtles: where they are, and what they have drawn.
+"""What the console knows about turtles: where they are, and what they have drawn.
 
-Any `turtlesim` shows, by the type of its poses; one without the hidden topic of its drawing shows short trails.
+Any `turtlesim` is recognised, by the type of its poses; one without the hidden topic of its drawing shows short trails.
 """
 
 from __future__ import annotations
@@ -109,7 +109,7 @@ def _topics(node: NodeInfo, kind: str) -> list[str]:
 
 
 def _turtles(node: NodeInfo) -> dict[str, str]:
-    """Names of a node's turtles by the topics of their poses; those in its namespace without that."""
+    """The turtle names of a node by their pose topics; topics in its namespace are shown without it."""
     space = node.name.rpartition("/")[0] + "/"
     return {topic: topic.removeprefix(space).strip("/").removesuffix("/pose") for topic in _topics(node, POSE)}
 

@@ -1,6 +1,6 @@
-"""What the console knows of the place: the map, the robot's pose and speed, and where its LIDAR beams end.
+"""What the console knows about the surroundings: the map, the robot's pose and speed, and where its LIDAR beams end.
 
-The topics are found by type, so that a robot in a namespace, or another make of robot, shows as well.
+The topics are found by type, so that a robot in a namespace, or of another make, is shown as well.
 """
 
 from __future__ import annotations
@@ -42,10 +42,10 @@ PREFERRED: Mapping[str, tuple[str, ...]] = {
 
 
 class WorldWatch:
-    """Keeps the newest map, pose and scan; `info` puts them together when it is asked and something is new."""
+    """Keeps the newest map, pose and scan; `info` combines them when asked, if something is new."""
 
     def __init__(self, node: Node, now: Callable[[], float] = time.monotonic) -> None:
-        """`now` gives s, for the silence of the robot."""
+        """`now` returns seconds, to measure the robot's silence."""
         self._node = node
         self._now = now
         self._heard = 0.0
@@ -60,7 +60,7 @@ class WorldWatch:
         self._info = WorldInfo()
 
     def follow(self, graph: GraphInfo) -> None:
-        """Subscribe to what the graph offers as it is offered, and let go of what has left."""
+        """Subscribe to new topics with the QoS they offer, and drop those that have left."""
         for each in self._subscriptions.values():
             each.follow()
         for type_name, wanted in PREFERRED.items():
@@ -107,7 +107,7 @@ class WorldWatch:
 
     @property
     def info(self) -> WorldInfo:
-        """What is known now; the same object until something new has come."""
+        """What is known now; the same object until something new has arrived."""
         if self._fresh or self._turtles.fresh:
             self._fresh = False
             self._info = self._build()
@@ -138,14 +138,14 @@ class WorldWatch:
 
 
 def pose_of(message: Any) -> Pose | None:
-    """A `geometry_msgs/Pose` on the plane; None where it is nowhere that could be drawn."""
+    """A `geometry_msgs/Pose` in the plane; None if it cannot be drawn."""
     place = message.position
     inside = abs(place.x) <= FARTHEST and abs(place.y) <= FARTHEST  # False for what is no number
     return Pose(place.x, place.y, heading(message.orientation)) if inside else None
 
 
 def grid_of(message: OccupancyGrid) -> GridMap | None:
-    """A map as the console shows it; None for one whose size, place or number of cells are impossible."""
+    """A map as the console shows it; None if its size, position or number of cells is impossible."""
     meta = message.info
     origin = pose_of(meta.origin)
     count = meta.width * meta.height
@@ -158,7 +158,7 @@ def grid_of(message: OccupancyGrid) -> GridMap | None:
 
 
 def best(offered: set[str], wanted: tuple[str, ...]) -> str:
-    """The offered topic whose last token stands first in the wanted list, else the first by name."""
+    """The offered topic whose last token comes first in the wanted list, else the first by name."""
     ranked = sorted(offered, key=lambda name: (_rank(name.rsplit("/", 1)[-1], wanted), len(name), name))
     return ranked[0] if ranked else ""
 

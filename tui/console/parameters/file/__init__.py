@@ -1,1 +1,1 @@
-"""Parameter files: read as ROS reads them, patched in place, saved."""
+"""Parameter files: read as ROS reads them, patched in place, and saved."""

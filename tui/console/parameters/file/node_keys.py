@@ -1,4 +1,4 @@
-"""Which nodes a key of a parameter file means, wildcards included, as ROS has it."""
+"""Which nodes a key of a parameter file applies to, wildcards included, as in ROS."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ def _pattern(key: str) -> re.Pattern[str]:
 
 
 def means(key: str, node: str) -> bool:
-    """Whether a key such as `/**`, `/*/lidar` or `/robot` means a node (fully qualified name)."""
+    """Whether a key such as `/**`, `/*/lidar` or `/robot` applies to a node (fully qualified name)."""
     return _pattern(key).fullmatch(node) is not None
 
 
 def is_wildcard(key: str) -> bool:
-    """Whether a key may mean many nodes, so that not each of them need have what stands below it."""
+    """Whether a key may apply to many nodes, not all of which need to have the parameters below it."""
     return "*" in key

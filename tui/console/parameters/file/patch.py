@@ -1,4 +1,4 @@
-"""Values put into the text of a parameter file: whatever else stands in it, comments above all, stays as it is."""
+"""Puts values into the text of a parameter file; everything else in it, comments above all, stays as it is."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Values: TypeAlias = Mapping[str, Mapping[str, Value]]
 
 
 def new_text(values: Values) -> str:
-    """A parameter file with these values."""
+    """A new parameter file with these values."""
     return "".join(block_text(node, {KEYWORD: nested(found)}) for node, found in values.items())
 
 
@@ -49,7 +49,7 @@ class _Edit:
 
 
 def _own(found: list[Section], node: str) -> list[Section]:
-    """The sections whose key is this very node, the one that counts first."""
+    """The sections whose key names exactly this node; the one that takes effect comes first."""
     return [each for each in reversed(found) if each.key == node]
 
 
@@ -65,7 +65,7 @@ def _replacements(text: str, found: list[Section], values: Values) -> Iterator[_
 
 
 def _replaced(text: str, place: Scalar | Sequence, value: Value) -> Iterator[_Edit]:
-    """Element by element where a list has a line for each: comments stand behind them."""
+    """Replace element by element where a list has one per line: comments may follow them."""
     if isinstance(place, Sequence) and not place.flow and place.elements and isinstance(value, tuple) and value:
         for element, new in zip(place.elements, value, strict=False):
             assert isinstance(element, Scalar)
@@ -79,7 +79,7 @@ def _replaced(text: str, place: Scalar | Sequence, value: Value) -> Iterator[_Ed
 
 
 def _length(text: str, place: Sequence, value: tuple[Any, ...]) -> Iterator[_Edit]:
-    """Add lines for further elements, or take those of the surplus ones away."""
+    """Add lines for additional elements, or remove surplus ones."""
     ends = [_line_end(text, _end(text, each)) for each in place.elements]
     if len(value) < len(ends):
         yield _Edit(ends[len(value) - 1], ends[-1], "")
@@ -89,7 +89,7 @@ def _length(text: str, place: Sequence, value: tuple[Any, ...]) -> Iterator[_Edi
 
 
 def _additions(text: str, found: list[Section], values: Values) -> Iterator[_Edit]:
-    """What stands in the file's nodes not yet, and its nodes that do not stand there."""
+    """The parameters that the file's nodes lack, and the nodes that the file lacks."""
     root = read_tree(text)
     missing: dict[str, Any] = {}
     for node, wanted in values.items():
@@ -115,7 +115,7 @@ def _added(text: str, mapping: yaml_tree.Mapping, new: Mapping[str, Any]) -> _Ed
 
 
 def _end(text: str, tree: YamlTree) -> int:
-    """Where something ends; YAML lets a block end where the next thing begins."""
+    """Where something ends; YAML lets a block end where the next item begins."""
     if isinstance(tree, yaml_tree.Mapping) and not tree.flow and tree.entries:
         key, value = tree.entries[-1]
         return max(key.end, _end(text, value))
@@ -145,7 +145,7 @@ def nested(values: Mapping[str, Value]) -> dict[str, Any]:
 
 
 def compare(before: list[Section], after: list[Section], values: Values) -> None:
-    """Raise `ValueError` where a node would not get its values from the new text, or another value has changed."""
+    """Raise `ValueError` if a node would not get its values from the new text, or another value has changed."""
     merged = _merged(after)
     for node, wanted in values.items():
         given = _given(merged, node)
@@ -169,7 +169,7 @@ _Places = dict[str, tuple[str, Scalar | Sequence]]
 
 
 def _merged(found: list[Section]) -> dict[str, _Places]:
-    """What stands below each key of a file, which may have it more than once."""
+    """The parameters below each key of a file, which may contain a key more than once."""
     merged: dict[str, _Places] = {}
     for section in found:
         merged.setdefault(section.key, {}).update({name: (section.key, at) for name, at in section.places.items()})
@@ -177,7 +177,7 @@ def _merged(found: list[Section]) -> dict[str, _Places]:
 
 
 def _given(merged: dict[str, _Places], node: str) -> _Places:
-    """What a node gets of a file: the key and the place of each value. As in ROS, of two keys the later one counts."""
+    """What a file gives a node: the key and position of each value. As in ROS, the later of two keys wins."""
     given: _Places = {}
     for key, places in merged.items():
         if means(key, node):
@@ -186,7 +186,7 @@ def _given(merged: dict[str, _Places], node: str) -> _Places:
 
 
 def same(one: Value | bytes, other: Value | bytes) -> bool:
-    """Whether two values are the same one of the same type; NaN is itself."""
+    """Whether two values are identical, type included; NaN equals itself."""
     if isinstance(one, tuple) and isinstance(other, tuple):
         return len(one) == len(other) and all(same(*pair) for pair in zip(one, other, strict=True))
     if isinstance(one, float) and isinstance(other, float) and math.isnan(one):

@@ -19,13 +19,13 @@ _MARKS = ((codecs.BOM_UTF8, "utf-8"), (codecs.BOM_UTF16_LE, "utf-16-le"), (codec
 
 @dataclass(frozen=True)
 class Saved:
-    """How many parameters a file got, and those that no parameter file can hold, with the reason."""
+    """How many parameters were saved, and which ones no parameter file can hold, with the reason."""
 
     count: int
     left_out: tuple[str, ...] = ()
 
     def text(self, path: Path) -> str:
-        """In words."""
+        """A summary in words."""
         told = f"{self.count} parameter{'' if self.count == 1 else 's'} saved to {path}"
         return told + "".join(f"; left out: {each}" for each in self.left_out)
 
@@ -93,7 +93,7 @@ def _decoded(content: bytes) -> tuple[bytes, str, str]:
 
 
 def _free_name(path: Path) -> str:
-    """A name beside the file that nobody has."""
+    """An unused name next to the file."""
     names = (path.with_name(f"{path.stem}-parameters{number}.yaml") for number in ("", *map(str, range(2, 1000))))
     try:
         return next((str(each) for each in names if not each.exists()), "another folder")

@@ -1,4 +1,4 @@
-"""Parameter files as text: read as ROS reads them, and values written so that it reads them back."""
+"""The text of parameter files: parsed as ROS does, and values written so that ROS reads them back."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ def _places(prefix: str, mapping: Mapping) -> Iterator[tuple[str, Scalar | Seque
 
 
 def value_at(name: str, place: YamlTree) -> Value:
-    """The value in a place; raises `ValueError`, with the line, where ROS reads none."""
+    """The value at a position; raises `ValueError`, with the line, if ROS reads none there."""
     if isinstance(place, Scalar):
         if place.missing:
             raise ValueError(f"line {place.line}: {name} has no value")
@@ -105,7 +105,7 @@ def value_at(name: str, place: YamlTree) -> Value:
 
 
 def plain_value(text: str) -> bool | int | float | str:
-    """What ROS makes of a scalar without quotes: it knows no date, no `1:30` and no null, but `1e3` is a number."""
+    """What ROS makes of an unquoted scalar: it knows no dates, no `1:30` and no null, but `1e3` is a number."""
     if text in _TRUE or text in _FALSE:
         return text in _TRUE
     if _INTEGER.fullmatch(text):
@@ -122,7 +122,7 @@ def plain_value(text: str) -> bool | int | float | str:
 
 
 class _Dumper(_SafeDumper):
-    """Writes every text in quotes that any of the YAML dialects of ROS could take for something else."""
+    """Quotes every text that any YAML dialect of ROS could take for something else."""
 
 
 def _represent_text(dumper: Any, text: str) -> Any:
@@ -133,7 +133,7 @@ _Dumper.add_representer(str, _represent_text)
 
 
 def block_text(key: str, value: Value | Map[str, Any]) -> str:
-    """A key and what stands below it, each on its line, as `ros2 param dump` writes it; ends with a newline."""
+    """A key and what is below it, line by line, as `ros2 param dump` writes it; ends with a newline."""
     return yaml.dump(
         {key: list(value) if isinstance(value, tuple) else value},
         Dumper=_Dumper,
@@ -145,7 +145,7 @@ def block_text(key: str, value: Value | Map[str, Any]) -> str:
 
 
 def inline_text(value: Value | bytes | Map[str, Any]) -> str:
-    """A value as it stands behind a key, on one line."""
+    """A value as written after a key, on one line."""
     data = list(value) if isinstance(value, tuple) else value
     text = yaml.dump(data, Dumper=_Dumper, default_flow_style=True, allow_unicode=True, sort_keys=False, width=10**9)
     return text.removesuffix("\n").removesuffix("\n...")

@@ -1,4 +1,4 @@
-"""A YAML text as a tree that knows where each part stands, so that a value can be replaced and all else stays."""
+"""A YAML text as a tree with positions, so that one value can be replaced and everything else stays."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _TEXT_TAG = "tag:yaml.org,2002:str"
 
 @dataclass
 class Scalar:
-    """A scalar as it is written; `start` and `end` are places in the text."""
+    """A scalar as it is written; `start` and `end` are positions in the text."""
 
     text: str
     quoted: bool
@@ -25,13 +25,13 @@ class Scalar:
 
     @property
     def missing(self) -> bool:
-        """Whether nothing is written there, as behind `key:`."""
+        """Whether nothing is written there, as after `key:`."""
         return not self.text and not self.quoted
 
 
 @dataclass
 class Sequence:
-    """A list, in brackets (`flow`) or with a line for each element."""
+    """A list, in brackets (`flow`) or with one element per line."""
 
     flow: bool
     start: int
@@ -43,7 +43,7 @@ class Sequence:
 
 @dataclass
 class Mapping:
-    """A mapping, in braces (`flow`) or with a line for each key; `column` is that of its keys."""
+    """A mapping, in braces (`flow`) or with one key per line; `column` is that of its keys."""
 
     flow: bool
     start: int
@@ -53,7 +53,7 @@ class Mapping:
     entries: list[tuple[Scalar, YamlTree]] = field(default_factory=list["tuple[Scalar, YamlTree]"])
 
     def get(self, key: str) -> YamlTree | None:
-        """What stands below a key."""
+        """The value of a key."""
         return next((value for name, value in self.entries if name.text == key), None)
 
 
@@ -78,7 +78,7 @@ def read_tree(text: str) -> YamlTree | None:
 
 
 class _Builder:
-    """Makes the tree out of the events of the parser."""
+    """Builds the tree from the parser's events."""
 
     def __init__(self, events: Iterator[Any]) -> None:
         self._events = events
