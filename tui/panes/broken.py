@@ -1,4 +1,4 @@
-"""What stands in the place of a pane that has ended by a fault."""
+"""The placeholder for a pane that ended with an exception."""
 
 from __future__ import annotations
 

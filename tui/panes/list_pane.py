@@ -1,4 +1,4 @@
-"""A pane around a list: its filter, the matches in it, and how many of how many are shown."""
+"""A pane around a list: its filter, the matches, and how many rows of how many are shown."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What every pane is: a view of one part of the snapshot, with a help text of its own."""
+"""The base of all panes: a view of one part of the snapshot, with its own help text."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""The robot's safety in the hands of the person at the keyboard."""
+"""The robot's safety, as far as the person at the keyboard affects it."""

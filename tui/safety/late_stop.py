@@ -1,4 +1,4 @@
-"""A stop that was typed behind keys which are not done yet: the robot does not wait for them."""
+"""A stop typed after keys that are still being handled: it does not wait for them."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ a machine that takes longer for them the robot is rather held once too often.
 
 
 def in_a_while(look: Callable[[], None]) -> None:
-    """Look when a key waits too long; not by a timer of Textual's, whose message would wait, too."""
+    """Call back when a key has waited too long; not by a Textual timer, whose message would wait, too."""
     asyncio.get_running_loop().call_later(LATE_S, look)
 
 
 class LateStop:
-    """Holds the robot for keys that wait, and knows at their turn that it was done."""
+    """Holds the robot at once for a stop key that has to wait, and remembers that when its turn comes."""
 
     def __init__(
         self, stopping: Stopping, typing: Callable[[], bool], later: Callable[[Callable[[], None]], None] = in_a_while
@@ -35,13 +35,13 @@ class LateStop:
         self._done: list[events.Key] = []
 
     def waits(self, event: events.Event) -> None:
-        """A key has to wait for those before it."""
+        """Take note of a key that has to wait for those before it."""
         if isinstance(event, events.Key) and stops(event.key):
             self._waiting.append(event)
             self.later(partial(self._look, event))
 
     def was_done(self, event: events.Key) -> bool:
-        """Whether a key whose turn has come has held the robot already, and is not a letter of a text."""
+        """Whether a key whose turn has come has already held the robot, and is not a letter of a text."""
         if event in self._waiting:
             self._waiting.remove(event)
         if event not in self._done:

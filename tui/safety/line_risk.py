@@ -1,4 +1,4 @@
-"""What a `ros2 param set` line would take from the robot's safety."""
+"""How a `ros2 param set` line would make the robot less safe."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The way out of the app: a question first where values would be lost, and the robot stands meanwhile."""
+"""Quitting the app: asks first if values would be lost, and holds the robot meanwhile."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ MOST = 8
 
 
 class Quitting:
-    """Ends the app. Whoever asks twice is not asked again; signals end it without coming here."""
+    """Ends the app. A second request is not questioned; signals end the app without coming here."""
 
     def __init__(self, app: App[None], console: Console) -> None:
         self._app = app
@@ -26,7 +26,7 @@ class Quitting:
         """Whether the robot is held for the question alone, and may move again when the answer is no."""
 
     def wanted(self) -> None:
-        """End, or ask first; asked for once more while the question is open: end."""
+        """End, or ask first; a second request while the question is open ends at once."""
         snapshot = self._console.snapshot()
         if self.asking or not snapshot.journal.unsaved:
             self._app.exit()
@@ -48,7 +48,7 @@ class Quitting:
         )
 
     def keep_held(self) -> bool:
-        """Turn a stop for the question into one that only a person releases; whether there was one."""
+        """Turn the stop for the question into one that only a person releases; returns whether there was one."""
         held, self._holding = self._holding, False
         return held
 
@@ -59,7 +59,7 @@ class Quitting:
 
 
 def lost(snapshot: ConsoleSnapshot) -> str:
-    """The values that are in no file, line by line."""
+    """The values that are in no file, one per line."""
     names = snapshot.journal.unsaved
     lines = [f"{counted(len(names), 'value')} set here and saved nowhere:"]
     for node, name in names[:MOST]:

@@ -1,4 +1,4 @@
-"""Word of edits, undone ones too, that took from the robot's safety, with the way back."""
+"""Announcements of edits, including undone ones, that made the robot less safe, with a way back."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ BACK = {ChangeSource.EDIT: "u", ChangeSource.REDO: "u", ChangeSource.UNDO: "U"}
 
 
 class SafetyNews:
-    """Reads the journal on; a parameter that goes on the same way, as one that is nudged does, is told of once."""
+    """Follows the journal; a parameter that keeps changing the same way, as when nudged, is announced once."""
 
     def __init__(self, console: Console) -> None:
         self._console = console
@@ -22,7 +22,7 @@ class SafetyNews:
         self._told: set[tuple[str, str]] = set()
 
     def since(self, snapshot: ConsoleSnapshot) -> Sequence[str]:
-        """What is to be told of the edits since the last look."""
+        """What to announce of the edits since the last call."""
         before, self._end = self._end, snapshot.journal.end
         if before is None or before == self._end:
             return ()

@@ -1,4 +1,4 @@
-"""What is said of the robot's emergency stop and of those who hold it, and what is asked before theirs is released."""
+"""The wording for the robot's emergency stop, its holders, and the question before their stops are released."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ MOST = 5
 
 
 def stop_text(drive: DriveInfo) -> str:
-    """What is known of a stop: held is said only when the robot has acknowledged it."""
+    """The state of a stop; it says held only when the robot has acknowledged it."""
     if drive.nothing_to_stop:
         return "STOP: nothing is here to stop, no robot listens for commands (! ends it)"
     if not drive.lockable:
@@ -30,7 +30,7 @@ def stop_text(drive: DriveInfo) -> str:
 
 
 def held_by(drive: DriveInfo) -> str:
-    """By whom and why the robot is held, as the end of a sentence."""
+    """Who holds the robot and why, as the end of a sentence."""
     holder = drive.stops[0].who if holder_is_gone(drive) else drive.stop_holder
     who = "" if holder in ("", "this console") else f" by {harmless(holder)}"
     why = f": {harmless(drive.stop_reason)}" if drive.stop_reason not in ("", "ALL STOP") else ""
@@ -46,7 +46,7 @@ def holder_is_gone(drive: DriveInfo) -> bool:
 def release_question(
     others: Sequence[RobotStop], then: Callable[[None], object], gone: Callable[[], str]
 ) -> Confirmation:
-    """Whether stops that others have made are to be released too; `gone` tells when there are none any more."""
+    """Asks whether to release the stops of others too; `gone` tells when there are none any more."""
     lines = [f"  {harmless(each.who)}: {harmless(each.reason)}" for each in others[:MOST]]
     if len(others) > MOST:
         lines.append(f"  and {len(others) - MOST} more")

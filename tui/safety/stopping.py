@@ -1,4 +1,4 @@
-"""The one key that holds the robot and lets it go."""
+"""The one key that holds the robot and releases it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from textual.screen import Screen
 
 
 class Stopping:
-    """Holds the robot for this console, and takes that back; what others hold is released only after a question."""
+    """Holds the robot for this console, and withdraws that; others' stops are released only after a question."""
 
     def __init__(self, app: App[None], console: Console) -> None:
         self._app = app
@@ -22,9 +22,9 @@ class Stopping:
         """Whether to release what others hold; on the screen, or answered."""
 
     def wanted(self) -> None:
-        """Hold the robot still, or let it go; a stop that nobody has acknowledged is sent again.
+        """Hold the robot, or release it; a stop that nobody has acknowledged is sent again.
 
-        The question whether to let it go is answered by its own keys: asked for meanwhile, the robot stays held.
+        The question whether to release has keys of its own: pressed again meanwhile, this key leaves the robot held.
         """
         drive = self._console.snapshot().drive
         if self._asking or not drive.stopped_here or (drive.lockable and not drive.stop_confirmed):
@@ -34,7 +34,7 @@ class Stopping:
 
     @property
     def held_here(self) -> bool:
-        """Whether this console holds the robot, or has asked for it."""
+        """Whether this console holds the robot, or has requested it."""
         return self._console.snapshot().drive.stopped_here
 
     def hold(self) -> None:
@@ -42,7 +42,7 @@ class Stopping:
         self._console.all_stop(True)
 
     def release(self) -> None:
-        """Take all stops back, those of others after a question."""
+        """Withdraw all stops, those of others after a question."""
         drive = self._console.snapshot().drive
         others = [each for each in drive.stops if not each.here]
         if not drive.stopped_here and not others:

@@ -1,4 +1,4 @@
-"""Arranging the panes by key: they stay on the screen and alive, and the keys mean splits until Escape."""
+"""Arranging the panes with keys: they stay visible and live, and the keys change splits until Escape."""
 
 from __future__ import annotations
 

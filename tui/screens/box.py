@@ -1,4 +1,4 @@
-"""A framed box of text over the panes that is scrolled with the keys of the table."""
+"""A framed box of text over the panes that scrolls with the keys of the key table."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A log message in full."""
+"""A complete log message."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The door for questions that need more room than a line: which screen asks which, imported when it first does."""
+"""Which screen asks which kind of question that needs more than a line; imported on first use."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def screen_for(question: Question[Any]) -> QuestionScreen[Any]:
 
 
 def prepare() -> None:
-    """Import all of them, so that no first question has to wait for that."""
+    """Import all of these screens, so that no first question has to wait for that."""
     for module, name in SCREENS.values():
         _screen(module, name)
 

@@ -1,4 +1,4 @@
-"""The elements of an array as a list: edited, inserted, deleted and moved with the keyboard, then set all at once."""
+"""The elements of an array as a list: edit, insert, delete and move with the keyboard, then set all at once."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Facts about one thing: lines under headings."""
+"""Facts about one item: lines under headings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A message, request or goal to fill in and send, with what comes back: rqt's publisher and service caller."""
+"""A form for a message, request or goal, and the replies: rqt's publisher and service caller."""
 
 from __future__ import annotations
 

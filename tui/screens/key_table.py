@@ -1,6 +1,6 @@
-"""Keys and what they do, one below the other, drawn as far as they are seen.
+"""Keys and what they do, in rows, rendered only as far as they are visible.
 
-Rich works out all of a table before a line of it can be shown, which was a third of what the help took to appear.
+Rich computes a whole table before its first line can be shown, which was a third of the time to open the help.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What a command line printed."""
+"""The output of a command line."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What lies over the panes: a framed box that Escape closes, and from which the robot can be stopped."""
+"""The base of screens over the panes: a framed box that Escape closes, and from which the robot can be stopped."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Choosing one of several things, narrowed by typing."""
+"""A list to choose one item from, narrowed by typing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A question that lies over the panes."""
+"""The base of questions over the panes."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""What a person sets once: colours, glyphs, keys, layouts; files in the user's own folder."""
+"""The user's settings: colours, glyphs, keys, layouts; files in the user's own folder."""

@@ -1,4 +1,4 @@
-"""What panes keep, as files of the user's: alarms beside the settings, how the screen was left in the state folder."""
+"""What panes remember, as the user's files: alarms next to the settings, view state in the state folder."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ HEADS = {"alarms": "# Alarms of bot-console: conditions over topics and paramete
 
 
 class FileKept:
-    """One YAML file for each name, and, where a person does not write it, for each system that is shown."""
+    """One YAML file per name and, unless it is for people to edit, per system shown."""
 
     def __init__(self, system: str = "") -> None:
         self._system = f"{crc32(system.encode()):08x}"
@@ -27,7 +27,7 @@ class FileKept:
         return state_folder() / "left" / f"{name}-{self._system}.yaml"
 
     def get(self, name: str) -> object:
-        """What is in the file; None where there is none, or where it cannot be read."""
+        """The contents of the file; None if there is none, or if it cannot be read."""
         try:
             with self._path(name).open("rb") as file:
                 content = file.read(LARGEST + 1)

@@ -1,4 +1,4 @@
-"""Layouts as files, one each, and what was on the screen last."""
+"""Layouts as files, one each, and the last screen."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Names that a command line or the settings file may give; light, since every start reads them."""
+"""Names that a command line or the settings file may use; cheap to import, since every start reads them."""
 
 THEME_NAMES = ("dark", "light", "high-contrast", "terminal")
 GLYPHS = ("auto", "full", "plain")

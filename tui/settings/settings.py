@@ -1,4 +1,4 @@
-"""The settings file: what it holds, how it is read, and how it looks when it is new."""
+"""The settings file: its contents, how it is parsed, and its initial text."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""What is sent to the terminal: only cells that differ from what it shows, and no faster than it can take them."""
+"""Output to the terminal: only cells that differ from what it shows, and no faster than it can take them."""

@@ -1,4 +1,4 @@
-"""A piece of a line as single cells: what letter each shows, and in which style. Pure."""
+"""A piece of a line as single cells: the character and the style of each. Pure."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Leaving a terminal that takes nothing any more."""
+"""Closing a terminal that no longer accepts output."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ GRACE = 1.0
 
 @contextlib.contextmanager
 def let_go(driver: Any) -> Generator[None]:
-    """Close a driver in here; if its writer is still blocked after a while, what it writes is thrown away.
+    """Run a driver's closing; if its writer is still blocked after a while, its output is discarded.
 
-    Textual waits for the writer without an end, so that quitting would hang on a stalled terminal.
+    Textual waits for the writer without limit, so quitting would hang on a stalled terminal.
     """
     writer: threading.Thread | None = getattr(driver, "_writer_thread", None)
     if writer is None or threading.current_thread() is not threading.main_thread():

@@ -1,4 +1,4 @@
-"""What the terminal shows, cell by cell, and the shortest text that turns it into something else."""
+"""What the terminal shows, cell by cell, and the shortest output that turns it into something else."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The editor that a person has chosen, at a line of a file."""
+"""Opening the user's editor at a line of a file."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ JUMPS = {
 
 
 def editing(file: str, line: int, environment: Mapping[str, str]) -> list[str]:
-    """The command that opens a file at a line; raises `ValueError` with the mend."""
+    """The command that opens a file at a line; raises `ValueError` that says how to fix it."""
     if not Path(file).is_file():
         raise ValueError(f"{file} is not on this machine")
     try:

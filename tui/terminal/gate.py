@@ -1,4 +1,4 @@
-"""When the next frame may be drawn: as fast as the terminal takes them, and no faster than a person needs. Pure."""
+"""When the next frame may be drawn: as fast as the terminal accepts them, and no faster than a person needs. Pure."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A terminal that has gone: what is still written is thrown away, so that nothing waits for it."""
+"""Output to a terminal that is gone is discarded, so that nothing waits for it."""
 
 from __future__ import annotations
 

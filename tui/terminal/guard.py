@@ -1,7 +1,7 @@
-"""Faults are kept from spreading: a message pump of Textual ends with the first exception that leaves a handler.
+"""Contains exceptions: a message pump of Textual ends with the first one that leaves a handler.
 
-It hangs on private parts of Textual, as `output` does; where they are named otherwise, a fault ends the app as Textual
-does it.
+This relies on private parts of Textual, as `output` does; where they are named otherwise, an exception ends the app, as
+without this module.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A guardian beside the console, see `guardian`."""
+"""Starts the guardian beside the console, see `guardian`."""
 
 from __future__ import annotations
 

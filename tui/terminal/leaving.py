@@ -1,4 +1,7 @@
-"""The terminal handed to somebody else for a while: to an editor, or to the shell by Ctrl-Z. The robot rests first."""
+"""Leaving the terminal to another program for a while: an editor, or the shell on Ctrl-Z.
+
+The robot is stopped first.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From one SGR style to the next with the fewest bytes (ECMA-48, 8.3.117). Pure."""
+"""Changes from one SGR style to the next in the fewest bytes (ECMA-48, 8.3.117). Pure."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""ASCII letters in the place of what the console draws with, for terminals and locales that have no others. Pure."""
+"""ASCII replacements for the console's characters, for terminals and locales that have no others. Pure."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""What people type into fields, read: expressions, units, one line of YAML."""
+"""Parses what people type into fields: expressions, units, one line of YAML."""

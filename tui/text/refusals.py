@@ -1,4 +1,4 @@
-"""How a refusal is shown: beside its row, in the detail of its parameter, and as a message."""
+"""The wording of refusals: beside a row, in a parameter's detail, and as a message."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ BY = {"descriptor": "by its descriptor", "callback": "by the node", "console": "
 
 
 def beside_row(refused: SetOutcome) -> str:
-    """The value that was wanted, and why it was not taken."""
+    """The requested value, and why it was refused."""
     return f"✗ {harmless(value_text(refused.value))}: {harmless(refused.reason)}"
 
 
@@ -23,14 +23,14 @@ def in_detail(refused: SetOutcome) -> str:
 
 
 def of_one(refused: SetOutcome) -> str:
-    """A message of one value that was not taken."""
+    """A message about one value that was refused."""
     return f"{refused.node} {refused.name} = {value_text(refused.value)} was refused: {refused.reason}"
 
 
 def of_many(outcomes: Sequence[SetOutcome]) -> str:
-    """A message of values of which none was set because one was refused; empty where all were taken.
+    """A message about values none of which was set because one was refused; empty if all were accepted.
 
-    The one that a node refused is told before those that the console then held back.
+    The value that a node refused comes before those that the console then held back.
     """
     refused = [each for each in outcomes if not each.accepted]
     why = next((each for each in refused if each.refused_by != "console"), refused[0] if refused else None)

@@ -1,4 +1,4 @@
-"""A text as it may stand on the screen: harmless, of so many cells, of so many lines. Pure."""
+"""Makes text safe and short enough for the screen. Pure."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def counted(number: int, word: str) -> str:
 
 
 def harmless(text: str) -> str:
-    """A text with control characters and bidirectional marks made visible, so that none acts on the screen."""
+    """A text with control characters and bidirectional marks made visible, so that none takes effect on the screen."""
     text = text.replace(WIDE_MARK, "")
     if text.isprintable():
         return text
@@ -37,7 +37,7 @@ def _visible(letter: str) -> str:
 
 
 def cut(text: str, width: int, *, pad: bool = False) -> str:
-    """A text of at most so many cells; what is cut ends in an ellipsis. With `pad` blanks fill it up."""
+    """A text of at most so many cells; a longer one ends in an ellipsis. `pad` fills it up with blanks."""
     if cell_len(text) > width:
         text = set_cell_size(text, width - 1).rstrip() + "…" if width > 0 else ""
     return text + " " * (width - cell_len(text)) if pad else text

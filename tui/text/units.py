@@ -1,4 +1,4 @@
-"""Units that people type behind a number, in terms of the unit that a parameter has."""
+"""Units typed after a number, converted to the unit of the parameter."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ _UNIT = re.compile(r"(?<=[\d.)\s])\s*([A-Za-zµ°][A-Za-zµ°0-9/²]*|1/min|%)\s
 
 
 def split_unit(text: str) -> tuple[str, str]:
-    """A text such as `2*25 cm` without its unit, and the unit; empty where there is none.
+    """Split a text such as `2*25 cm` into the text without its unit, and the unit; empty if there is none.
 
-    A name that stands alone, or behind an operator, is no unit.
+    A name that stands alone, or after an operator, is not a unit.
     """
     found = _UNIT.search(text)
     if found is None or not text[: found.start()].rstrip().endswith((*"0123456789.)",)):
@@ -34,7 +34,7 @@ def split_unit(text: str) -> tuple[str, str]:
 
 
 def factor(typed: str, wanted: str) -> float:
-    """What a number in the typed unit is to be multiplied with; raises `ValueError` for a unit that does not fit."""
+    """The factor for a number in the typed unit; raises `ValueError` for a unit that does not fit."""
     typed, wanted = typed.replace("^2", "²"), wanted.replace("^2", "²").replace("s^2", "s²")
     if typed == wanted:
         return 1.0

@@ -1,4 +1,4 @@
-"""What comes of YAML that cannot be read: its own errors, and those of values that tags such as `!!timestamp` make."""
+"""The errors of unreadable YAML: the library's own, and those raised by tags such as `!!timestamp`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ UNREADABLE = (yaml.YAMLError, ValueError, TypeError, AttributeError, LookupError
 
 
 def fault_of(error: Exception) -> str:
-    """What is wrong, on one line, with the number of the line where that is known."""
+    """What is wrong, on one line, with the line number if it is known."""
     mark = getattr(error, "problem_mark", None)
     where = f"line {mark.line + 1}: " if mark else ""
     if isinstance(error, yaml.YAMLError):

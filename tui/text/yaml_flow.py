@@ -1,4 +1,4 @@
-"""The flow syntax of YAML for what stands on one line: quoted texts, and lists of scalars. Standard library only."""
+"""YAML's flow syntax on one line: quoted texts, and lists of scalars. Standard library only."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ _ITEM = re.compile(r"""\s*(?:("(?:[^"\\]|\\.)*")|('(?:[^']|'')*')|([^,"'\[\]{}][
 
 
 def is_plain(text: str) -> bool:
-    """Whether every dialect of YAML that ROS has takes a text without quotes for this text."""
+    """Whether every YAML dialect of ROS reads the unquoted text as this text."""
     return bool(_PLAIN.fullmatch(text)) and text.lower() not in _WORDS
 
 
 def quoted(text: str) -> str:
-    """A text in double quotes, with an escape for whatever cannot be printed."""
+    """A text in double quotes, with escapes for what cannot be printed."""
     return '"' + "".join(each if each.isprintable() and each not in _NAMED else _escaped(each) for each in text) + '"'
 
 
@@ -33,7 +33,7 @@ def _escaped(letter: str) -> str:
 
 
 def unquoted(text: str) -> str:
-    """The text that stands in quotes of either kind; raises `ValueError` for an escape that YAML does not know."""
+    """The contents of a text in quotes of either kind; raises `ValueError` for an unknown escape."""
     if text.startswith("'"):
         return text[1:-1].replace("''", "'")
     return re.sub(r"\\(x..|u.{4}|U.{8}|.)", lambda found: _meant(found[1]), text[1:-1], flags=re.DOTALL)
@@ -47,7 +47,7 @@ def _meant(escape: str) -> str:
 
 
 def in_quotes(text: str) -> bool:
-    """Whether a text is one quoted scalar."""
+    """Whether a text is a single quoted scalar."""
     found = _ITEM.match(text)
     return found is not None and found.end() == len(text) and not found[4] and (found[1] or found[2]) is not None
 

@@ -1,1 +1,4 @@
-"""Tuning: the values of parameters for which runs of the simulator score best. Pure, but for the journal's file."""
+"""Tuning: searches for the parameter values with which simulator runs score best.
+
+Pure, except for the journal's file.
+"""

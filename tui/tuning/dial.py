@@ -1,4 +1,4 @@
-"""A dial: one parameter of one node, and the values that a search may give it."""
+"""A dial: one parameter of one node, and the range that a search may use."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Dial:
 
     @property
     def label(self) -> str:
-        """Node and name, as they are typed."""
+        """Node and name, as typed."""
         return f"{self.node}:{self.name}"
 
     @property
@@ -40,7 +40,7 @@ class Dial:
         return int(math.floor(self.high) - math.ceil(self.low)) + 1
 
     def at(self, share: float) -> DialValue:
-        """The value at a share (0 to 1) of the range."""
+        """The value at a fraction (0 to 1) of the range."""
         value = self.low + min(1.0, max(0.0, share)) * (self.high - self.low)
         if self.kind == "double":
             return min(self.high, max(self.low, round(value, self._digits())))
@@ -48,12 +48,12 @@ class Dial:
         return bool(whole) if self.kind == "bool" else whole
 
     def share(self, value: DialValue) -> float:
-        """Where in the range a value lies, 0 to 1; the middle where the range is a point."""
+        """The position of a value in the range, 0 to 1; the middle if the range is a point."""
         span = self.high - self.low
         return min(1.0, max(0.0, (float(value) - self.low) / span)) if span else 0.5
 
     def between(self, low: float, high: float) -> Dial:
-        """With a narrower range; raises `ValueError` for one that is empty or leaves the descriptor's."""
+        """The dial with a narrower range; raises `ValueError` for one that is empty or exceeds the descriptor's."""
         if not (math.isfinite(low) and math.isfinite(high) and low <= high):
             raise ValueError(f"{self.name}: {low:g}..{high:g} is no range; the lower end comes first")
         if low < self.low or high > self.high:
@@ -80,9 +80,9 @@ def parse_range(text: str) -> tuple[float, float]:
 
 
 def find_dials(words: list[str], known: list[Dial]) -> tuple[Dial, ...]:
-    """The dials that words mean: `name`, `/node:name`, either with `=LOW..HIGH`.
+    """The dials that words stand for: `name`, `/node:name`, either with `=LOW..HIGH`.
 
-    Raises `ValueError` for a word that means none or several, or a parameter without a range.
+    Raises `ValueError` for a word that matches none or several, or a parameter without a range.
     """
     found: list[Dial] = []
     for word in words:

@@ -1,4 +1,4 @@
-"""The journal of a tuning: one line for each run, on the disk as soon as it has ended, so that nothing is run twice."""
+"""The journal of a tuning: one line per run, on disk as soon as the run has ended, so that none is repeated."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class Journal:
         return whole
 
     def report(self, trial: Trial) -> Mapping[str, Any] | None:
-        """What is known of a run."""
+        """What is known about a run."""
         return self._reports.get(trial.key)
 
     def add(self, trial: Trial, report: Mapping[str, Any]) -> None:

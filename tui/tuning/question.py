@@ -1,4 +1,4 @@
-"""What a tuning is asked: dials, score, worlds, seeds, budget. Two that are equal have the same answer."""
+"""What a tuning is asked: dials, score, worlds, seeds, budget. Equal questions have the same answer."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ class Trial:
 
     @property
     def key(self) -> str:
-        """By which the journal knows it."""
+        """The run's key in the journal."""
         return json.dumps([list(self.setting), self.world, self.seed])
 
 
 @dataclass(frozen=True)
 class Question:
-    """What is searched for."""
+    """The object of a search."""
 
     dials: tuple[Dial, ...]
     score: Score
@@ -57,15 +57,15 @@ class Question:
 
     @property
     def settings(self) -> int:
-        """How many settings the runs are enough for."""
+        """How many settings the budget of runs allows."""
         return max(1, self.runs // (self.seeds * len(self.worlds)))
 
     def trials(self, setting: Setting) -> list[Trial]:
-        """The runs that judge a setting."""
+        """The runs that evaluate a setting."""
         return [Trial(setting, world, self.seed + n) for world in self.worlds for n in range(self.seeds)]
 
     def held_out_trials(self, setting: Setting) -> list[Trial]:
-        """The runs that judge the result, on seeds that no setting was chosen by."""
+        """The runs that evaluate the result, on seeds that were not used to choose a setting."""
         first = self.seed + HELD_OUT
         return [Trial(setting, world, first + n) for world in self.worlds for n in range(self.held_out)]
 
@@ -78,7 +78,7 @@ class Question:
 
     @property
     def digest(self) -> str:
-        """A name for all that a run's report depends on, and for the order of the runs."""
+        """An id of everything a run's report depends on, and of the order of the runs."""
         fields = asdict(self)
         text = json.dumps(fields, sort_keys=True, default=str)
         return hashlib.blake2b(text.encode(), digest_size=8).hexdigest()

@@ -1,4 +1,4 @@
-"""The score of a run: a formula over the figures of its report and over topics; more is better."""
+"""The score of a run: a formula over the figures of its report and over topics; higher is better."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ _TOPIC = re.compile(rf"\b({'|'.join(STATISTICS)})\(\s*(/[^\s()]+)\s*\)")
 
 @dataclass(frozen=True)
 class Score:
-    """A formula that has been found right."""
+    """A valid formula."""
 
     text: str
     """As it was typed, or the name of a ready one."""
@@ -55,7 +55,7 @@ class Score:
 
     @property
     def paths(self) -> tuple[str, ...]:
-        """The topics' paths, each once."""
+        """The paths of topics, each once."""
         return tuple(dict.fromkeys(path for _, path in self.topics))
 
     def of(self, report: Mapping[str, Any]) -> float:
@@ -74,7 +74,7 @@ class Score:
 
 
 def figures(report: Mapping[str, Any]) -> dict[str, Number]:
-    """The figures of a report by name; no clearance means that nothing was ever near."""
+    """The figures of a report by name; no clearance means that nothing ever came near."""
     known = {name: report.get(name) for name in FIGURES}
     return {name: math.inf if value is None else value for name, value in known.items()}
 
@@ -102,7 +102,7 @@ def parse_score(text: str) -> Score:
 
 
 def statistics(samples: list[float]) -> dict[str, float]:
-    """What a formula may ask of a topic's samples; nothing where none came."""
+    """What a formula may use of a topic's samples; nothing if there were none."""
     if not samples:
         return {}
     return {

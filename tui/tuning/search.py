@@ -1,7 +1,8 @@
-"""Which settings to try next: over a grid, at random, or ever nearer to the best. Pure and repeatable.
+"""Which settings to try next: on a grid, at random, or closer and closer to the best. Pure and repeatable.
 
-A search is asked for one generation at a time and answers from the seed and from what was tried: nothing depends on
-how many runs go on side by side, nor on which of them ends first.
+A search produces one generation at a time, from the seed and from what was tried: nothing depends on how many runs go
+on
+in parallel, nor on which of them ends first.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A tuning under way: it asks the search for settings, has them run side by side, and keeps the table."""
+"""A tuning in progress: asks the search for settings, runs them in parallel, and keeps the table."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from bot_console.tui.tuning.search import Tried, next_settings
 
 
 class Runner(Protocol):
-    """Runs the simulator; the reports of runs that could not be have `problem`."""
+    """Runs the simulator; the report of a run that failed has `problem`."""
 
     def begin(self, question: Question, trial: Trial) -> Future[Mapping[str, Any]]:
-        """Begin a run, as soon as there is room for it."""
+        """Start a run as soon as there is capacity."""
         ...
 
 
 @dataclass(frozen=True)
 class Judged:
-    """A setting and what its runs came to."""
+    """A setting and the results of its runs."""
 
     setting: Setting
     score: float
@@ -39,7 +39,7 @@ class Judged:
 
 @dataclass(frozen=True)
 class Progress:
-    """How far it is. The same object until something has changed."""
+    """The progress of a study. The same object until something has changed."""
 
     rows: tuple[Judged, ...] = ()
     """Settings in the order in which they were tried; the first is how it was before."""
@@ -64,7 +64,7 @@ class Progress:
 
     @property
     def left(self) -> float | None:
-        """Seconds that are left, if the rest goes as fast; None while nobody knows."""
+        """The estimated seconds left; None while unknown."""
         return self.elapsed / self.fresh * (self.runs - self.done) if self.fresh else None
 
 
@@ -81,7 +81,7 @@ class Study:
     _stopped: bool = False
 
     def stop(self) -> None:
-        """End it after the runs that go on; what was found stays."""
+        """Stop after the runs in progress; results so far are kept."""
         self._stopped = True
 
     def run(self) -> Progress:
@@ -122,7 +122,7 @@ class Study:
         return next_settings(question.search, question.dials, question.settings, question.seed, tried)
 
     def _judge(self, wanted: Mapping[Setting, Sequence[Trial]]) -> list[Judged]:
-        """Settings by the trials of each, which go on side by side."""
+        """Evaluate settings by the trials of each, in parallel."""
         every = list(dict.fromkeys(trial for each in wanted.values() for trial in each))
         running: dict[Future[Mapping[str, Any]], Trial] = {}
         for trial in every:
@@ -169,7 +169,7 @@ class Study:
         return Progress(tuple(self._rows)).best
 
     def _so_far(self) -> tuple[Judged, ...]:
-        """What is judged, with those of the generation under way whose runs have all ended."""
+        """The evaluated settings, with those of the current generation whose runs have all ended."""
         known = self.journal.report
         ended = [each for each in self._going_on.items() if all(known(trial) is not None for trial in each[1])]
         return (*self._rows, *(self._judged(*each) for each in ended))
@@ -182,4 +182,4 @@ class Study:
 
 
 class _Stopped(Exception):
-    """It was asked to end."""
+    """The study was asked to stop."""

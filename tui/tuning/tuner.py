@@ -1,4 +1,4 @@
-"""What a console's panes ask for tuning: who makes the runs is beyond them."""
+"""The protocol by which panes start a tuning; who makes the runs is not their concern."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from bot_console.tui.tuning.study import Progress
 
 
 class Tuning(Protocol):
-    """A question that is worked on beside the thread that draws. Nothing here blocks."""
+    """A question being worked on, in the background. Nothing here blocks."""
 
     @property
     def progress(self) -> Progress:
-        """How far it is; the same object until there is more."""
+        """The progress so far; the same object until there is more."""
         ...
 
     def stop(self) -> None:
-        """End it early; what was found stays, and the same question goes on there."""
+        """Stop early; results so far are kept, and the same question resumes from them."""
         ...
 
     def save(self, name: str, setting: Setting) -> Answer:
-        """Save the system that was tuned, with a setting, as a profile of the user's."""
+        """Save the tuned system, with a setting, as one of the user's profiles."""
         ...
 
 
@@ -31,9 +31,9 @@ class Tuner(Protocol):
     """Makes runs of the simulated robot."""
 
     def problem(self, question: Question) -> str:
-        """Why a question cannot be worked on; empty when it can."""
+        """Why a question cannot be answered; empty when it can."""
         ...
 
     def begin(self, question: Question) -> Tuning:
-        """Begin, or go on with what is known of the very same question."""
+        """Start, or resume from what is known about the very same question."""
         ...

@@ -1,4 +1,4 @@
-"""The command line below the panes: completed with Tab, with the lines of earlier runs."""
+"""The command line below the panes: completion with Tab, and the history of earlier runs."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ HINT = "tab completes · ↑ ↓ lines that begin so · ^r lines that have it ·
 
 
 class Lines(Protocol):
-    """What runs lines."""
+    """Runs lines."""
 
     def wrong(self, line: str) -> str:
         """What is wrong with a line; empty when nothing is."""
         ...
 
     def outlook(self, line: str) -> str:
-        """What will come of it, or how it is written."""
+        """What a line would cause, or its usage."""
         ...
 
     def run(self, line: str) -> None:
@@ -35,7 +35,7 @@ class Lines(Protocol):
 
 
 class CommandField(Vertical):
-    """A line, what it may become above it, what is wrong with it beside it; made when it is first opened."""
+    """A line, with candidates above it and its error beside it; built when first opened."""
 
     DEFAULT_CSS = """
     CommandField { display: none; height: 2; background: $panel; }
@@ -75,7 +75,7 @@ class CommandField(Vertical):
         return self.has_class("open")
 
     def open(self) -> None:
-        """Take the keyboard; the line is empty."""
+        """Take the focus, with an empty line."""
         if self.is_open:
             return
         if not self.children:
@@ -89,7 +89,7 @@ class CommandField(Vertical):
         self._begin()
 
     def close(self) -> None:
-        """Vanish, and give the keyboard back to whom it was taken from."""
+        """Hide, and give the focus back."""
         self.remove_class("open")
         self._completion.forget()
         if self.screen.focused is self._field:
@@ -97,7 +97,7 @@ class CommandField(Vertical):
         self._before = None
 
     def look(self) -> None:
-        """Show candidates that have come meanwhile; called now and then."""
+        """Show candidates that have arrived meanwhile; called now and then."""
         if self.is_open and self._tried < 0:
             self._show()
 
@@ -107,13 +107,13 @@ class CommandField(Vertical):
         self._field.cursor_position = len(text)
 
     def _begin(self) -> None:
-        """Complete from what stands there now."""
+        """Start completing from what is typed now."""
         self._tried, self._typed = -1, self._field.value
         self._complain("")
         self._show()
 
     def on_input_changed(self, event: Input.Changed) -> None:
-        """Find what may come next."""
+        """Look for candidates."""
         event.stop()
         if self.is_open and event.value != self._own_change:
             self._own_change = "\0"
@@ -134,7 +134,7 @@ class CommandField(Vertical):
             self._lines.run(line)
 
     def on_descendant_blur(self) -> None:
-        """Give up when the keyboard goes to a pane; nobody has it when the terminal loses it."""
+        """Give up when the focus goes to a pane; when the terminal loses it, nothing has it."""
         focused = self.screen.focused
         if self.is_open and focused is not None and focused is not self._field:
             self.close()
@@ -163,7 +163,7 @@ class CommandField(Vertical):
             shown.update(text, layout=False)
 
     def action_complete(self, step: int) -> None:
-        """Complete the word as far as all candidates agree; then one candidate after the other."""
+        """Complete the word as far as all candidates agree; then cycle through the candidates."""
         found = self._completion.found(self._typed)
         if not found:
             return
@@ -182,12 +182,12 @@ class CommandField(Vertical):
         self._show()
 
     def action_history(self, step: int) -> None:
-        """An earlier line that begins as this one does, or a later one."""
+        """Recall an earlier line that begins as this one does, or go to a later one."""
         self._put(self._history.step(self._field.value, step))
         self._begin()
 
     def action_search_history(self) -> None:
-        """An earlier line that has what was typed."""
+        """Recall an earlier line that contains what was typed."""
         self._put(self._history.step(self._field.value, -1, anywhere=True))
         self._begin()
 

@@ -1,4 +1,4 @@
-"""A graph drawn as text that can be scrolled, and in which one item is selected."""
+"""A scrollable drawing of a graph with one selected item."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A list of things that come, go and change: the cursor stays with its thing, and only rows that differ are drawn."""
+"""A list of items that come, go and change: the cursor follows its item, and only rows that differ are drawn."""
 
 from __future__ import annotations
 

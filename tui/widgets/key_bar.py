@@ -1,4 +1,4 @@
-"""The last line: keys of the pane that has the keyboard, then those that work everywhere; from the key table."""
+"""The last line: the keys of the focused pane, then those that work everywhere; from the key table."""
 
 from __future__ import annotations
 

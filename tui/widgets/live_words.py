@@ -1,4 +1,4 @@
-"""A line of figures that change faster than a person reads them."""
+"""A line of figures that change faster than a person can read."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ FIGURE = re.compile(r" *[-+]?\d+(?:\.\d+)?")
 
 
 class LiveWords(Words):
-    """Says other words at once, other figures after `EVERY` at the earliest, and the newest ones in any case."""
+    """Shows changed words at once, changed figures at most every `EVERY` seconds, and the newest ones in any case."""
 
     EVERY = 5
     """Beats of the app, of which there are ten a second, for which figures stand before others take their place."""
@@ -31,14 +31,14 @@ class LiveWords(Words):
             self._say_newest()
 
     def beat(self) -> None:
-        """Ten times a second: show what has waited."""
+        """Ten times a second: show what has been waiting."""
         self._beats = True
         self._wait = max(0, self._wait - 1)
         if not self._wait:
             self._say_newest()
 
     def say_now(self, text: str) -> None:
-        """Show a text that somebody has just asked for."""
+        """Show a text that was explicitly requested."""
         self._newest = text
         self._say_newest()
 

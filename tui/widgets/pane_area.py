@@ -1,4 +1,4 @@
-"""The room of the panes: each stands where the tree of splits puts it; borders are moved with the mouse."""
+"""The area of the panes: the tree of splits places them, and borders are moved with the mouse."""
 
 from __future__ import annotations
 

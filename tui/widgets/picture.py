@@ -1,4 +1,4 @@
-"""Lines of styled text that are drawn anew only where they differ from what was shown."""
+"""Lines of styled text, redrawn only where they have changed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A virtual list: rows are drawn when they are seen, so that a million cost what forty do."""
+"""A virtual list: rows are drawn when they are visible, so that a million cost what forty do."""
 
 from __future__ import annotations
 

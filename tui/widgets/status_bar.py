@@ -1,4 +1,4 @@
-"""One line that says how robot and console are; what has changed is told at once, speeds at most once a second."""
+"""One line on the state of robot and console; changed words show at once, speeds at most once a second."""
 
 from __future__ import annotations
 

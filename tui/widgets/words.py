@@ -15,7 +15,7 @@ W = TypeVar("W", bound="Words")
 
 
 class Words(Static):
-    """One line, or as many as its style gives it. What it says is made harmless; a longer line ends in an ellipsis."""
+    """One line, or as many as its style allows. Control characters are shown; a longer line ends in an ellipsis."""
 
     DEFAULT_CSS = """
     Words { height: 1; padding: 0 1; color: $text-muted; background: $surface;
@@ -30,7 +30,7 @@ class Words(Static):
         """What alone is drawn next."""
 
     def say(self, what: str | Text) -> None:
-        """Show a text: nothing is laid out anew, and of one with more lines only those are drawn that are others."""
+        """Show a text: nothing is laid out again, and of several lines only changed ones are drawn."""
         said = harmless(what) if isinstance(what, str) else what
         if said != self._said or (isinstance(said, Text) and said.spans != getattr(self._said, "spans", None)):
             self._said = said

@@ -1,4 +1,4 @@
-"""An alarm: a named condition, the samples it is judged by, and each time that it has begun to hold. No widgets."""
+"""An alarm: a named condition, the samples that decide it, and every time it became active. No widgets."""
 
 from __future__ import annotations
 

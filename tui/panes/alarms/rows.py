@@ -1,4 +1,4 @@
-"""The rows of the alarms pane: whether a condition holds, its name, value, and how often it has begun to hold."""
+"""The rows of the alarms pane: whether a condition is true, its name, its value, and how often it has become true."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""All that is known of one status, as lines. Pure."""
+"""Everything known about one status, as lines. Pure."""
 
 from __future__ import annotations
 

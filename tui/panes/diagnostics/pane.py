@@ -1,4 +1,4 @@
-"""The diagnostics pane: what every part of the robot says of itself, the worst of it shown upwards."""
+"""The diagnostics pane: the status of every part of the robot, the worst of it propagated upwards."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The rows of the diagnostics pane as they are drawn: name, level, what was said, how long ago."""
+"""The rows of the diagnostics pane as they are drawn: name, level, message, age."""
 
 from __future__ import annotations
 

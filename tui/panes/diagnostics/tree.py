@@ -1,4 +1,4 @@
-"""Which rows the diagnostics pane shows: names by their slashes, each with the worst of what stands below it. Pure."""
+"""The tree of the diagnostics pane: names split at slashes, each with the worst level below it. Pure."""
 
 from __future__ import annotations
 

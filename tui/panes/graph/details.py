@@ -1,4 +1,4 @@
-"""Everything known of an item of the graph, each line of it something to go to. Pure."""
+"""Everything known about an item of the graph; each line leads to something. Pure."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A drawn graph for a file: Mermaid or DOT to paste elsewhere, or the picture itself as SVG or text. Pure."""
+"""Exports a drawn graph: as Mermaid or DOT, or the picture itself as SVG or text. Pure."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The list of frames as it is drawn: the tree, how often and when each was told, by whom."""
+"""The list of frames as it is drawn: the tree, and how often, when and by whom each frame was published."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The frames of tf2 as rows of a tree: each below the frame that it stands in. Pure."""
+"""The frames of tf2 as rows of a tree, each below its parent. Pure."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The frames of tf2 in the place of the picture: a tree of rows that is looked at while it is open and seen."""
+"""The frames of tf2 in place of the picture: a tree of rows, updated while it is visible."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a person has focused on in the graph, with the way back and forth. Pure."""
+"""The focused item of the graph, with a history to go back and forth in. Pure."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How the picture of the graph is left: plain data that is kept for the next start. Pure."""
+"""The view state of the graph as plain data, kept for the next start. Pure."""
 
 from __future__ import annotations
 

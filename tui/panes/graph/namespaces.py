@@ -1,4 +1,4 @@
-"""Namespaces as boxes: what is in a folded one is drawn as one item. Pure."""
+"""Namespaces as boxes: the contents of a folded one are drawn as a single item. Pure."""
 
 from __future__ import annotations
 

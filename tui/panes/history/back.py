@@ -1,4 +1,4 @@
-"""Going back to a moment: what parameters had then, as far as the history tells. Pure."""
+"""Going back to a moment: the parameter values of that time, as far as the history knows them. Pure."""
 
 from __future__ import annotations
 

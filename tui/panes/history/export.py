@@ -1,4 +1,4 @@
-"""The history as a file: a table, a list for programs, or a script that does it again."""
+"""Exports the history: as a table, as data for programs, or as a script that repeats the changes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The history pane: every parameter change and refusal, of this run and of earlier ones, and the way back."""
+"""The history pane: every parameter change and refusal, of this run and earlier ones, with a way back."""
 
 from __future__ import annotations
 

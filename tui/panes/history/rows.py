@@ -1,4 +1,4 @@
-"""The rows of the history: when, which parameter, from what to what, by whom, and why not."""
+"""The rows of the history: time, parameter, old and new value, source, and reason of a refusal."""
 
 from __future__ import annotations
 

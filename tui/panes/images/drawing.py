@@ -1,4 +1,4 @@
-"""Pixels as text: two in a cell by half-blocks in colour, or greys as letters; and what a change costs. Pure."""
+"""Pixels as text: coloured half-blocks, two pixels per cell, or letters for greys; and the cost of a change. Pure."""
 
 from __future__ import annotations
 

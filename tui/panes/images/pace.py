@@ -1,4 +1,4 @@
-"""How often a picture may be drawn: so many a second, and no more bytes than a slow line takes. Pure."""
+"""How often an image may be drawn: a limit on frames per second, and on bytes for slow links. Pure."""
 
 from __future__ import annotations
 

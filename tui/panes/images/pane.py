@@ -1,4 +1,4 @@
-"""The images pane: what a camera sees, in half-blocks or letters, within what a terminal takes."""
+"""The images pane: a camera's picture in half-blocks or letters, within what the terminal can take."""
 
 from __future__ import annotations
 

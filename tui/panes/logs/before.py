@@ -1,4 +1,4 @@
-"""What happened just before a log line: changes of parameters and events of the launch, the newest first."""
+"""What happened just before a log line: parameter changes and launch events, newest first."""
 
 from __future__ import annotations
 

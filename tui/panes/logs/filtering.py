@@ -1,4 +1,4 @@
-"""What of the log is shown: a filter, the rules, what is folded; all of it can be switched off and on again."""
+"""Which part of the log is shown: filter, rules, folding; all of it can be suspended and resumed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Levels of the loggers of all nodes, set live: what a node does not log nobody needs to hide."""
+"""The levels of all nodes' loggers, set live: what a node does not log need not be hidden."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Lines like one line, in the words of the filter: of its node, severity, text or place."""
+"""Filter terms for lines like a given one: by its node, severity, text or place."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a person does with the log line at the cursor."""
+"""Actions on the log line at the cursor."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Nodes in the log as the graph spells them: a logger `arm.left.zoo` is the node `/arm/left/zoo`."""
+"""The node names of log lines, spelled as in the graph: the logger `arm.left.zoo` is the node `/arm/left/zoo`."""
 
 from __future__ import annotations
 

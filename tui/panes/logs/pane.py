@@ -1,4 +1,4 @@
-"""The log pane: every node's lines, filtered by severity and words, as many as there may be."""
+"""The log pane: every node's lines, filtered by severity and words, however many there are."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The lines of the log as they are drawn."""
+"""The log lines as they are drawn."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What of the log is hidden or stands out: rules, one a line, in the words of the filter, kept in the user's folder."""
+"""Rules that hide or highlight log lines: one per line, in filter syntax, kept in the user's folder."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The rules of the log: what is hidden and what stands out, switched, changed and deleted."""
+"""The screen for editing log rules: switch them on and off, change and delete them."""
 
 from __future__ import annotations
 

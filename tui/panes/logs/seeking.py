@@ -1,4 +1,4 @@
-"""From match to match in the log, found beside the screen: a million lines do not hold up a key."""
+"""Going from match to match in the log, searched in the background: a million lines delay no key."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The log of the system as the pane reads it."""
+"""The system's log as the pane reads it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How wide the columns of the parameter pane are: a name is whole before a value, a value before its description."""
+"""The column widths of the parameter pane: names get room before values, and values before descriptions."""
 
 from __future__ import annotations
 

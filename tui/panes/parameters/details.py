@@ -1,4 +1,4 @@
-"""What is known of the parameter at the cursor, in words."""
+"""What is known about the parameter at the cursor, in words."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How values are changed in the parameter pane: typed, stepped, slid, marked first, and as one of two sets."""
+"""Changing values in the parameter pane: typed, stepped, with a slider, staged, or as one of two sets."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a person may type or press to change a value, worked out; pure."""
+"""Turns what a person types or presses into a new value. Pure."""
 
 from __future__ import annotations
 

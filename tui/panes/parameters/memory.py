@@ -1,4 +1,4 @@
-"""How the tree of parameters was left: what was open, filtered and selected, as plain data for the next start. Pure."""
+"""The view state of the parameter tree (open, filtered, selected) as plain data for the next start. Pure."""
 
 from __future__ import annotations
 

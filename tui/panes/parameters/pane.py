@@ -1,4 +1,4 @@
-"""The parameter pane: a tree of all nodes' parameters, edited in place; a refusal stays in its row with its reason."""
+"""The parameter pane: all nodes' parameters as a tree, edited in place; a refusal stays in its row with its reason."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which rows the parameter pane shows: namespaces, nodes, groups of names, parameters. Pure."""
+"""The rows of the parameter pane: namespaces, nodes, groups, parameters. Pure."""
 
 from __future__ import annotations
 

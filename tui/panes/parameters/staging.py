@@ -1,4 +1,4 @@
-"""Values that were marked instead of sent, and the two sets that are compared."""
+"""Values that are staged instead of sent, and the two sets that are compared."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The rows of the parameter pane as they are drawn: name, value, slider, description; or why a value was refused."""
+"""The rows of the parameter pane as they are drawn: name, value, slider, description, or why a value was refused."""
 
 from __future__ import annotations
 

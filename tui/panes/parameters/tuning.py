@@ -1,4 +1,4 @@
-"""What is asked before a tuning begins: ranges, the score, how many runs. Pure but for the questions."""
+"""The questions before a tuning begins: ranges, score, number of runs. Pure, apart from asking."""
 
 from __future__ import annotations
 

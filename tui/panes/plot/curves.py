@@ -1,4 +1,4 @@
-"""The curves of a plot: their samples so far, and what of them is seen in a time window."""
+"""The curves of a plot: their samples so far, and the part within a time window."""
 
 from __future__ import annotations
 

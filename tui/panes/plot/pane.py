@@ -1,4 +1,4 @@
-"""The plot pane: numbers over time, of topics' fields and of parameters."""
+"""The plot pane: numbers over time, from topic fields and parameters."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a plot holds: curves, marks, and the window of time that is shown."""
+"""The parts of a plot: curves, markers, and the time window."""
 
 from __future__ import annotations
 

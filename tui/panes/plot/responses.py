@@ -1,4 +1,4 @@
-"""The responses to set A and set B over each other, as lines of the plot, with their figures."""
+"""The responses to set A and set B overlaid, as lines of the plot, with their figures."""
 
 from __future__ import annotations
 

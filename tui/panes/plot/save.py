@@ -1,4 +1,4 @@
-"""A plot as a file: the samples that are seen as CSV, the picture as SVG, PNG, HTML or text."""
+"""Saves a plot: the visible samples as CSV, the picture as SVG, PNG, HTML or text."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a change did to a curve: the two newest responses side by side, and their figures. Pure."""
+"""The effect of a change on a curve: the two newest responses side by side, with their figures. Pure."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Limits that a person sets for a curve: where it lies beyond one is marked and said."""
+"""Limits that a person sets for a curve; values beyond one are marked and announced."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A plot as lines of text: frame, ticks, braille traces, or one strip for each curve. Pure."""
+"""A plot as lines of text: frame, ticks and braille traces, or one strip per curve. Pure."""
 
 from __future__ import annotations
 

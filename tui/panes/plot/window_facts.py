@@ -1,4 +1,4 @@
-"""What the samples of a curve in a window of time amount to."""
+"""Statistics of a curve's samples within a time window."""
 
 from __future__ import annotations
 

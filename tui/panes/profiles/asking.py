@@ -1,4 +1,4 @@
-"""What nodes themselves say to a profile before it is applied: each that can be asked is asked, and nothing is set."""
+"""Asks nodes what they think of a profile before it is applied: all that can be asked, without setting anything."""
 
 from __future__ import annotations
 

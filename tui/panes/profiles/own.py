@@ -1,4 +1,4 @@
-"""The person's own profiles: saved, saved over, renamed and deleted, each after the questions that it takes."""
+"""The user's own profiles: saved, overwritten, renamed and deleted, each after the necessary questions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The profiles pane: what a profile would change is seen before it is applied."""
+"""The profiles pane: shows what a profile would change before it is applied."""
 
 from __future__ import annotations
 

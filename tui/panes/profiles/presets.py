@@ -1,4 +1,4 @@
-"""Presets that nodes keep as a service: who keeps some, and what can be asked of them."""
+"""Presets that nodes keep as a service: who has some, and what can be requested."""
 
 from __future__ import annotations
 

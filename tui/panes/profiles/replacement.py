@@ -1,4 +1,4 @@
-"""One running system in place of another: everything is stopped before anything is launched."""
+"""Replaces one running system with another: everything is stopped before anything is launched."""
 
 from __future__ import annotations
 

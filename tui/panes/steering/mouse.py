@@ -1,4 +1,4 @@
-"""What a place on the steering pane means: a velocity on a slider, both on the pad, a step of a button. Pure."""
+"""What a position on the steering pane means: a velocity on a slider, both on the pad, or a step of a button. Pure."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The steering pane: the robot driven by keys, as rqt_robot_steering does, with a dead-man time."""
+"""The steering pane: drives the robot by keys, as rqt_robot_steering does, with a dead-man time-out."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What steering by keys means: two velocities, an arming switch, and a time-out that stops the robot. Pure."""
+"""The state of keyboard steering: two velocities, an arming switch, and a time-out that stops the robot. Pure."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rates, amounts and times in a few cells. Pure."""
+"""Rates, sizes and times in a few cells. Pure."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The topics pane: what is published how often, messages as they come, and publishing, calling, sending goals."""
+"""The topics pane: what is published and how often, live messages, and publishing, service calls and goals."""
 
 from __future__ import annotations
 

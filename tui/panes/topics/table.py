@@ -1,4 +1,4 @@
-"""The list of topics, services or actions, with what was measured of those in view."""
+"""The list of topics, services or actions, with the measurements of the visible ones."""
 
 from __future__ import annotations
 

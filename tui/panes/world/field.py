@@ -1,4 +1,4 @@
-"""A field of turtles as lines of braille in the colours that they have drawn with. Pure."""
+"""A turtlesim field as lines of braille, in the colours that the turtles have drawn with. Pure."""
 
 from __future__ import annotations
 

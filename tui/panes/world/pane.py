@@ -1,4 +1,4 @@
-"""The world pane: map, robot, trail, LIDAR hits; or a field of turtles."""
+"""The world pane: map, robot, trail and LIDAR hits; or a turtlesim field."""
 
 from __future__ import annotations
 

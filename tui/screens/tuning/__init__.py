@@ -1,1 +1,1 @@
-"""A tuning under way: its screen, and the door to it."""
+"""The screen of a tuning in progress, and how it is opened."""

@@ -1,4 +1,4 @@
-"""The door to a tuning: who asks for one in a pane gets it over the panes, or is told why not."""
+"""Opens a tuning for a pane that asks for one, or says why it cannot."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A tuning under way: how far it is, the scores as a curve and a table, and what to do with the best."""
+"""A tuning in progress: how far it is, the scores as a curve and a table, and what to do with the best setting."""
 
 from __future__ import annotations
 

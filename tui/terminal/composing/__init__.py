@@ -1,1 +1,1 @@
-"""How widgets become lines of the screen with less work than Textual does for it."""
+"""Composing widgets into screen lines with less work than Textual does."""

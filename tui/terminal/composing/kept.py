@@ -1,9 +1,9 @@
-"""How much is kept of what was drawn, and looked for, before.
+"""Limits on Rich's and Textual's caches.
 
-Rich keeps the last 16,384 texts that it cut at a cell (letters that take other than one cell apart): braille of a robot
-that moves, and lines of a log with an emoji, are hardly ever the same twice, and fill that within hours, up to 16 MB.
-Textual keeps the last 1,024 answers to `query_one` of each widget, none of which holds once a widget has come or gone,
-or another pane is shown.
+Rich caches the last 16,384 texts that it cut at a cell (if they contain characters wider or narrower than one): braille
+of a moving robot, and log lines with an emoji, are hardly ever the same twice and fill that within hours, up to 16 MB.
+Textual caches the last 1,024 answers to `query_one` in each widget, none of which holds after the next change of its
+children.
 """
 
 from __future__ import annotations

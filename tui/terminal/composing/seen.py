@@ -1,7 +1,7 @@
-"""What is not seen costs no drawing: Textual lays out and composes all of a screen for whatever changes anywhere in it.
+"""A screen on which hidden widgets cost no drawing: Textual lays out and composes a screen whatever changes in it.
 
-A pane that comes unseen, or one in which something changes while it is hidden, would hold up keys by as much as a
-change of all that is on the screen. It hangs on private parts of Textual, as `output` does.
+A new hidden pane, or a change in one, would otherwise delay keys as much as a change of everything visible. This relies
+on private parts of Textual, as `output` does.
 """
 
 from __future__ import annotations

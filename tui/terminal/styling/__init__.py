@@ -1,1 +1,1 @@
-"""How widgets are styled with less work than Textual does for it."""
+"""Styling widgets with less work than Textual does."""

@@ -1,7 +1,6 @@
-"""A start that styles each widget once: Textual reads every style sheet and matches every rule twice.
+"""A start that styles each widget once; Textual reads every style sheet and matches every rule twice.
 
-It does so because the theme and the active screen may have changed since the widgets were mounted; at the start neither
-has.
+It does so because theme and active screen may have changed since the widgets were mounted; at the start neither has.
 """
 
 from __future__ import annotations

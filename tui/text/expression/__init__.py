@@ -1,1 +1,1 @@
-"""Arithmetic that people type, parsed here and never run as Python: of numbers, and of curves over time."""
+"""Arithmetic that people type, over numbers or over curves; parsed here, and never run as Python."""

@@ -1,4 +1,4 @@
-"""The value of an expression of numbers; nothing else is run."""
+"""Evaluates expressions of numbers, and runs nothing else."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Reads expressions: numbers, names, paths, `+ - * / // % **`, brackets and calls, as closely bound as in Python."""
+"""Parses expressions: numbers, names, paths, `+ - * / // % **`, brackets and calls, with Python's precedence."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def parse(text: str, *, paths: bool = False) -> Tree:
 
 
 class Reader:
-    """Takes an expression in from left to right; a subclass can read what stands around expressions."""
+    """Parses an expression from left to right; a subclass can parse what surrounds expressions."""
 
     def __init__(self, text: str, paths: bool) -> None:
         self._text = text
@@ -44,20 +44,20 @@ class Reader:
         self._depth = 0
 
     def whole(self) -> Tree:
-        """The tree of all that is there."""
+        """The tree of the whole text."""
         tree = self.sum(1)
         if self.rest():
             self.fail("an operator is expected")
         return tree
 
     def rest(self) -> str:
-        """What has not been taken yet, from the next letter on."""
+        """The text not parsed yet."""
         while self._text[self._at : self._at + 1] in (" ", "\t"):
             self._at += 1
         return self._text[self._at :]
 
     def take(self, pattern: re.Pattern[str]) -> str:
-        """What fits a pattern here, which is gone then; empty where nothing does."""
+        """Consume and return what matches a pattern here; empty if nothing does."""
         self.rest()
         found = pattern.match(self._text, self._at)
         if found is None:
@@ -66,7 +66,7 @@ class Reader:
         return found[0]
 
     def fail(self, why: str) -> NoReturn:
-        """Raise `ValueError` with the place and why."""
+        """Raise `ValueError` with the position and the reason."""
         rest = self.rest()
         where = f"at '{cut(rest, 20)}'" if rest else "at the end"
         raise ValueError(f"{where} {why}" if self._text.strip() else "nothing was typed where a number should be")

@@ -1,4 +1,4 @@
-"""What an expression is made of, once it has been read."""
+"""The syntax tree of an expression."""
 
 from __future__ import annotations
 
@@ -40,14 +40,14 @@ class Path:
 
 @dataclass(frozen=True, slots=True)
 class Minus:
-    """The opposite of a value."""
+    """The negation of a value."""
 
     of: Tree
 
 
 @dataclass(frozen=True, slots=True)
 class Two:
-    """One of `+ - * / // % **` and what stands on its sides."""
+    """A binary operation: one of `+ - * / // % **` and its operands."""
 
     operator: str
     left: Tree
@@ -56,7 +56,7 @@ class Two:
 
 @dataclass(frozen=True, slots=True)
 class Call:
-    """A function and what it is given."""
+    """A function and its arguments."""
 
     function: str
     arguments: tuple[Tree, ...]
@@ -66,7 +66,7 @@ Tree: TypeAlias = "Number | Span | Name | Path | Minus | Two | Call"
 
 
 def is_parameter(path: str) -> bool:
-    """Whether a path names a parameter, `/node:name`; the colon of a slice, `/scan/ranges[80:100]`, is none of that."""
+    """Whether a path names a parameter, `/node:name`; the colon of a slice, `/scan/ranges[80:100]`, does not count."""
     return ":" in path.partition("[")[0]
 
 
@@ -80,12 +80,12 @@ def children(tree: Tree) -> tuple[Tree, ...]:
 
 
 def walk(tree: Tree) -> Iterator[Tree]:
-    """The tree and all that is in it, from left to right."""
+    """The tree and everything in it, from left to right."""
     yield tree
     for each in children(tree):
         yield from walk(each)
 
 
 def paths_of(tree: Tree) -> tuple[str, ...]:
-    """The paths in a tree, each once, in their order."""
+    """The paths in a tree, each once, in order."""
     return tuple(dict.fromkeys(each.text for each in walk(tree) if isinstance(each, Path)))

@@ -1,4 +1,4 @@
-"""The finished picture: rows of runs, each a piece of text and what it belongs to. Pure."""
+"""The finished picture: rows of runs, each a piece of text and the item or edges it shows. Pure."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ ATTEMPTS = 6
 
 
 class Run(NamedTuple):
-    """A piece of a row: where it starts, its text, the item it is part of or the edges whose line it is."""
+    """A piece of a row: its column, its text, and the item it belongs to or the edges whose line it is."""
 
     x: int
     text: str
@@ -40,7 +40,7 @@ class Place:
 
 @dataclass(frozen=True)
 class Drawing:
-    """A graph drawn: rows of runs from the left, without overlap, and the place of each item."""
+    """A drawn graph: rows of runs from the left, without overlap, and the place of each item."""
 
     rows: Sequence[tuple[Run, ...]] = ()
     places: Mapping[str, Place] | None = None
@@ -82,7 +82,7 @@ def draw(graph: Digraph, flow: Flow = RIGHT) -> Drawing:
 
 
 class _Plan:
-    """Rows, ports, tracks and lanes of one attempt."""
+    """The rows, ports, tracks and lanes of one attempt."""
 
     def __init__(self, items: Mapping[str, Item], found: Layers, columns: Columns, at: Placed, flow: Flow) -> None:
         self.items = items
@@ -270,7 +270,7 @@ def _centred(text: str, width: int) -> str:
 
 
 class _Rows(Sequence[tuple[Run, ...]]):
-    """Rows that are put together when they are looked at: of a large picture few ever are."""
+    """Rows that are assembled when they are looked at: few rows of a large picture ever are."""
 
     def __init__(self, count: int, lines: Lines, boxes: Mapping[int, list[Run]]) -> None:
         self._count = count

@@ -1,6 +1,6 @@
-"""Which way the arrows run, and what that means for sizes. Pure.
+"""The direction of the arrows, and what it means for sizes. Pure.
 
-Layout knows two directions only: along the arrows and across them. `Flow` says how many cells things take in each.
+Layout knows two directions only: along the arrows and across them. `Flow` gives the cells that things take in each.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What is to be drawn: items and the directed edges between them."""
+"""The graph to be drawn: items, and directed edges between them."""
 
 from __future__ import annotations
 

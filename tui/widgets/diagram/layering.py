@@ -1,4 +1,4 @@
-"""Which column each item stands in, and which edges have to run back to the left. Pure."""
+"""Assigns items to columns, and finds the edges that have to run back to the left. Pure."""
 
 from __future__ import annotations
 

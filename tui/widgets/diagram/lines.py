@@ -1,4 +1,4 @@
-"""Lines on a grid of cells: which strokes meet in a cell, and the box-drawing letter for them."""
+"""Lines on a grid of cells: which strokes meet in a cell, and the box-drawing character for them."""
 
 from __future__ import annotations
 

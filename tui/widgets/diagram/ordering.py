@@ -1,4 +1,4 @@
-"""In which order the items of each column stand, so that few arrows cross. Pure."""
+"""Orders the items of each column so that few arrows cross. Pure."""
 
 from __future__ import annotations
 

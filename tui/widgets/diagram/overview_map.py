@@ -1,4 +1,4 @@
-"""A small map of a picture that is larger than its window: where its items stand, and what is seen. Pure."""
+"""A small map of a picture that is larger than its window: where its items are, and which part is visible. Pure."""
 
 from __future__ import annotations
 

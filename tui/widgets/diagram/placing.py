@@ -1,6 +1,6 @@
-"""On which rows the items stand: near the middle of their neighbours, in order, without touching. Pure.
+"""Assigns items to rows: near the middle of their neighbours, in order, without touching. Pure.
 
-Rows and columns are meant for arrows that run to the right; with arrows that run down they are exchanged.
+Rows and columns are meant for arrows that run to the right; for arrows that run down they are swapped.
 """
 
 from __future__ import annotations

@@ -1,7 +1,8 @@
-"""Where the arrows run in the channel between two columns. Pure.
+"""Routes arrows through the channel between two columns. Pure.
 
-All arrows of one item share a trunk, a vertical line in the channel, from which branches lead to the right. Two trunks
-whose rows overlap stand on different tracks, and their order is chosen so that few lines cross.
+All arrows of one item share a trunk, a vertical line in the channel from which branches lead to the right. Trunks whose
+rows
+overlap get different tracks, ordered so that few lines cross.
 """
 
 from __future__ import annotations

@@ -1,1 +1,1 @@
-"""Questions to the person at the keyboard: each carries what is to happen with its answer."""
+"""Questions to the person at the keyboard: each carries what to do with its answer."""

@@ -1,4 +1,4 @@
-"""Lines that many panes ask for: a filter, the name of a file."""
+"""Questions that many panes share: a filter, or the name of a file."""
 
 from __future__ import annotations
 

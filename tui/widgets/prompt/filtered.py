@@ -1,4 +1,4 @@
-"""What has a filter: one way to ask for it, to take it away, and to go from match to match."""
+"""Widgets with a filter: one way to ask for it, to clear it, and to go from match to match."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A one-line prompt that appears at the foot of a pane: for a value, a filter, a file name."""
+"""A one-line prompt at the bottom of a pane: for a value, a filter, or a file name."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A question that carries its answer: what is asked, of what, and what is to happen then."""
+"""Questions: what is asked, about what, and what to do with the answer."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def _none(_: str) -> Sequence[Option]:
 
 @dataclass(frozen=True)
 class Question(Generic[A]):
-    """What is asked, bound to the thing asked about: nobody looks up afterwards what was meant."""
+    """What is asked, bound to its subject: nobody has to look up afterwards what was meant."""
 
     label: str
     then: Callable[[A], object]
@@ -59,7 +59,7 @@ class Line(Question[str]):
 
 @dataclass(frozen=True)
 class Confirmation(Question[None]):
-    """Whether something shall be done; only yes is an answer."""
+    """Whether to do something; only yes is an answer."""
 
     reasons: str = ""
     """Why it is asked, line by line."""
@@ -67,7 +67,7 @@ class Confirmation(Question[None]):
 
 @dataclass(frozen=True)
 class Option:
-    """One of the things to choose from."""
+    """One of the options to choose from."""
 
     title: str
     about: str = ""
@@ -79,7 +79,7 @@ class Option:
 
 @dataclass(frozen=True)
 class Choice(Question[str]):
-    """One of several things, narrowed by typing."""
+    """One of several options, narrowed by typing."""
 
     find: Callable[[str], Sequence[Option]] = _none
     """The options for what was typed, the best first."""
@@ -93,14 +93,14 @@ class Choice(Question[str]):
 
 @dataclass(frozen=True)
 class Form(Question[dict[str, str]]):
-    """Values for the arguments of a launch file; those that differ from their defaults are the answer."""
+    """Values for the arguments of a launch file; the answer is those that differ from their defaults."""
 
     arguments: Sequence[LaunchArgument] = ()
 
 
 @dataclass(frozen=True)
 class Elements(Question[Value]):
-    """The elements of an array, to be changed one by one; the answer is the whole array."""
+    """The elements of an array, edited one by one; the answer is the whole array."""
 
     values: Sequence[bool | int | float | str | bytes] = ()
     kind: Kind = Kind.STRING_ARRAY
@@ -108,7 +108,7 @@ class Elements(Question[Value]):
 
 @dataclass(frozen=True, kw_only=True)
 class Fill(Question[None]):
-    """A message, request or goal to be filled in and sent, as often as the person wants."""
+    """A message, request or goal to fill in and send, as often as the person wants."""
 
     payload: Payload
     name: str
@@ -124,7 +124,7 @@ class Asker(Generic[A]):
     _question: Question[A] | None = None
 
     def close(self) -> None:
-        """Take the question from the screen."""
+        """Remove the question from the screen."""
         raise NotImplementedError
 
     def tell(self, why: str) -> None:
@@ -133,11 +133,11 @@ class Asker(Generic[A]):
 
     @property
     def is_open(self) -> bool:
-        """Whether it asks."""
+        """Whether a question is open."""
         return self._question is not None
 
     def answer(self, answer: A) -> None:
-        """Close, and do what the question is for."""
+        """Close, and act on the answer."""
         if self.look() and self._question is not None:
             question, self._question = self._question, None
             self.close()
@@ -151,7 +151,7 @@ class Asker(Generic[A]):
             question.given_up()
 
     def look(self) -> bool:
-        """Whether the question still makes sense; when its subject has left it closes and says so."""
+        """Whether the question still makes sense; if its subject is gone, it closes and says so."""
         why = self._question.gone() if self._question else ""
         if why:
             self.give_up()

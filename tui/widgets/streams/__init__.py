@@ -1,1 +1,1 @@
-"""Command lines that go on below the panes."""
+"""Command lines that keep running below the panes."""

@@ -1,4 +1,4 @@
-"""A command line that goes on: its last lines, and no keyboard of its own."""
+"""The panel of a running command line: its last lines; it never takes the focus."""
 
 from __future__ import annotations
 

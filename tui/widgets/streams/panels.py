@@ -1,4 +1,4 @@
-"""The command lines that go on, side by side below the panes, as many as the terminal has room for."""
+"""The running command lines, side by side below the panes, as many as fit the terminal."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Curves worked out of others: expressions, what they can do, and what is suggested while one is typed."""
+"""Curves computed from others: expressions, their functions, and suggestions while one is typed."""

@@ -1,4 +1,4 @@
-"""A curve that is worked out of others by an expression."""
+"""A curve computed from others by an expression."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Expressions over curves: `/a/x - /b/x`, `deg(/yaw/data)`, `mean(/odom/..., 1 s)`; parsed, and worked out in NumPy.
+"""Expressions over curves: `/a/x - /b/x`, `deg(/yaw/data)`, `mean(/odom/..., 1 s)`; parsed, and evaluated in NumPy.
 
-The value is told at each sample of the topic that is named first; every other path has there the value it had last.
+There is a value at each sample of the topic named first; every other path contributes its last value at that time.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What expressions over curves can do: functions of values, and functions of the values of some time."""
+"""The functions in expressions over curves: of single values, and of the values within a time span."""
 
 from __future__ import annotations
 

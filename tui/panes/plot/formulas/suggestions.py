@@ -1,4 +1,4 @@
-"""What may be plotted, for what was typed so far: paths by their letters, and expressions as they stand."""
+"""Suggestions for what to plot, given what has been typed so far: matching paths, and expressions."""
 
 from __future__ import annotations
 

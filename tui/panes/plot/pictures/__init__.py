@@ -1,1 +1,1 @@
-"""Pictures of a plot beside the framed one: a line for each curve, one curve against another, and files."""
+"""Other pictures of a plot: a line per curve, one curve against another, and files."""

@@ -1,4 +1,4 @@
-"""Curves against another one in place of time: where a robot was, or what a motor makes of a command."""
+"""Curves plotted against another one instead of time: a robot's path, or a motor's response to a command."""
 
 from __future__ import annotations
 

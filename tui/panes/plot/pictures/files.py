@@ -1,4 +1,4 @@
-"""A sheet as a file: SVG by hand, PNG by OpenCV where it is installed."""
+"""Saves a sheet: SVG directly, PNG with OpenCV where that is installed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A plot for a file: where its lines and words stand on a sheet, whatever writes them (SVG, PNG)."""
+"""The layout of a plot for a file: positions of lines and words on a sheet, for any format (SVG, PNG)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One line for each curve: its name, value, rate, least and greatest value, and its trace in small; for many curves."""
+"""One line per curve: name, value, rate, minimum, maximum, and a small trace; for many curves."""
 
 from __future__ import annotations
 
