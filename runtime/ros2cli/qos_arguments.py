@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from typing import Any
 
+from rclpy.duration import Duration
 from rclpy.qos import (
     DurabilityPolicy,
     HistoryPolicy,
@@ -61,17 +63,7 @@ def add_qos_arguments(parser: argparse.ArgumentParser, verb: str, default: str) 
 
 def profile(arguments: argparse.Namespace, default: str) -> QoSProfile:
     """The profile that the options ask for, on top of a preset."""
-    name = arguments.qos_profile or default
-    base: Any = QoSProfile(depth=10) if name in ("unknown", "default") else QoSPresetProfiles.get_from_short_key(name)
-    changed = QoSProfile(
-        history=base.history,
-        depth=base.depth,
-        reliability=base.reliability,
-        durability=base.durability,
-        liveliness=base.liveliness,
-    )
-    if arguments.qos_depth is not None:
-        changed.depth = arguments.qos_depth
+    changed = _preset(arguments.qos_profile or default)
     for option, policy, attribute in (
         (arguments.qos_history, HistoryPolicy, "history"),
         (arguments.qos_reliability, ReliabilityPolicy, "reliability"),
@@ -80,16 +72,57 @@ def profile(arguments: argparse.Namespace, default: str) -> QoSProfile:
     ):
         if option:
             setattr(changed, attribute, policy[option.upper()])
+    lease: float = arguments.qos_liveliness_lease_duration_seconds or 0
+    if lease > 0:
+        changed.liveliness_lease_duration = Duration(seconds=lease)
+    depth: int = arguments.qos_depth or 0  # 0 and less leave the preset's, as upstream
+    if depth > 0:
+        changed.depth = depth
+    elif changed.durability == DurabilityPolicy.TRANSIENT_LOCAL and changed.depth == 0:
+        changed.depth = 1
     return changed
 
 
+def _preset(name: str) -> QoSProfile:
+    """A preset of its own, that can be changed."""
+    base: Any = QoSProfile(depth=10) if name in ("unknown", "default") else QoSPresetProfiles.get_from_short_key(name)
+    return QoSProfile(
+        history=base.history,
+        depth=base.depth,
+        reliability=base.reliability,
+        durability=base.durability,
+        liveliness=base.liveliness,
+    )
+
+
 def compatible(arguments: argparse.Namespace, default: str, publishers: Any) -> QoSProfile:
-    """As `profile`, but where no option says otherwise, one that all the publishers of a topic satisfy."""
+    """As `profile`, but where no option but a preset is given, one that all the publishers of a topic satisfy.
+
+    Says so where that is less than what some of them offer.
+    """
     chosen = profile(arguments, default)
-    if arguments.qos_profile or arguments.qos_reliability or arguments.qos_durability or not publishers:
+    settings = ("depth", "history", "reliability", "durability", "liveliness", "liveliness_lease_duration_seconds")
+    if not publishers or any(getattr(arguments, f"qos_{each}") is not None for each in settings):
         return chosen
-    reliable = all(each.qos_profile.reliability == ReliabilityPolicy.RELIABLE for each in publishers)
-    lasting = all(each.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL for each in publishers)
-    chosen.reliability = ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT
-    chosen.durability = DurabilityPolicy.TRANSIENT_LOCAL if lasting else DurabilityPolicy.VOLATILE
+    offers = [each.qos_profile for each in publishers]
+    chosen.reliability = _offered(
+        [each.reliability for each in offers], ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
+    )
+    chosen.durability = _offered(
+        [each.durability for each in offers], DurabilityPolicy.TRANSIENT_LOCAL, DurabilityPolicy.VOLATILE
+    )
     return chosen
+
+
+def _offered(offers: Sequence[Any], best: Any, fallback: Any) -> Any:
+    """The better of two policies where everybody offers it."""
+    count = offers.count(best)
+    if count == len(offers):
+        return best
+    if count:
+        kind = f"QoS{type(best).__name__.removeprefix('QoS')}"
+        print(
+            f"Some, but not all, publishers are offering {kind}.{best.name}. Falling back to {kind}.{fallback.name} "
+            "as it will connect to all publishers"
+        )
+    return fallback

@@ -20,8 +20,14 @@ from ros2cli.yaml_values import read_values
 from rosidl_runtime_py import set_message_fields
 
 
-def _hidden_argument(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--include-hidden-services", action="store_true", help="Consider hidden services as well")
+def _hidden_argument(parser: argparse.ArgumentParser, **more: str) -> None:
+    text = "Consider hidden services as well"
+    parser.add_argument("--include-hidden-services", action="store_true", help=text, **more)
+
+
+def _hidden_as_well(parser: argparse.ArgumentParser) -> None:
+    """The same option behind the verb: where it is not, the one before the verb counts."""
+    _hidden_argument(parser, default=argparse.SUPPRESS)
 
 
 def _rows(node: Node, include_hidden: bool) -> list[tuple[str, list[str]]]:
@@ -35,7 +41,7 @@ def _list_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-c", "--count-services", action="store_true", help="Only display the number of services discovered"
     )
-    _hidden_argument(parser)
+    _hidden_as_well(parser)
 
 
 def _list(arguments: argparse.Namespace) -> Result:
@@ -52,7 +58,7 @@ def _list(arguments: argparse.Namespace) -> Result:
 def _name_arguments(parser: argparse.ArgumentParser) -> None:
     add_strategy_arguments(parser)
     parser.add_argument("service_name", help="Name of the ROS service (e.g. '/talker/list_parameters')")
-    _hidden_argument(parser)
+    _hidden_as_well(parser)
 
 
 def _info_arguments(parser: argparse.ArgumentParser) -> None:
@@ -93,7 +99,7 @@ def _find_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-c", "--count-services", action="store_true", help="Only display the number of services discovered"
     )
-    _hidden_argument(parser)
+    _hidden_as_well(parser)
 
 
 def _find(arguments: argparse.Namespace) -> Result:

@@ -11,8 +11,14 @@ from ros2cli.endpoints import hidden
 from ros2cli.verbs import topic_echo, topic_pub, topic_rate
 
 
-def _hidden_argument(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--include-hidden-topics", action="store_true", help="Consider hidden topics as well")
+def _hidden_argument(parser: argparse.ArgumentParser, **more: str) -> None:
+    text = "Consider hidden topics as well"
+    parser.add_argument("--include-hidden-topics", action="store_true", help=text, **more)
+
+
+def _hidden_as_well(parser: argparse.ArgumentParser) -> None:
+    """The same option behind the verb: where it is not, the one before the verb counts."""
+    _hidden_argument(parser, default=argparse.SUPPRESS)
 
 
 def _list_arguments(parser: argparse.ArgumentParser) -> None:
@@ -21,7 +27,7 @@ def _list_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-c", "--count-topics", action="store_true", help="Only display the number of topics discovered"
     )
-    _hidden_argument(parser)
+    _hidden_as_well(parser)
     parser.add_argument("-v", "--verbose", action="store_true", help="List full details about each topic")
 
 
@@ -88,7 +94,7 @@ def _info(arguments: argparse.Namespace) -> Result:
 def _type_arguments(parser: argparse.ArgumentParser) -> None:
     add_strategy_arguments(parser)
     parser.add_argument("topic_name", help="Name of the ROS topic to get type (e.g. '/chatter')")
-    _hidden_argument(parser)
+    _hidden_as_well(parser)
 
 
 def _type(arguments: argparse.Namespace) -> Result:
@@ -107,7 +113,7 @@ def _find_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-c", "--count-topics", action="store_true", help="Only display the number of topics discovered"
     )
-    _hidden_argument(parser)
+    _hidden_as_well(parser)
 
 
 def _find(arguments: argparse.Namespace) -> Result:

@@ -7,11 +7,13 @@ from collections.abc import Callable
 from operator import attrgetter
 from typing import Any
 
+from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
 from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, spin_until
 from ros2cli.qos_arguments import add_qos_arguments, compatible
 from ros2cli.told_types import message_class, typed_class
+from ros2cli.verbs.topic_pub import POSITIVE_FLOAT
 from rosidl_runtime_py import message_to_csv, message_to_yaml
 from rosidl_runtime_py.utilities import get_message
 
@@ -83,7 +85,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
         "(the message).",
     )
     add("--once", action="store_true", help="Print the first message received and then exit.")
-    add("--timeout", metavar="N", type=float, help="Set a timeout in seconds for waiting")
+    add("--timeout", metavar="N", type=POSITIVE_FLOAT, help="Set a timeout in seconds for waiting")
     add("--include-message-info", "-i", action="store_true", help="Shows the associated message info.")
 
 
@@ -172,6 +174,11 @@ def _message_class(node: Node, arguments: argparse.Namespace) -> Any:
     return message_class(node, name, types[0])
 
 
+def _tell_lost(info: Any) -> None:
+    counts = f"\ttotal count change:{info.total_count_change}\n\ttotal count: {info.total_count}"
+    print(f"A message was lost!!!\n{counts}", end="---\n")  # upstream, too, does not end the line before the dashes
+
+
 def echo(arguments: argparse.Namespace) -> Result:
     """`ros2 topic echo`."""
     printer = _Printer(arguments)
@@ -180,6 +187,7 @@ def echo(arguments: argparse.Namespace) -> Result:
         if isinstance(kind, str):
             return kind
         qos = compatible(arguments, "sensor_data", node.get_publishers_info_by_topic(arguments.topic_name))
-        node.create_subscription(kind, arguments.topic_name, printer.show, qos, raw=arguments.raw)
+        lost = None if arguments.no_lost_messages else SubscriptionEventCallbacks(message_lost=_tell_lost)
+        node.create_subscription(kind, arguments.topic_name, printer.show, qos, raw=arguments.raw, event_callbacks=lost)
         spin_until(node, lambda: printer.done, arguments.timeout)
     return printer.problem or None

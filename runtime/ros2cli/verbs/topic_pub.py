@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import itertools
+import math
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
@@ -109,8 +110,9 @@ def publish(arguments: argparse.Namespace) -> Result:
     arguments.no_daemon = True
     with DirectNode(arguments, name=arguments.node_name or "") as node:
         publisher = node.create_publisher(kind, arguments.topic_name, profile(arguments, "default"))
-        if not _matched(node, publisher, arguments):
-            return f"Timed out waiting for subscribers: Expected {arguments.wait_matching_subscriptions} subscribers"
+        problem = _wait_for_subscriptions(node, publisher, arguments)
+        if problem:
+            return problem
         try:
             if arguments.stdin:
                 messages = (_filled(kind, each) for each in yaml.safe_load_all(sys.stdin))
@@ -129,42 +131,64 @@ class _Refused(Exception):
 _Filled = tuple[Any, Sequence[Callable[[Any], None]]]
 
 
-def _matched(node: Node, publisher: Any, arguments: argparse.Namespace) -> bool:
-    """Wait for subscriptions, saying so once a second."""
+def _wait_for_subscriptions(node: Node, publisher: Any, arguments: argparse.Namespace) -> str:
+    """Wait for as many as were asked for, saying so once a second; what to say where too few came in time."""
     wanted = arguments.wait_matching_subscriptions
     wanted = int(arguments.once or arguments.times > 0) if wanted is None else wanted
-    waited = 0.0
-    while publisher.get_subscription_count() < wanted:
-        if arguments.max_wait_time_secs is not None and waited >= arguments.max_wait_time_secs:
-            return False
+    left: float = math.inf if arguments.max_wait_time_secs is None else arguments.max_wait_time_secs
+    count: Callable[[], int] = publisher.get_subscription_count
+    while count() < wanted:
+        if left <= 0:
+            # the misspelt word is upstream's: scripts look for its line
+            return f"Timed out waiting for subscribers: Expected {wanted} subcribers but only got {count()} subscribers"
         print(f"Waiting for at least {wanted} matching subscription(s)...")
-        spin_until(node, lambda: publisher.get_subscription_count() >= wanted, 1.0)
-        waited += 1.0
-    return True
+        spin_until(node, lambda: count() >= wanted, min(left, 1.0))
+        left -= 1.0
+    return ""
 
 
 def _loop(node: Node, publisher: Any, messages: Iterator[_Filled], arguments: argparse.Namespace) -> None:
-    times = 1 if arguments.once else arguments.times
-    following = next(messages, None)
+    """Publish the first message at once and the others by a timer of the node, which is served meanwhile."""
+    sender = _Sender(node, publisher, messages, arguments)
     print("publisher: beginning loop")
-    clock = Clock(clock_type=ClockType.STEADY_TIME)
-    due = clock.now()
-    count = 0
-    while following is not None:
-        message, stamps = following
-        now = node.get_clock().now().to_msg()
+    sender.send()
+    if not sender.done:
+        node.create_timer(1.0 / arguments.rate, sender.send)
+        spin_until(node, lambda: sender.done)
+    Clock(clock_type=ClockType.STEADY_TIME).sleep_for(Duration(seconds=arguments.keep_alive))
+
+
+class _Sender:
+    """Publishes messages one by one, tells of every n-th, and knows when enough were published."""
+
+    def __init__(self, node: Node, publisher: Any, messages: Iterator[_Filled], arguments: argparse.Namespace) -> None:
+        self._node = node
+        self._publisher = publisher
+        self._messages = messages
+        self._tell: int = arguments.print
+        self._times: int = 1 if arguments.once else arguments.times
+        self._count = 0
+        self._following = next(messages, None)
+
+    @property
+    def done(self) -> bool:
+        """Whether the last message is published."""
+        return self._following is None or bool(self._times and self._count >= self._times)
+
+    def send(self) -> None:
+        """Publish a message, if there is one to come."""
+        if self.done or self._following is None:
+            return
+        message, stamps = self._following
+        now = self._node.get_clock().now().to_msg()
         for set_stamp in stamps:
             set_stamp(now)
-        count += 1
-        if arguments.print and count % arguments.print == 0:
-            print(f"publishing #{count}: {message!r}\n")
-        publisher.publish(message)
-        if times and count >= times:
-            break
-        due += Duration(seconds=1.0 / arguments.rate)
-        clock.sleep_until(due)
-        following = next(messages, None)
-    clock.sleep_for(Duration(seconds=arguments.keep_alive))
+        self._count += 1
+        if self._tell and self._count % self._tell == 0:
+            print(f"publishing #{self._count}: {message!r}\n")
+        self._publisher.publish(message)
+        if not self.done:
+            self._following = next(self._messages, None)
 
 
 def _filled(kind: Any, values: Any) -> _Filled:

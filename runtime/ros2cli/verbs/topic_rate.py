@@ -158,7 +158,7 @@ def bandwidth(arguments: argparse.Namespace) -> Result:
     sizes: deque[tuple[int, int]] = deque(maxlen=arguments.window_size)
     arguments.no_daemon = True
     with DirectNode(arguments) as node:
-        clock = Clock(clock_type=ClockType.STEADY_TIME)
+        clock = node.get_clock() if arguments.use_sim_time else Clock(clock_type=ClockType.STEADY_TIME)
 
         def take(data: bytes) -> None:
             sizes.append((clock.now().nanoseconds, len(data)))
@@ -167,6 +167,9 @@ def bandwidth(arguments: argparse.Namespace) -> Result:
             if len(sizes) < 2:
                 return ""
             seconds = (clock.now().nanoseconds - sizes[0][0]) * 1e-9
+            if seconds <= 0:  # the simulation began anew
+                sizes.clear()
+                return ""
             amounts = [size for _, size in sizes]
             total = sum(amounts) / seconds
             shown = [_amount(each, total) for each in (total, sum(amounts) / len(amounts), min(amounts), max(amounts))]

@@ -25,7 +25,8 @@ def test_list(ros) -> None:
     ros.node(LISTENER)
     ros.node("from std_msgs.msg import Empty\nnode = Node('h')\nhidden = node.create_publisher(Empty, '_hidden', 1)")
     assert ros.ask("topic", "list").stdout.split() == ["/chatter", "/count", "/parameter_events", "/rosout"]
-    assert "/_hidden" in ros.ask("topic", "list", "--include-hidden-topics").stdout.split()
+    for words in (("list", "--include-hidden-topics"), ("--include-hidden-topics", "list")):
+        assert "/_hidden" in ros.ask("topic", *words).stdout.split()
     assert "/count [std_msgs/msg/Int32]\n" in ros.ask("topic", "list", "-t").stdout
     assert ros.ask("topic", "list", "-c").stdout == "4\n"
     published, subscribed = ros.ask("topic", "list", "-v").stdout.split("Subscribed topics:\n")
@@ -117,9 +118,11 @@ def test_pub_waits_for_a_subscriber(ros) -> None:
 
 
 def test_pub_gives_up_waiting(ros) -> None:
-    given_up = ros.ask("topic", "pub", "-t", "2", "--max-wait-time-secs", "2", "/x", "std_msgs/msg/Empty")
+    given_up = ros.ask("topic", "pub", "-t", "2", "--max-wait-time-secs", "1.5", "/x", "std_msgs/msg/Empty")
     assert given_up.exit == 1
-    assert given_up.stderr.startswith("Timed out waiting for subscribers")
+    assert given_up.stdout == "Waiting for at least 1 matching subscription(s)...\n" * 2
+    assert given_up.stderr == "Timed out waiting for subscribers: Expected 1 subcribers but only got 0 subscribers\n"
+    assert ros.clock.steady_ns() == pytest.approx(1.5e9, abs=1e8)
 
 
 def test_pub_at_a_rate(ros) -> None:
