@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Node `autotune`: adjusts one parameter of another node while the robot drives, by what the sensors tell.
+"""Node `autotune`: adjusts one parameter of another node while the robot drives, judging by its sensors.
 
 It changes nothing without a safety monitor that says that it watches, and puts the value of before back when that falls
 silent or is stopped. The parameters of the safety monitor itself are out of its reach.
@@ -39,7 +39,7 @@ DIGITS = 3
 
 
 class AutoTune(Node):
-    """Score of a value: the mean speed (m/s) over a period, less what nearness and collisions cost."""
+    """Rates a value by the mean speed (m/s) over a period, less penalties for nearness and collisions."""
 
     def __init__(self) -> None:
         super().__init__("autotune")
@@ -73,7 +73,7 @@ class AutoTune(Node):
         self.get_logger().info(f"Adjusting {self._node} {self._name} as soon as a safety monitor watches")
 
     def _forget(self) -> None:
-        """Begin a period."""
+        """Start a new period."""
         self._began = self._steady.now().nanoseconds
         self._speeds: list[float] = []
         self._nearest = math.inf
@@ -110,7 +110,7 @@ class AutoTune(Node):
         return "" if self._client.services_are_ready() else f"{self._node} does not run"
 
     async def _look(self) -> None:
-        """Twice a second: stop at once where it must not go on; after a period, or a collision, the next value."""
+        """Twice a second: stop at once when it must not continue; after a period or a collision, set the next value."""
         if self._busy:
             return
         self._busy = True
@@ -144,7 +144,7 @@ class AutoTune(Node):
         self._climber = None
 
     async def _ready(self) -> bool:
-        """Learn value and range of the parameter, where that is not known or somebody else has set it."""
+        """Learn the parameter's value and range, if they are unknown or somebody else has set it."""
         now = await self._value()
         if now is None:
             return False
@@ -176,7 +176,7 @@ class AutoTune(Node):
         return (span.from_value, span.to_value) if span else None
 
     async def _send(self, value: float) -> None:
-        """Set a value, and begin a period with it."""
+        """Set a value and start a period with it."""
         value = round(value, DIGITS)
         score, before = self._score() if self._speeds else math.nan, self._sent
         refusal = await self._set(value)
@@ -189,7 +189,7 @@ class AutoTune(Node):
         self._forget()
 
     async def _set(self, value: float) -> str:
-        """Why the node refused; empty when it took the value."""
+        """Set a value; returns why the node refused, and an empty text when it accepted."""
         answer: Any = await self._client.set_parameters([Parameter(self._name, value=value)])
         result = answer.results[0] if answer and answer.results else None
         if result is None or not result.successful:

@@ -1,4 +1,4 @@
-"""Where to drive when a scan has come: towards the best opening, slower the less room there is ahead."""
+"""Where to drive after a scan: towards the best opening, and slower the less room there is ahead."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ WANDER_PERIODS = (173.0, 282.0)
 
 @dataclass(frozen=True, slots=True)
 class Rules:
-    """The navigator's parameters as they act here: m/s, m, 0 to 255, rad/s."""
+    """The navigator's parameters as they apply here: m/s, m, 0 to 255, rad/s."""
 
     max_speed: float
     safety_distance: float
@@ -43,7 +43,7 @@ class Rules:
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """A velocity in m/s and rad/s, whether the way is blocked, and the nearest thing seen in m (`inf`: none)."""
+    """A velocity in m/s and rad/s, whether the way is blocked, and the distance of the nearest return in m or `inf`."""
 
     linear: float
     angular: float
@@ -52,7 +52,7 @@ class Decision:
 
 
 class Avoidance:
-    """Chooses a velocity for each scan; remembers only which way it is turning."""
+    """Chooses a velocity for each scan; its only memory is which way it is turning."""
 
     def __init__(self) -> None:
         self._heading = 0.0
@@ -112,11 +112,11 @@ class Avoidance:
         return fastest * max(0.2, math.cos(self._heading)), angular
 
     def _whim(self) -> float:
-        """The heading in rad that is favoured now."""
+        """The heading in rad that is preferred now."""
         return 0.5 * WANDER * sum(math.sin(math.tau * self._scans / period) for period in WANDER_PERIODS)
 
     def _keep_side(self, ranges: Floats) -> float:
-        """Where to turn on the spot: +1 (left) or -1, the opener side at first, then the same until the way is free.
+        """Where to turn on the spot: +1 (left) or -1, at first to the more open side, then on until the way is free.
 
         Changing sides in a corner would never end.
         """

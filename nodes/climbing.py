@@ -1,4 +1,4 @@
-"""Finding a better value while driving: step, judge for a while, go on or turn round. Pure."""
+"""Hill climbing on a live robot: change a value by a step, rate it for a while, then continue or turn back. Pure."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ FORGETTING = 0.1
 
 
 class Climber:
-    """Looks for the value with the highest score between `low` and `high`, from `value` on by steps of `step`.
+    """Searches for the value with the highest score between `low` and `high`, from `value` in steps of `step`.
 
-    A value that was dangerous narrows the range for good: it, and all beyond it, is not tried again.
+    A value that proved dangerous narrows the range for good: neither it nor anything beyond is tried again.
     """
 
     def __init__(self, low: float, high: float, value: float, step: float) -> None:
@@ -25,7 +25,7 @@ class Climber:
         self._best_score: float | None = None
 
     def judged(self, score: float) -> float:
-        """Take the score of the present value; the value to try next."""
+        """Take the score of the current value; returns the value to try next."""
         if self._best_score is None or score >= self._best_score:
             self.best, self._best_score = self.value, score
             return self._go(self.value)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Node `motion_controller`: leads the robot's velocity towards what the navigator wants, or along waypoints."""
+"""Node `motion_controller`: ramps the robot's velocity towards what the navigator wants, or follows waypoints."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ class MotionController(Node):
         self._publish(*self._velocity.step(*wanted, PERIOD, self._gains))
 
     def _fall_silent(self) -> None:
-        """One zero, then nothing: a silent controller lets others drive."""
+        """Publish one zero, then nothing: a silent controller lets others drive."""
         if not self._silent:
             self._silent = True
             self._velocity.reset()
@@ -118,14 +118,14 @@ class MotionController(Node):
 
 
 def _pose_of(message: Odometry) -> tuple[float, float, float] | None:
-    """x, y (m) and heading (rad); None where one of them is no finite number."""
+    """x, y (m) and heading (rad); None if one of them is not finite."""
     place = message.pose.pose
     pose = (place.position.x, place.position.y, _heading(place.orientation))
     return pose if all(map(math.isfinite, pose)) else None
 
 
 def _heading(q: Quaternion) -> float:
-    """The heading in rad of a quaternion that turns about the vertical."""
+    """The yaw (rad) of a quaternion."""
     return 2.0 * math.atan2(q.z, q.w)
 
 

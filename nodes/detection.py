@@ -1,4 +1,4 @@
-"""What a scan shows once noise is filtered out: things in the way, as groups of neighbouring beams."""
+"""Filters the noise from a scan and finds obstacles: groups of neighbouring beams."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ FEWEST = 3
 
 @dataclass(frozen=True, slots=True)
 class Detection:
-    """A thing at x, y (m, from the sensor, x ahead), `width` m across, and the nearest distance to it in m."""
+    """An obstacle at x, y (m, from the sensor, x ahead), `width` m across, and the shortest distance to it in m."""
 
     x: float
     y: float
@@ -25,7 +25,7 @@ class Detection:
 
 
 def median_of_three(ranges: Floats) -> Floats:
-    """Each range replaced by the median of itself and its neighbours: single stray beams vanish."""
+    """Each range replaced by the median of itself and its neighbours, which removes single stray beams."""
     if len(ranges) < 3:
         return ranges
     result: Floats = np.array(ranges)
@@ -35,7 +35,7 @@ def median_of_three(ranges: Floats) -> Floats:
 
 
 def strong(ranges: Floats, intensities: Floats, threshold: int) -> Floats:
-    """The ranges with returns weaker than the threshold taken out (`+inf`: nothing there)."""
+    """The ranges without returns weaker than the threshold (`+inf`: nothing there)."""
     if len(intensities) != len(ranges):
         return ranges
     return np.where(intensities >= threshold, ranges, np.float32(math.inf))

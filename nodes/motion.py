@@ -1,4 +1,4 @@
-"""Velocity control with gains: smooth speed changes, and driving to waypoints."""
+"""Velocity control: smooth speed changes with gains, and driving to waypoints."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ class Gains:
 
 
 class VelocityController:
-    """Leads the velocity towards the asked one; slowing down is never held back."""
+    """Ramps the velocity towards the requested one; slowing down is never delayed."""
 
     def __init__(self) -> None:
         self.linear = 0.0
         self.angular = 0.0
 
     def step(self, linear: float, angular: float, dt: float, gains: Gains) -> tuple[float, float]:
-        """The velocity (m/s, rad/s) to command after `dt` s of going for the asked one."""
+        """The velocity (m/s, rad/s) to command after `dt` s of ramping towards the requested one."""
         if abs(linear) <= abs(self.linear) and linear * self.linear >= 0.0:
             self.linear = linear
         else:
@@ -45,12 +45,12 @@ class VelocityController:
         return self.linear, self.angular
 
     def reset(self) -> None:
-        """Forget the velocity: somebody else has stopped the robot."""
+        """Forget the velocity, since somebody else has stopped the robot."""
         self.linear = self.angular = 0.0
 
 
 class WaypointFollower:
-    """Aims at one waypoint after the other; an obstacle's way round it has precedence."""
+    """Steers to one waypoint after another; avoiding an obstacle takes precedence."""
 
     def __init__(self) -> None:
         self._points: deque[tuple[float, float]] = deque()
@@ -58,18 +58,18 @@ class WaypointFollower:
         self._detour = 0.0
 
     def follow(self, points: Iterable[tuple[float, float]], loop: bool = False) -> None:
-        """Drive to these points (m) in order, over and over when `loop`; none stops following."""
+        """Drive to these points (m) in order, repeatedly if `loop`; an empty list stops following."""
         self._points = deque(points)
         self._loop = loop
         self._detour = 0.0
 
     @property
     def target(self) -> tuple[float, float] | None:
-        """The waypoint aimed at; None when there is none."""
+        """The current waypoint; None if there is none."""
         return self._points[0] if self._points else None
 
     def arrived(self, x: float, y: float) -> bool:
-        """Whether the target is reached from here; then the next one is aimed at."""
+        """Whether the target is reached from here; the next one becomes the target then."""
         if not self._points or math.dist((x, y), self._points[0]) > REACHED:
             return False
         point = self._points.popleft()

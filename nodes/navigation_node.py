@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Node `bt_navigator`: the goals of Nav2 for our robot, by the names under which programs ask for them.
+"""Node `bt_navigator`: Nav2's actions for our robot, under the names that programs use.
 
 `navigate_to_pose`, `navigate_through_poses`, `follow_waypoints`, `spin`, `backup`, `drive_on_heading`, `wait`,
 `compute_path_to_pose`, and `goal_pose` for a goal without an answer. It plans over the map and drives `cmd_vel`.
@@ -45,7 +45,7 @@ STANDS_FOR = ("bt_navigator", "amcl")
 
 
 class Navigator(Node):
-    """One goal at a time; a newer one takes its place."""
+    """Executes one goal at a time; a newer one replaces it."""
 
     def __init__(self) -> None:
         super().__init__("bt_navigator", enable_logger_service=True)
@@ -111,7 +111,7 @@ class Navigator(Node):
         self._commands.publish(message)
 
     def _begin(self, task: Task, handle: ServerGoalHandle | None = None) -> Goal:
-        """Take a task up; the one before it is given up."""
+        """Start a task, aborting the previous one."""
         before, self._current = self._current, None
         if before is not None:
             before.preempted = True
@@ -120,7 +120,7 @@ class Navigator(Node):
         return self._current
 
     def _plan(self, poses: Sequence[Pose]) -> tuple[list[Point], float]:
-        """Points by way of all poses, and the last one's heading; raises `NoWay`."""
+        """The path through all poses, and the heading of the last one; raises `NoWay`."""
         if not poses:
             raise NoWay("no pose is given")
         if self._known.pose is None:
@@ -165,7 +165,7 @@ class Navigator(Node):
     async def _travel(
         self, handle: ServerGoalHandle, poses: Sequence[Pose], feedback: Callable[[Way, Any], None], kind: Any
     ) -> int:
-        """Go to poses one by one as one way; Nav2's error code, 0 for a goal that is reached."""
+        """Drive through poses as one path; returns Nav2's error code, 0 when the goal is reached."""
         try:
             points, heading = self._plan(poses)
         except NoWay as error:
@@ -287,7 +287,7 @@ def _active(_: Any, response: GetState.Response) -> GetState.Response:
 
 
 def _left_of(poses: Sequence[Pose], task: Way, pose: tuple[float, float, float] | None) -> int:
-    """How many poses of a way lie still ahead: those that are no farther from its end than the robot."""
+    """How many poses of a path are still ahead: those no farther from its end than the robot."""
     ahead, count = task.left(pose or (0.0, 0.0, 0.0)), 0
     for before, after in zip(poses[::-1], [poses[-1], *poses[::-1]], strict=False):
         a, b = before.position, after.position

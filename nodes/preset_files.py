@@ -1,4 +1,4 @@
-"""Presets as ROS parameter files in one folder: listed, read, written and deleted by name."""
+"""Presets as ROS parameter files in one folder: list, read, write and delete them by name."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _NAME = re.compile(r"\w[\w .+-]*")
 
 
 class PresetError(Exception):
-    """A preset that cannot be had or kept; the text says why and how to mend it."""
+    """A preset cannot be read or written; the text says why and how to fix it."""
 
 
 def default_folder() -> Path:
@@ -30,12 +30,12 @@ def default_folder() -> Path:
 
 
 def names(folder: Path) -> list[str]:
-    """The presets of a folder."""
+    """The presets in a folder."""
     return sorted(path.stem for path in folder.glob("*.yaml"))
 
 
 def title(folder: Path, name: str) -> str:
-    """The first comment line of a preset; empty where there is none."""
+    """The first comment line of a preset; empty if there is none."""
     try:
         first = _path(folder, name).read_text(encoding="utf-8").partition("\n")[0]
     except (OSError, UnicodeDecodeError):
@@ -44,7 +44,7 @@ def title(folder: Path, name: str) -> str:
 
 
 def read(folder: Path, name: str) -> Values:
-    """The values of a preset, dotted names for nested ones; raises `PresetError`."""
+    """The values of a preset, with dotted names for nested ones; raises `PresetError`."""
     path = _path(folder, name)
     found: Values = {}
     try:
@@ -60,7 +60,7 @@ def read(folder: Path, name: str) -> Values:
 
 
 def write(folder: Path, name: str, values: Mapping[str, Mapping[str, Any]]) -> Path:
-    """Keep values under a name, whole or not at all; raises `PresetError`."""
+    """Save values under a name, completely or not at all; raises `PresetError`."""
     path = _path(folder, name)
     data = {node: {KEYWORD: dict(sorted(found.items()))} for node, found in sorted(values.items()) if found}
     temporary = path.with_name(f".{path.name}.{os.getpid()}")
@@ -78,7 +78,7 @@ def write(folder: Path, name: str, values: Mapping[str, Mapping[str, Any]]) -> P
 
 
 def delete(folder: Path, name: str) -> None:
-    """Delete a preset; raises `PresetError` for one that is not there."""
+    """Delete a preset; raises `PresetError` if it does not exist."""
     try:
         _path(folder, name).unlink()
     except FileNotFoundError:

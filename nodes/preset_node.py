@@ -31,7 +31,7 @@ LOOK, LOOKS = 0.05, 40
 
 
 class Presets(Node):
-    """Sets are applied all or nothing: where a node refuses, those that had taken their values are put back."""
+    """Applies presets all or nothing: if a node refuses, those that had already accepted are set back."""
 
     def __init__(self) -> None:
         super().__init__("presets", enable_logger_service=True)
@@ -113,7 +113,7 @@ class Presets(Node):
         return response
 
     def _nodes(self) -> list[str]:
-        """The nodes that are asked: those that were named, else all that others may set parameters of."""
+        """The nodes to query: the named ones, else all whose parameters can be set."""
         chosen = [str(each) for each in self.get_parameter("nodes").value or () if each]
         if chosen:
             return [f"/{each.lstrip('/')}" for each in chosen]
@@ -123,7 +123,7 @@ class Presets(Node):
         return sorted({each for each in known if f"{each}/set_parameters" in offered and each != own})
 
     async def _client(self, node: str) -> AsyncParameterClient:
-        """A client of a node, as soon as it has found the node's services; raises `PresetError`."""
+        """A client of a node's services, once it has found them; raises `PresetError`."""
         if node not in self._clients:
             self._clients[node] = AsyncParameterClient(self, node, callback_group=self._group)
         client = self._clients[node]
@@ -136,7 +136,7 @@ class Presets(Node):
         raise PresetError(f"{node} does not run, or offers no parameter services")
 
     async def _moment(self) -> None:
-        """Let other callbacks run until the next look."""
+        """Let other callbacks run before the next check."""
         over: Future[None] = Future()
 
         def end() -> None:
@@ -148,7 +148,7 @@ class Presets(Node):
         self.destroy_timer(timer)
 
     async def _values(self, node: str, names: list[str]) -> dict[str, Any]:
-        """The values of some parameters of a node; None for one that it does not have."""
+        """The values of some parameters of a node; None for those it does not have."""
         answer = await (await self._client(node)).get_parameters(names)
         found = [parameter_value_to_python(each) for each in answer.values] if answer else []
         return dict(zip(names, found or [None] * len(names), strict=False))
@@ -160,7 +160,7 @@ class Presets(Node):
         return {name: list(value) if _is_array(value) else value for name, value in values.items() if value is not None}
 
     async def _set(self, node: str, values: Mapping[str, Any]) -> str:
-        """Set values of one node together; why it refused, empty when it did not."""
+        """Set values of one node together; returns why it refused, and an empty text when it did not."""
         parameters = [Parameter(name, value=value) for name, value in values.items()]
         answer = await (await self._client(node)).set_parameters_atomically(parameters)
         result = answer.result if answer else None
@@ -172,7 +172,7 @@ def _is_array(value: Any) -> bool:
 
 
 def _fitting(value: Any, now: Any) -> Any:
-    """A value as the type that the parameter has: a file's `2` is a double where one is declared."""
+    """A value converted to the parameter's type: `2` in a file is a double if one is declared."""
     return float(value) if isinstance(now, float) and type(value) is int else value
 
 

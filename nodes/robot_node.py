@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Node `robot_navigator`: drives where there is room, and obeys its six parameters at once."""
+"""Node `robot_navigator`: drives where there is room; changes of its six parameters take effect at once."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Node `safety_monitor`: the only one that commands the robot. It chooses whose command counts, slows and stops it."""
+"""Node `safety_monitor`: the only one that commands the robot. It selects a source of commands, slows and stops it."""
 
 from __future__ import annotations
 
@@ -41,10 +41,11 @@ STEERED = "the person who steers"
 
 
 class SafetyMonitor(Node):
-    """Publishes `cmd_vel`, and `diagnostics` about what was asked, what limited it and what is final.
+    """Publishes `cmd_vel`, and `diagnostics` about what was requested, what limited it and the result.
 
-    While the emergency stop is locked it publishes zero, again and again. While a person holds the steering only that
-    person's commands count.
+    While the emergency stop is locked it keeps publishing zero. While a person holds the steering only that person's
+    commands
+    count.
     """
 
     def __init__(self) -> None:
@@ -183,7 +184,7 @@ class SafetyMonitor(Node):
 
 
 def _problem(emergency: float, warning: float) -> str:
-    """What is wrong with two distances in m; empty when they fit."""
+    """What is wrong with two distances in m; empty if they are consistent."""
     if warning > emergency:
         return ""
     return f"warning_distance ({warning} m) must be greater than emergency_stop_distance ({emergency} m)"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Node `sensor_handler`: the newest scan, filtered, at a rate of its own, and the things that it shows."""
+"""Node `sensor_handler`: publishes the newest scan, filtered, and the obstacles in it, at its own rate."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from sensor_msgs.msg import LaserScan
 
 
 class SensorHandler(Node):
-    """Publishes `scan_filtered` and `detections` to those who listen."""
+    """Publishes `scan_filtered` and `detections` if anybody subscribes."""
 
     def __init__(self) -> None:
         super().__init__("sensor_handler", enable_logger_service=True)
@@ -56,7 +56,7 @@ class SensorHandler(Node):
         self._count += 1
 
     def _look(self) -> Health:
-        """Scans since the last look, a second ago."""
+        """Count the scans since the last call, one second ago."""
         count, self._count = self._count, 0
         beams, things = self._beams
         values = {"scans per second": count, "beams": beams, "things seen": things, "filtered": self._filter}

@@ -1,6 +1,6 @@
-"""What a process started by a launch finds, whatever starts it: `ros2` on its PATH, `rclpy` and all messages to import.
+"""The environment of processes started by a launch: `ros2` on the PATH, `rclpy` and all messages importable.
 
-It is what a sourced ROS installation gives. Only the environment of such a process has it.
+It is what sourcing a ROS installation gives. Only such processes have it.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Whether the programs that launches start take part in the domain: not where what runs here is alone in its process.
+"""Whether programs started by launches join the domain: not if what runs here is isolated in its process.
 
-A module of its own, as verbs say it that start nothing.
+A module of its own, because verbs that start nothing set it too.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Where the commands are that a ROS installation puts on the path, and which program they call."""
+"""Where the commands of a ROS installation are, and which program each of them calls."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The ROS domain that the environment names."""
+"""The ROS domain id from the environment."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Interface packages beside those of ROS 2's core: some that come along, and those that a person has added.
+"""Interface packages beyond ROS 2's core: some are included, others are added by the user.
 
-Both are generated when they are imported, and cost nothing before.
+Both kinds are generated when they are imported, and cost nothing before.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Lets interfaces be imported from their definitions: `from my_interfaces.msg import Num`, nothing built."""
+"""Makes interfaces importable from their definitions: `from my_interfaces.msg import Num`, without a build."""
 
 from __future__ import annotations
 

@@ -1,7 +1,8 @@
-"""Interfaces that nobody here has: their definitions as a node told them, for as long as this process lives.
+"""Interfaces that are not installed here: definitions received from nodes, kept for the lifetime of this process.
 
-Only packages that are not here at all are learned, so that nothing a person has is shadowed, and only what has the hash
-that the graph tells of the type.
+Only packages that are missing entirely are learned, so that nothing installed is shadowed, and only definitions whose
+hash
+matches the type in the graph.
 """
 
 from __future__ import annotations

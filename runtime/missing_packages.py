@@ -1,4 +1,4 @@
-"""What to say when a program imports a ROS 2 package that is not there: what brings it, or why nothing does."""
+"""What to say when a program imports a missing ROS 2 package: what provides it, or why nothing does."""
 
 from __future__ import annotations
 

@@ -1,6 +1,7 @@
-"""The fork server of this process, and what each process that it makes does before anything else.
+"""The fork server of this process, and what each process forked from it does first.
 
-Imports little: a program that will want processes starts the server first, which warms up while the rest is read.
+It imports little: a program that will need processes starts the server first, which warms up while the rest is
+imported.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Looks at a Python file before it is run as a node: whether it starts anything, and what to say where it does not."""
+"""Inspects a Python file before it is run as a node: whether it starts anything, and what to say if it does not."""
 
 from __future__ import annotations
 

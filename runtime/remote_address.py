@@ -1,4 +1,4 @@
-"""Whether a parameter file is on a server; costs nothing to import, unlike what fetches it."""
+"""Whether a parameter file is on a server; cheap to import, unlike the module that downloads it."""
 
 from __future__ import annotations
 

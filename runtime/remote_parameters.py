@@ -1,4 +1,4 @@
-"""Parameter files on a server: fetched by `https://`, kept, and taken from there while the server is out of reach."""
+"""Parameter files on a server: downloaded over `https://`, cached, and read from the cache while it is unreachable."""
 
 from __future__ import annotations
 

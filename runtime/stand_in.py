@@ -1,4 +1,4 @@
-"""What a stand-in does, the module that a program of a launch finds as `rclpy`: see `child_environment`."""
+"""The code behind the stand-in module that a launched program imports as `rclpy`: see `child_environment`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Faults of the place where a command runs, each as one line: a full disk, a folder that was deleted."""
+"""One-line messages for faults of the environment in which a command runs: a full disk, a deleted working directory."""
 
 from __future__ import annotations
 

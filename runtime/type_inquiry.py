@@ -1,4 +1,4 @@
-"""What to ask a node for a type that nobody here has; who asks, and how long it waits, is the caller's."""
+"""The requests that fetch an unknown type from a node; who sends them, and how long it waits, is up to the caller."""
 
 from __future__ import annotations
 

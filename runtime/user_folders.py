@@ -1,4 +1,4 @@
-"""Where the runtime keeps files of the user's; the console's own places are beside these."""
+"""The runtime's files in the user's folders; the console's own are next to them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the fork server imports and does once, so that every node that is forked from it finds it done."""
+"""What the fork server imports and does once, so that nodes forked from it need not."""
 
 from __future__ import annotations
 

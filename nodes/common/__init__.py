@@ -1,1 +1,1 @@
-"""What the nodes of this package share: parameters, scans, diagnostics, and a life from start to end."""
+"""What the nodes of this package share: parameters, scans, diagnostics, and startup and shutdown."""

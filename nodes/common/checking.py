@@ -1,7 +1,8 @@
-"""A node's own rules, asked without anything being set: the service `~/check_parameters`.
+"""A service that checks values without setting them, `~/check_parameters`, by the node's own rules.
 
-ROS 2 has no service that asks a node's callback what it would say to values; this one answers as
-`set_parameters_atomically` would, and changes nothing.
+ROS 2 has no service that asks a node's callback about values; this one answers as `set_parameters_atomically` would,
+and
+changes nothing.
 """
 
 from __future__ import annotations
@@ -18,9 +19,9 @@ SERVICE = "check_parameters"
 
 
 def offer_check(node: Node, check: Callable[[list[Parameter]], SetParametersResult]) -> None:
-    """Let anybody ask for the verdict of `check`, the node's callback before a set, which itself changes nothing.
+    """Offer the verdict of `check`, the node's on-set callback, which must not change anything itself.
 
-    Ranges are not looked at: they stand in the descriptors, which anybody can read.
+    Ranges are not checked: they are in the descriptors, which anybody can read.
     """
 
     def answer(
@@ -35,5 +36,5 @@ def offer_check(node: Node, check: Callable[[list[Parameter]], SetParametersResu
 
 
 def _fits(node: Node, asked: Parameter) -> bool:
-    """Whether a callback that relies on the declared types can be given it."""
+    """Whether a callback that relies on the declared types can be given the value."""
     return node.has_parameter(asked.name) and node.get_parameter(asked.name).type_ == asked.type_

@@ -1,4 +1,4 @@
-"""A node's own health, once a second on `diagnostics`, as `diagnostic_updater` tells it."""
+"""A node's own health, once a second on `diagnostics`, in the manner of `diagnostic_updater`."""
 
 from __future__ import annotations
 
@@ -32,5 +32,5 @@ class HealthReport:
 
     @property
     def wanted(self) -> bool:
-        """Whether anybody gets it."""
+        """Whether anybody receives it."""
         return wanted(self._publisher)

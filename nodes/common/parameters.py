@@ -24,26 +24,26 @@ def whole(description: str, low: int, high: int) -> ParameterDescriptor:
 
 
 def plain(description: str) -> ParameterDescriptor:
-    """The descriptor of a value that has no range."""
+    """The descriptor of a value without a range."""
     return ParameterDescriptor(description=description)
 
 
 def fixed(description: str) -> ParameterDescriptor:
-    """The descriptor of a value that counts only when the node starts."""
+    """The descriptor of a value that is read only at startup."""
     return ParameterDescriptor(description=description, read_only=True)
 
 
 def proposed(node: Node, changes: Iterable[Parameter], *names: str) -> list[float]:
-    """The numbers that some parameters would have after the changes, for rules between parameters."""
+    """The values that some numeric parameters would have after the changes, for rules between parameters."""
     after = {each.name: each.value for each in changes}
     return [float(after[name] if name in after else node.get_parameter(name).value) for name in names]
 
 
 def accepted() -> SetParametersResult:
-    """The answer of a callback that has nothing against a change."""
+    """The result of a callback that accepts a change."""
     return SetParametersResult(successful=True)
 
 
 def refused(reason: str) -> SetParametersResult:
-    """The answer of a callback that refuses a change."""
+    """The result of a callback that refuses a change."""
     return SetParametersResult(successful=False, reason=reason)

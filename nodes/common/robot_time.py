@@ -1,4 +1,4 @@
-"""A clock by which to judge a robot that may be simulated: one that lags behind real time is slow, not broken."""
+"""The clock by which to judge a robot that may be simulated: one that lags behind real time is slow, not broken."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 
 class RobotTime:
-    """Steady time, until somebody is late and a simulator says what time it is in its world; then that.
+    """Steady time, until a message is late and a simulator publishes the time of its world; that time from then on.
 
-    It costs nothing before it is asked for. It never goes back, when a simulation begins anew or its clock ends.
+    It costs nothing before it is asked for, and never goes back, even when a simulation restarts or its clock ends.
     """
 
     def __init__(self, node: Node, steady: Clock) -> None:
@@ -30,7 +30,7 @@ class RobotTime:
         self._stamp = 0
 
     def now(self) -> int:
-        """Nanoseconds since some moment."""
+        """Nanoseconds since an arbitrary moment."""
         if self._origin is None:
             return self._anchor + self._steady.now().nanoseconds
         return self._anchor + self._simulated - self._origin
@@ -53,7 +53,7 @@ class RobotTime:
             self._leave()
 
     def heard(self, stamp: int) -> None:
-        """Take note of the stamp (ns) of a scan, with which a clock is compared."""
+        """Take note of the stamp (ns) of a scan, to compare a clock with."""
         self._stamp = stamp
 
     def _leave(self) -> None:

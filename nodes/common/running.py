@@ -1,4 +1,4 @@
-"""The life of a node of this package from start to a clean end."""
+"""Runs a node of this package, from startup to a clean shutdown."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from rclpy.node import Node
 
 
 class CannotStart(Exception):
-    """A node cannot do its work with what it was given; the text says why and how to mend it."""
+    """A node cannot work with what it was given; the text says why and how to fix it."""
 
 
 def run(make_node: Callable[[], Node], args: list[str] | None) -> None:

@@ -1,4 +1,4 @@
-"""LaserScan messages as numpy arrays and back, without a loop over the beams."""
+"""LaserScan messages as NumPy arrays and back, without a loop over the beams."""
 
 from __future__ import annotations
 
@@ -16,24 +16,24 @@ SCANS = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 
 def ranges_of(scan: LaserScan) -> Floats:
-    """The ranges in m; a view, not to be written to."""
+    """The ranges in m; a view, which must not be modified."""
     return np.frombuffer(memoryview(scan.ranges), np.float32)
 
 
 def intensities_of(scan: LaserScan) -> Floats:
-    """The intensities, empty when the sensor gives none; a view, not to be written to."""
+    """The intensities, empty if the sensor provides none; a view, which must not be modified."""
     return np.frombuffer(memoryview(scan.intensities), np.float32)
 
 
 def nearest_return(scan: LaserScan) -> float:
-    """The distance in m to the nearest return; the sensor's range when there is none."""
+    """The distance in m to the nearest return; the sensor's maximum range if there is none."""
     ranges = ranges_of(scan)
     valid = ranges[(ranges > scan.range_min) & (ranges <= scan.range_max)]
     return float(valid.min()) if len(valid) else float(scan.range_max)
 
 
 def packed(values: npt.NDArray[np.float64] | Floats) -> array[float]:
-    """Numbers as the float32 array that a message field takes."""
+    """Numbers as the float32 array of a message field."""
     result = array("f")
     result.frombytes(values.astype(np.float32).tobytes())
     return result

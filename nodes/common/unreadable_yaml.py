@@ -1,4 +1,4 @@
-"""What reading YAML may raise."""
+"""The exceptions that reading YAML may raise."""
 
 from __future__ import annotations
 

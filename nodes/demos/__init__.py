@@ -1,1 +1,1 @@
-"""Nodes of the tutorials of ROS 2, a folder for each package; the importer serves this one as `bot_console_demos`."""
+"""The nodes of ROS 2's tutorials, one folder per package; the importer serves this one as `bot_console_demos`."""

@@ -1,4 +1,4 @@
-"""The life of a demo's node."""
+"""Runs a demo node."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Ways over a map, and how to follow them. No ROS here."""
+"""Path planning on a map, and path following. No ROS here."""

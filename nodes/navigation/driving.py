@@ -1,4 +1,4 @@
-"""Velocities that lead along a way, turn in place, or go a distance."""
+"""Velocities to follow a path, turn in place, or drive a distance."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ GAIN = 2.0
 
 @dataclass(frozen=True)
 class Limits:
-    """How fast (m/s, rad/s), how near a goal counts as reached (m, rad), and how near a thing ahead stops (m)."""
+    """Speeds (m/s, rad/s), the goal tolerance (m, rad), and the stopping distance to obstacles ahead (m)."""
 
     speed: float = 0.4
     turn_rate: float = 1.0
@@ -33,7 +33,7 @@ class Limits:
 
 
 def off(wanted: float, is_now: float) -> float:
-    """The angle (rad) from a heading to another one, the shorter way."""
+    """The angle (rad) from one heading to another, the shorter way round."""
     return math.remainder(wanted - is_now, 2.0 * math.pi)
 
 
@@ -44,7 +44,7 @@ def turning(error: float, limits: Limits) -> Velocity:
 
 
 class WayFollower:
-    """Leads along points, then to a heading."""
+    """Follows points, then turns to a final heading."""
 
     def __init__(self, points: Sequence[Point], heading: float, limits: Limits) -> None:
         self.points = list(points)
@@ -52,12 +52,12 @@ class WayFollower:
         self._limits = limits
 
     def left(self, pose: Pose) -> float:
-        """Metres of the way that are left."""
+        """The length of the remaining path in m."""
         places = [(pose[0], pose[1]), *self.points]
         return math.fsum(math.dist(a, b) for a, b in itertools.pairwise(places))
 
     def velocity(self, pose: Pose, ahead: float) -> Velocity | None:
-        """What to do at a pose with so much room ahead (m); None when the goal is reached."""
+        """The velocity at a pose with so much room ahead (m); None when the goal is reached."""
         limits = self._limits
         while len(self.points) > 1 and math.dist(pose[:2], self.points[0]) < WAY_POINT:
             self.points.pop(0)

@@ -1,4 +1,4 @@
-"""A goal of an action between its server, which waits for it, and the control loop, which drives it."""
+"""An action goal, shared between its server, which waits for it, and the control loop, which executes it."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ PREEMPTED = 1
 
 
 class Goal:
-    """A task with the action's goal that it belongs to, if it belongs to one."""
+    """A task, with the action goal it belongs to, if any."""
 
     def __init__(self, task: Task, handle: ServerGoalHandle | None = None) -> None:
         self.task = task
@@ -32,7 +32,7 @@ class Goal:
 
     @property
     def cancelled(self) -> bool:
-        """Whether somebody has asked to end it."""
+        """Whether cancellation was requested."""
         return self._handle is not None and self._handle.is_cancel_requested
 
     def age(self, now: float) -> float:
@@ -45,12 +45,12 @@ class Goal:
         return Duration(sec=seconds, nanosec=rest)
 
     def finish(self) -> None:
-        """Let who waits go on."""
+        """Wake whoever waits for it."""
         if not self.done.done():
             self.done.set_result(PREEMPTED if self.preempted else self.task.error_code)
 
     def settle(self) -> None:
-        """Tell the action how it ended."""
+        """Report the outcome to the action."""
         if self._handle is None:
             return
         if self.cancelled and not self.preempted:
@@ -61,13 +61,13 @@ class Goal:
             self._handle.succeed()
 
     def tell(self, message: Any) -> None:
-        """Publish feedback, while the goal is under way."""
+        """Publish feedback while the goal is active."""
         if self._handle is not None and not self.done.done():
             self._handle.publish_feedback(message)
 
 
 async def run_goal(node: Node, goal: Goal, fill: Callable[[], None], message: Any) -> int:
-    """Wait for a goal and tell how it goes meanwhile; its error code. `fill` puts what is known into the feedback."""
+    """Wait for a goal, publishing feedback meanwhile; returns its error code. `fill` completes the feedback message."""
 
     def tell() -> None:
         fill()

@@ -1,4 +1,4 @@
-"""What navigation knows of the place: the map, the robot's pose in it, and the room around."""
+"""What navigation knows: the map, the robot's pose, and the free room around it."""
 
 from __future__ import annotations
 
@@ -29,7 +29,10 @@ SCAN_LIFE = 1.0
 
 
 class Knowledge:
-    """Listens for a node. The pose is `ground_truth` where that is, else odometry; `amcl_pose` tells it on."""
+    """Subscribes for a node.
+
+    The pose is `ground_truth` if available, else odometry; it is republished as `amcl_pose`.
+    """
 
     def __init__(self, node: Node, seconds: Callable[[], float]) -> None:
         self._node = node
@@ -83,7 +86,7 @@ class Knowledge:
         self._scan = self._seconds(), ahead, behind
 
     def seen(self) -> Seen | None:
-        """What there is to go by now; None without a pose. Without a scan of late nothing ahead or behind is free."""
+        """The current state; None without a pose. Without a recent scan, there is no free room ahead or behind."""
         if self.pose is None:
             return None
         now = self._seconds()
@@ -92,7 +95,7 @@ class Knowledge:
         return Seen(now, self.pose, ahead, behind)
 
     def way(self, start: Point, goal: Point) -> list[Point]:
-        """A way over the map; straight on where there is none. Raises `NoWay`."""
+        """A path on the map, or a straight line if there is no map. Raises `NoWay`."""
         if self._planner is None:
             if not all(map(math.isfinite, goal)):
                 raise NoWay("a place is not a finite number")
@@ -100,7 +103,7 @@ class Knowledge:
         return self._planner.way(start, goal)
 
     def limits(self) -> Limits:
-        """How fast, and how near is near enough, as the parameters say now."""
+        """Speeds and tolerances, from the current parameters."""
 
         def value(name: str) -> float:
             return float(self._node.get_parameter(name).value)

@@ -1,4 +1,4 @@
-"""The shortest way over an occupancy grid that keeps clear of what stands there."""
+"""Finds the shortest path on an occupancy grid that keeps clear of obstacles."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ Cell = tuple[int, int]
 
 
 class NoWay(Exception):
-    """There is no way; the text says why."""
+    """There is no path; the text says why."""
 
 
 @dataclass(frozen=True)
 class Grid:
-    """An occupancy grid: rows from the lower left, the size of a cell and the place of its corner (m)."""
+    """An occupancy grid: rows from the lower left, the size of a cell and the position of its corner (m)."""
 
     cells: npt.NDArray[np.int8]
     resolution: float
@@ -36,7 +36,7 @@ class Grid:
 
 
 class Planner:
-    """Finds ways for a robot that needs `clearance` m on each side of its centre."""
+    """Plans paths for a robot that needs `clearance` m on each side of its centre."""
 
     def __init__(self, grid: Grid, clearance: float) -> None:
         self._origin = grid.origin
@@ -47,7 +47,7 @@ class Planner:
         self._cost: npt.NDArray[np.float64] = np.where(near, 3.0, 1.0)
 
     def way(self, start: Point, goal: Point) -> list[Point]:
-        """Points (m) from the start, which is left out, to the goal; raises `NoWay`."""
+        """The points (m) from the start, which is left out, to the goal; raises `NoWay`."""
         if not all(map(math.isfinite, (*start, *goal))):
             raise NoWay("a place is not a finite number")
         first, last = self._free_near(start, "the robot"), self._free_near(goal, "the goal")
@@ -70,7 +70,7 @@ class Planner:
         return 0 <= cell[0] < rows and 0 <= cell[1] < columns and not self._blocked[cell]
 
     def _free_near(self, point: Point, what: str) -> Cell:
-        """The free cell nearest to a point, within half a metre: a robot may stand too near to a wall."""
+        """The free cell nearest to a point, within half a metre: a robot may be too close to a wall."""
         row, column = self._cell(point)
         reach = math.ceil(0.5 / self._step)
         around = [(row + r, column + c) for r in range(-reach, reach + 1) for c in range(-reach, reach + 1)]
@@ -80,7 +80,7 @@ class Planner:
         return min(free, key=lambda each: math.dist(each, (row, column)))
 
     def _search(self, first: Cell, last: Cell) -> list[Cell] | None:
-        """A* over eight neighbours; diagonals pass no corner."""
+        """A* over eight neighbours; diagonals do not cut corners."""
         known: dict[Cell, float] = {first: 0.0}
         came: dict[Cell, Cell] = {}
         waiting: list[tuple[float, Cell]] = [(0.0, first)]
@@ -111,7 +111,7 @@ class Planner:
                 yield after, math.sqrt(2.0) if diagonal else 1.0
 
     def _straightened(self, cells: list[Cell]) -> list[Cell]:
-        """The corners of a way: what can be seen from one of them needs no other in between."""
+        """The corners of a path, without points between two that see each other."""
         kept, at = [cells[0]], 0
         while at < len(cells) - 1:
             after = len(cells) - 1
@@ -122,7 +122,7 @@ class Planner:
         return kept
 
     def _sees(self, a: Cell, b: Cell) -> bool:
-        """Whether all cells between two are free, and no dearer than the dearer of both."""
+        """Whether all cells between two are free, and cost no more than the costlier of the two."""
         count = 2 * max(abs(a[0] - b[0]), abs(a[1] - b[1])) + 1
         rows = np.rint(np.linspace(a[0], b[0], count)).astype(int)
         columns = np.rint(np.linspace(a[1], b[1], count)).astype(int)
@@ -139,7 +139,7 @@ def _traced(came: dict[Cell, Cell], cell: Cell) -> list[Cell]:
 
 
 def _coarse(grid: Grid, step: float) -> npt.NDArray[np.bool_]:
-    """Which cells of the size `step` have something in them."""
+    """Which cells of size `step` are occupied."""
     taken = (grid.cells >= OCCUPIED) | (grid.cells < 0)
     rows, columns = (math.ceil(length * grid.resolution / step) for length in taken.shape)
     result = np.zeros((max(rows, 1), max(columns, 1)), np.bool_)
@@ -150,7 +150,7 @@ def _coarse(grid: Grid, step: float) -> npt.NDArray[np.bool_]:
 
 
 def _grown(taken: npt.NDArray[np.bool_], reach: float) -> npt.NDArray[np.bool_]:
-    """What is taken and all within `reach` cells of it; the edge of the grid counts as taken."""
+    """The occupied cells and everything within `reach` cells of them; the edge of the grid counts as occupied."""
     cells = math.ceil(reach)
     padded = np.pad(taken, cells, constant_values=True)
     result = np.zeros_like(taken)

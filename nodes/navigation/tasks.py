@@ -1,4 +1,4 @@
-"""What a goal makes the robot do, from one control step to the next."""
+"""What a goal makes the robot do, one control step at a time."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ FAILED_TO_MAKE_PROGRESS, COLLISION_AHEAD, TIMEOUT = 105, 714, 711
 
 @dataclass
 class Seen:
-    """What a control step knows: time (s), pose in the map, and room ahead and behind (m)."""
+    """The input of a control step: time (s), pose in the map, and free room ahead and behind (m)."""
 
     time: float
     pose: Pose
@@ -27,7 +27,7 @@ class Seen:
 
 
 class Task:
-    """A goal under way. `done` with an `error_code` of 0 when it is reached."""
+    """An active goal. It is `done`, with an `error_code` of 0, when it is reached."""
 
     def __init__(self) -> None:
         self.done = False
@@ -35,7 +35,7 @@ class Task:
         self._mark: tuple[float, Pose] | None = None
 
     def step(self, seen: Seen) -> Velocity:
-        """What to do now."""
+        """The velocity for this step."""
         if self._mark is None or _moved(self._mark[1], seen.pose):
             self._mark = seen.time, seen.pose
         if seen.time - self._mark[0] > STUCK:
@@ -45,11 +45,11 @@ class Task:
         return wanted or (0.0, 0.0)
 
     def wanted(self, seen: Seen) -> Velocity | None:
-        """What leads to the goal; None when it is reached."""
+        """The velocity towards the goal; None when it is reached."""
         raise NotImplementedError
 
     def fail(self, error_code: int) -> Velocity:
-        """Give up."""
+        """Abort."""
         self.done, self.error_code = True, error_code
         return 0.0, 0.0
 
@@ -66,7 +66,7 @@ class Way(Task):
         self._follower = WayFollower(points, heading, limits)
 
     def left(self, pose: Pose) -> float:
-        """Metres that are left."""
+        """The remaining metres."""
         return self._follower.left(pose)
 
     def wanted(self, seen: Seen) -> Velocity | None:
@@ -75,7 +75,7 @@ class Way(Task):
 
 
 class Spin(Task):
-    """Turn in place by an angle (rad), more than a turn too."""
+    """Turn in place by an angle (rad), which may exceed a full turn."""
 
     def __init__(self, angle: float, limits: Limits) -> None:
         super().__init__()
@@ -85,7 +85,7 @@ class Spin(Task):
         self._before: float | None = None
 
     def wanted(self, seen: Seen) -> Velocity | None:
-        """The turn that is left."""
+        """The velocity for the remaining turn."""
         self.turned += 0.0 if self._before is None else off(seen.pose[2], self._before)
         self._before = seen.pose[2]
         left = self._angle - self.turned
@@ -93,7 +93,7 @@ class Spin(Task):
 
 
 class Straight(Task):
-    """Go a distance (m) at a speed (m/s), backwards where the distance is negative."""
+    """Drive a distance (m) at a speed (m/s); backwards if the distance is negative."""
 
     def __init__(self, distance: float, speed: float, allowance: float, limits: Limits) -> None:
         super().__init__()
@@ -105,7 +105,7 @@ class Straight(Task):
         self._start: tuple[float, Pose] | None = None
 
     def wanted(self, seen: Seen) -> Velocity | None:
-        """On, until the distance is gone, a thing stands in the way, or the time is over."""
+        """Straight ahead until the distance is covered, an obstacle is in the way, or time is up."""
         if self._start is None:
             self._start = seen.time, seen.pose
         self.travelled = math.dist(self._start[1][:2], seen.pose[:2])
@@ -128,7 +128,7 @@ class Wait(Task):
         self._duration = duration
 
     def step(self, seen: Seen) -> Velocity:
-        """Standing still is what is wanted here, and no fault."""
+        """Standing still; here that is the goal, not a failure."""
         self._end = seen.time + self._duration if self._end is None else self._end
         self.left = max(0.0, self._end - seen.time)
         self.done = self.left == 0.0

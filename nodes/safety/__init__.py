@@ -1,1 +1,1 @@
-"""What the safety monitor decides: who may drive, how near things are, and the emergency stop."""
+"""The safety monitor's decisions: who may drive, how close obstacles are, and the emergency stop."""

@@ -1,4 +1,4 @@
-"""Which velocity command may drive the robot, and how much of it: priority, freshness, distances."""
+"""Which velocity command may drive the robot, and how fast: priorities, freshness, distances."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Command:
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """What was asked, what is final (m/s, rad/s), and the rule or parameter that stands between; empty for none."""
+    """The requested and the final velocity (m/s, rad/s), and the rule or parameter that changed it; empty for none."""
 
     source: str
     asked: tuple[float, float]
@@ -44,7 +44,8 @@ class Verdict:
 class Arbiter:
     """Keeps the newest command of each source; the first source with a fresh one drives.
 
-    Each source has a clock of its own (ns): a person's commands age in steady time, a simulated robot's with its world.
+    Each source has its own clock (ns): a person's commands age in steady time, a simulated robot's in the time of its
+    world.
     """
 
     def __init__(self, sources: Mapping[str, Callable[[], int]], lifetime_ns: int) -> None:
@@ -59,7 +60,7 @@ class Arbiter:
         self._newest[source] = Command(source, linear, angular, self._clocks[source]())
 
     def choose(self, *withheld: str) -> Command | None:
-        """The command that drives now; None when all are older than their lifetime, or from sources that may not."""
+        """The command that drives now; None if all have expired, or come from sources that may not drive."""
         for source, clock in self._clocks.items():
             command = self._newest.get(source)
             if command and source not in withheld and 0 <= clock() - command.stamp <= self._lifetime:
@@ -89,7 +90,7 @@ def nearest_ahead(ranges: npt.NDArray[np.float32], first: float, increment: floa
 
 @lru_cache(maxsize=4)
 def _beams_ahead(count: int, first: float, increment: float) -> npt.NDArray[np.int64] | slice:
-    """The numbers of the beams ahead, as a slice where they follow one another; a sensor's geometry hardly changes."""
+    """The indices of the beams ahead, as a slice if they are consecutive; a sensor's geometry hardly changes."""
     angles = first + increment * np.arange(count)
     ahead = np.flatnonzero(np.abs(np.remainder(angles + math.pi, 2 * math.pi) - math.pi) <= FRONT + EDGE)
     if len(ahead) and ahead[-1] - ahead[0] == len(ahead) - 1:

@@ -1,4 +1,4 @@
-"""The emergency stop of one node on the ROS graph: requests in, its state out, latched, and other nodes' states in."""
+"""The emergency stop of one node, as ROS interfaces: requests and other nodes' states in, its own latched state out."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ GONE = 3
 class EmergencyStop:
     """A node's latch, with the services `~/stop`, `~/release` and `~/release_all`.
 
-    `changed` is called whenever its state is another.
+    `changed` is called whenever its state changes.
     """
 
     def __init__(
@@ -100,7 +100,7 @@ class EmergencyStop:
         return f"a call of {self._node.get_name()}/{verb}"
 
     def _asked(self, request: Request, response: Trigger.Response) -> Trigger.Response:
-        """Do it, and let the robot's other latches hear it."""
+        """Carry out a request, and forward it to the robot's other latches."""
         self._note(self._latch.request(request, self._now()))
         self._requests.publish(request_message(request))
         response.success = self.lock.held is (request.verb == STOP)
@@ -117,7 +117,7 @@ class EmergencyStop:
                 self.stop(self._node.get_name(), "the safety monitor has gone")
 
     def _note(self, changed: bool) -> None:
-        """Act on a change before it is told, so that what is told is true."""
+        """Act on a change before it is published, so that what is published is true."""
         if changed:
             self._changed()
             self._publish()

@@ -1,4 +1,4 @@
-"""The emergency stop as a state: locked by the first word of anybody, released only by a person's. Pure.
+"""The state of the emergency stop: anybody's first request locks it, only a person's request releases it. Pure.
 
 It remembers everybody who has stopped the robot, and stays locked until the last of these stops is released.
 Several nodes of a robot hold one each (who commands it, and the base itself); `follow` keeps them together.
@@ -36,7 +36,7 @@ class Request:
 
 @dataclass(frozen=True, slots=True)
 class Stop:
-    """That somebody has stopped the robot, why, and in which turn of the lock."""
+    """The stop that somebody requested, why, and in which turn of the lock."""
 
     key: str
     holder: str = ""
@@ -46,7 +46,7 @@ class Stop:
 
 @dataclass(frozen=True, slots=True)
 class Lock:
-    """Who holds the robot, the first one first; nobody when it is free. `turn` counts changes."""
+    """Who holds the robot, the first holder first; nobody if it is free. `turn` counts changes."""
 
     stops: tuple[Stop, ...] = ()
     turn: int = 0
@@ -63,12 +63,12 @@ class Lock:
 
     @property
     def reason(self) -> str:
-        """Why the one who has held it longest does so."""
+        """The reason of the longest holder."""
         return self.stops[0].reason if self.stops else ""
 
 
 class Latch:
-    """One node's lock, and who holds the steering. Methods tell whether anything has changed; times are steady ns."""
+    """One node's lock, and who holds the steering. Methods return whether anything has changed; times are steady ns."""
 
     def __init__(self, lock: Lock | None = None) -> None:
         self.lock = lock or Lock()
@@ -81,7 +81,7 @@ class Latch:
         return ", ".join(sorted({holder for holder, _ in self._steering.values()}))
 
     def request(self, request: Request, now: int) -> bool:
-        """Do as a request says; one that nobody understands is a stop."""
+        """Carry out a request; one that cannot be understood is a stop."""
         if request.verb == RELEASE:
             return self.release(request.of or (request.key, NODE))
         if request.verb == STEER:
@@ -94,7 +94,7 @@ class Latch:
         return self.stop(request.holder, reason, request.key)
 
     def stop(self, holder: str, reason: str, key: str = NODE) -> bool:
-        """Lock; who holds an earlier lock goes on to hold it."""
+        """Lock; earlier holders keep holding."""
         held = [each.key for each in self.lock.stops]
         key = self._place(key, held)
         if key in held:
@@ -104,7 +104,7 @@ class Latch:
         return True
 
     def release(self, keys: Collection[str]) -> bool:
-        """Let go of the stops of these keys; the robot is free when none is left."""
+        """Remove the stops with these keys; the robot is free when none is left."""
         gone = [each.key for each in self.lock.stops if each.key in keys]
         if not gone:
             return False
@@ -120,7 +120,7 @@ class Latch:
         return key if key in taken or len(taken) < MOST else CROWD
 
     def follow(self, other: Lock) -> bool:
-        """Take over another node's stops, unless they are older than our release. A release is never taken over."""
+        """Adopt another node's stops, unless they are older than our release. A release is never adopted."""
         stops = {each.key: each for each in self.lock.stops}
         for each in other.stops:
             if each.turn > self._released.get(each.key, 0):

@@ -1,4 +1,4 @@
-"""What the newest scan says is ahead, and whether it may still be believed."""
+"""What the newest scan sees ahead, and whether it can still be trusted."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from sensor_msgs.msg import LaserScan
 
 
 class ScanWatch:
-    """Takes scans; any field of one may hold anything, and what cannot be used counts as not seen."""
+    """Takes scans; any field may hold anything, and what cannot be used counts as not seen."""
 
     def __init__(self, clock: Callable[[], int], lifetime_ns: int) -> None:
         self._clock = clock
@@ -40,10 +40,10 @@ class ScanWatch:
 
     @property
     def age(self) -> float:
-        """Nanoseconds since the last usable scan; infinite when there was none."""
+        """Nanoseconds since the last usable scan; infinite if there was none."""
         return math.inf if self._taken is None else self._clock() - self._taken
 
     @property
     def fresh(self) -> bool:
-        """Whether the last usable scan still tells what is ahead."""
+        """Whether the last usable scan is recent enough."""
         return 0 <= self.age <= self._lifetime

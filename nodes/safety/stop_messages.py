@@ -28,7 +28,7 @@ def request_message(request: Request) -> DiagnosticStatus:
 
 
 def request_of(message: DiagnosticStatus) -> Request:
-    """What a request says; the verb is empty when it says nothing."""
+    """The request in a message; its verb is empty if the message contains none."""
     values = _values(message)
     verb = _short(values.get("request", ""))
     holder = _short(message.name) or "somebody"
@@ -38,7 +38,7 @@ def request_of(message: DiagnosticStatus) -> Request:
 
 
 def state_message(lock: Lock, node: str, instance: str, steered_by: str) -> DiagnosticStatus:
-    """The state of a node's latch; `instance` is another one after each start of the node."""
+    """The state of a node's latch; `instance` differs after each start of the node."""
     values = {"locked": str(lock.held).lower(), "holder": lock.holder, "reason": lock.reason, "turn": str(lock.turn)}
     values["stops"] = json.dumps([[each.key, each.holder, each.reason, each.turn] for each in lock.stops])
     values |= {"steered_by": steered_by, "instance": instance}
@@ -52,7 +52,7 @@ def state_message(lock: Lock, node: str, instance: str, steered_by: str) -> Diag
 
 
 def lock_of(message: DiagnosticStatus) -> tuple[Lock, str]:
-    """The lock that a state tells of, and the instance; what cannot be read is a lock."""
+    """The lock in a state message, and the instance; what cannot be read counts as a lock."""
     values = _values(message)
     turn, stops = _number(values.get("turn")), _stops(values.get("stops"))
     if values.get("locked") == "false":

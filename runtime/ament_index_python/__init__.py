@@ -1,4 +1,4 @@
-"""Where packages are: prefixes of `AMENT_PREFIX_PATH`, then source packages of the workspace."""
+"""Finds packages: in the prefixes of `AMENT_PREFIX_PATH`, then among the source packages of the workspace."""
 
 from ament_index_python.packages import (
     PackageNotFoundError,

@@ -1,4 +1,4 @@
-"""Images of ROS as NumPy arrays, as upstream's `cv_bridge`; OpenCV only for compressed ones and Bayer patterns."""
+"""ROS images as NumPy arrays, as in upstream's `cv_bridge`; OpenCV only for compressed images and Bayer patterns."""
 
 from cv_bridge.conversion import cvtColor2
 from cv_bridge.core import CvBridge, CvBridgeError

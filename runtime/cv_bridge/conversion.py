@@ -1,4 +1,4 @@
-"""From one encoding to another, with OpenCV's weights and rounding."""
+"""Converts between encodings, with OpenCV's weights and rounding."""
 
 from __future__ import annotations
 

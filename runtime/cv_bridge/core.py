@@ -1,4 +1,4 @@
-"""The bridge: messages with images as arrays, and back. Contract: upstream's `cv_bridge.CvBridge`."""
+"""The bridge: image messages to arrays and back. Contract: upstream's `cv_bridge.CvBridge`."""
 
 from __future__ import annotations
 

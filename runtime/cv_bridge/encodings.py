@@ -1,4 +1,4 @@
-"""Names of encodings: type and number of channels of what they stand for."""
+"""Names of encodings: the data type and number of channels of each."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Finds the arguments that a tree of entities declares, includes and conditional branches counted, as upstream does."""
+"""Finds the arguments declared in a tree of entities, includes and conditional branches included, as upstream does."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where in the launch files an exception was raised, told on the exception itself (not upstream)."""
+"""Where in the launch files an exception was raised, noted on the exception itself (not upstream)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What actions have in common that give something a value: a variable of the environment, a launch configuration."""
+"""What actions share that set a named value: an environment variable, or a launch configuration."""
 
 from __future__ import annotations
 

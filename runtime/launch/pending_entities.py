@@ -1,4 +1,4 @@
-"""What a launch still waits for."""
+"""What a launch is still waiting for."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether a process that has ended is started again."""
+"""Whether a process that has ended is restarted."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What may stand where actions are wanted."""
+"""The type of arguments that take actions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What may stand where entities are wanted."""
+"""The type of arguments that take entities."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What may stand where a text is wanted."""
+"""The type of arguments that take text."""
 
 from __future__ import annotations
 

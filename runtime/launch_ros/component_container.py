@@ -1,4 +1,4 @@
-"""A container that loads nodes which are Python classes, as `rclcpp_components` does with C++ classes."""
+"""A container for nodes that are Python classes, as `rclcpp_components` is for C++ classes."""
 
 from __future__ import annotations
 

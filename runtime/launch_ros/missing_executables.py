@@ -1,4 +1,4 @@
-"""Nodes whose executables are not here: C++ packages that only a machine with ROS 2 has."""
+"""Nodes whose executables are missing: C++ packages that only a machine with ROS 2 has."""
 
 from __future__ import annotations
 

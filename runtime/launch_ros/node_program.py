@@ -1,4 +1,4 @@
-"""What a node's executable is: a Python program that runs in this process, or a command of the system."""
+"""The program of a node's executable: a Python program that runs in this process, or a command."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Parameters of a node as words of its command line."""
+"""Parameters of a node as command line arguments."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which part of a launch file gives a node each of its parameters: a launch argument, or a line of the file."""
+"""Which part of a launch file sets each of a node's parameters: a launch argument, or a line of the file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Warnings for parameters that will not be what the launch file seems to say; what happens stays the same."""
+"""Warnings about parameters that differ from what a launch file seems to say; the outcome is that of ROS 2."""
 
 from __future__ import annotations
 

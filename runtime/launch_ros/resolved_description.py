@@ -1,4 +1,4 @@
-"""A launch file with everything evaluated and nothing started: what `--print --resolved` shows."""
+"""A launch file fully evaluated, with nothing started: the output of `--print --resolved`."""
 
 # pyright: reportPrivateUsage=false
 # Discovery is shared within launch, and not for its users: underscores as upstream.

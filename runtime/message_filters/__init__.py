@@ -1,4 +1,4 @@
-"""Messages that belong together, as upstream's `message_filters`: by time, exactly or nearly, and kept for a while."""
+"""Synchronizes messages, as upstream's `message_filters`: by exact or approximate time, and with a cache."""
 
 from message_filters.cache import Cache
 from message_filters.simple_filter import Chain, SimpleFilter, Subscriber

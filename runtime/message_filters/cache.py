@@ -1,4 +1,4 @@
-"""The last messages, by time."""
+"""A cache of the last messages, ordered by time."""
 
 from __future__ import annotations
 

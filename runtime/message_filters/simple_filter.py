@@ -1,4 +1,4 @@
-"""Filters: what messages go into, and who hears what comes out."""
+"""Filters: they take messages in, and pass results on to callbacks."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""When a message is of."""
+"""The time stamp of a message."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Messages of several filters that are of one time."""
+"""Combines messages of several filters that belong to the same time."""
 
 from __future__ import annotations
 

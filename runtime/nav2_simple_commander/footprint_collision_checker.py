@@ -1,4 +1,4 @@
-"""What it costs a robot of some outline to stand somewhere. Contract: upstream's module of this name."""
+"""The cost of a footprint at a pose on a costmap. Contract: upstream's module of this name."""
 
 from __future__ import annotations
 

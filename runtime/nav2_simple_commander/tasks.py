@@ -1,4 +1,4 @@
-"""The actions and services of Nav2 by the names of their servers; each is made when it is first asked for."""
+"""The actions and services of Nav2 by the names of their servers; each client is made on first use."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Where all time comes from, and how a thread waits: the seam that makes a stepped run possible.
+"""Where all time comes from, and how a thread waits: the interface that makes a stepped run possible.
 
-Protocols only: `real_time` and `stepping.stepped_time` are the two sources, `node.thread_state` is whom they wake.
+Protocols only: `real_time` and `stepping.stepped_time` are the two sources, `node.thread_state` is what they wake.
 """
 
 from __future__ import annotations

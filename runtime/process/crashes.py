@@ -1,4 +1,4 @@
-"""Explanations of exceptions that ended a node process, by those who know the usual cause."""
+"""Explanations of exceptions that ended a node process, registered by modules that know the usual causes."""
 
 from __future__ import annotations
 

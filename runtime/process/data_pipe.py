@@ -1,6 +1,6 @@
-"""What only this process knows of itself, as plain data to the one that started it: a pipe that it has inherited.
+"""What only this process knows about itself, as plain data through a pipe inherited from the process that started it.
 
-One JSON object a line, `{"kind": ..., ...}`. A crash within C code writes its stacks into the same pipe as plain text.
+One JSON object per line, `{"kind": ..., ...}`. A crash in C code writes its stacks into the same pipe as plain text.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The end of a process without taking its interpreter apart, which other threads' calls would find half gone."""
+"""Ends a process without finalizing its interpreter, which calls from other threads would find half torn down."""
 
 from __future__ import annotations
 

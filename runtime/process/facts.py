@@ -1,6 +1,6 @@
-"""What a node process knows of itself and no topic tells, as plain data for whoever started it.
+"""What a node process knows about itself and no topic tells, as plain data for whoever started it.
 
-A process of its own writes into its data pipe; a node process that is a thread calls the hooks of this one.
+A process of its own writes to its data pipe; a node process that is a thread calls hooks of this process.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Which line of a program a thread is in, as a person would name it; and tracebacks without our own frames."""
+"""Which line of a program a thread is executing, as a person would name it; and tracebacks without our own frames."""
 
 from __future__ import annotations
 

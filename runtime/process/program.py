@@ -1,4 +1,4 @@
-"""The main program of a node process: a Python file, or a function of a module as `console_scripts` name it."""
+"""The main program of a node process: a Python file, or a function named as in `console_scripts`."""
 
 from __future__ import annotations
 

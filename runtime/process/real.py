@@ -1,4 +1,4 @@
-"""The real clock, process id and threads, whatever else is wrapped: for the runtime's own helpers."""
+"""The real clock, process id and threads, even where they are wrapped: for the runtime's own helpers."""
 
 from __future__ import annotations
 

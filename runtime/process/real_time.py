@@ -1,4 +1,4 @@
-"""The machine's own clock, and waits on it that a signal of a node process can end."""
+"""The machine's own clock, and waits on it that a signal to a node process can end."""
 
 from __future__ import annotations
 

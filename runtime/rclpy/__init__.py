@@ -60,7 +60,7 @@ def init(
     domain_id: int | None = None,
     signal_handler_options: SignalHandlerOptions | None = None,
 ) -> InitContextManager:
-    """Begin; `args` None means `sys.argv`. Raises `RuntimeError` the second time, `RCLError` for bad arguments."""
+    """Initialise; `args` None means `sys.argv`. Raises `RuntimeError` the second time, `RCLError` for bad arguments."""
     default = get_default_context()
     chosen: Context = default if context is None else context
     if signal_handler_options is None:
@@ -72,7 +72,7 @@ def init(
 
 
 def get_global_executor() -> Executor:
-    """The executor of `spin`, `spin_once` and `spin_until_future_complete` where none is named."""
+    """The executor used by `spin`, `spin_once` and `spin_until_future_complete` when none is given."""
     from rclpy.executors import SingleThreadedExecutor
 
     holder = _global_executor.get()
@@ -90,14 +90,14 @@ def get_global_executor() -> Executor:
 
 
 def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
-    """End; raises `RuntimeError` before `init`, and `RCLError` where that has happened already."""
+    """Shut down; raises `RuntimeError` before `init`, and `RCLError` when that has already happened."""
     _shutdown(context=context)
     if uninstall_handlers or (uninstall_handlers is None and context is None):
         uninstall_signal_handlers()
 
 
 def try_shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
-    """End unless that has happened."""
+    """Shut down, unless that has already happened."""
     _try_shutdown(context=context)
     if uninstall_handlers or (uninstall_handlers is None and context is None):
         uninstall_signal_handlers()
@@ -117,7 +117,7 @@ def create_node(
     automatically_declare_parameters_from_overrides: bool = False,
     enable_logger_service: bool = False,
 ) -> Node:
-    """Make a node; see `rclpy.node.Node`."""
+    """Create a node; see `rclpy.node.Node`."""
     from rclpy.node import Node
 
     return Node(
@@ -146,7 +146,7 @@ def spin_once(node: Node, *, executor: Executor | None = None, timeout_sec: floa
 
 
 def spin(node: Node, executor: Executor | None = None) -> None:
-    """Serve a node until its context is shut down."""
+    """Run a node's callbacks until its context is shut down."""
     executor = get_global_executor() if executor is None else executor
     try:
         executor.add_node(node)
@@ -159,7 +159,7 @@ def spin(node: Node, executor: Executor | None = None) -> None:
 def spin_until_future_complete(
     node: Node, future: Future[Any], executor: Executor | None = None, timeout_sec: float | None = None
 ) -> None:
-    """Serve a node until a future is done or time (s) is over."""
+    """Run a node's callbacks until a future is done or the time-out (s) expires."""
     executor = get_global_executor() if executor is None else executor
     try:
         executor.add_node(node)

@@ -15,19 +15,19 @@ class RCLInvalidROSArgsError(RCLError):
 
 
 class UnknownROSArgsError(RuntimeError):
-    """The ROS part of a command line has words that mean nothing; the message is their list."""
+    """The ROS part of a command line has unknown arguments; the message lists them."""
 
 
 class NodeNameNonExistentError(RCLError):
-    """No node of that name is in the graph."""
+    """There is no node of that name in the graph."""
 
 
 class UnsupportedEventTypeError(RCLError):
-    """The middleware has no such event."""
+    """The middleware does not support this event."""
 
 
 class NotImplementedError(builtins.NotImplementedError):
-    """The middleware cannot do this."""
+    """The middleware does not implement this."""
 
 
 class InvalidHandle(RuntimeError):
@@ -35,7 +35,7 @@ class InvalidHandle(RuntimeError):
 
 
 class RMWError(RuntimeError):
-    """The middleware refused a call, or got bytes that are no message."""
+    """The middleware refused a call, or received bytes that are not a message."""
 
 
 class rmw_qos_policy_kind_t(IntEnum):  # noqa: N801 -- upstream's name

@@ -8,7 +8,7 @@ from typing import Any
 
 
 class CallbackGroup:
-    """Holds entities by weak reference and says which of them may run now. The base of both kinds of group."""
+    """Holds entities by weak reference, and decides which of them may run. The base of both kinds of group."""
 
     blocked: list[Any] | None = None
     """Entities that are ready and have to wait for the group, or nothing."""
@@ -25,7 +25,7 @@ class CallbackGroup:
         self.entities: set[Any] = set()
 
     def block(self, entity: Any) -> None:
-        """Let an entity that may not begin be told when it may."""
+        """Register an entity that may not run, to be notified when it may."""
         if self.own_rules:
             entity.sink.ask_again(entity)
             return
@@ -36,13 +36,13 @@ class CallbackGroup:
             self.unblock()
 
     def unblock(self) -> None:
-        """Tell the entities that wait that they may try again."""
+        """Notify waiting entities that they may try again."""
         blocked, self.blocked = self.blocked, None
         for entity in blocked or ():
             entity.notify()
 
     def add_entity(self, entity: Any) -> None:
-        """Let an entity belong to the group."""
+        """Add an entity to the group."""
         if len(self.entities) >= self._full:
             # Here and not when they go: then a program that iterates over the set would find it changed at any moment.
             known = tuple(self.entities)  # at once: other threads may add meanwhile
@@ -55,15 +55,15 @@ class CallbackGroup:
         return weakref.ref(entity) in self.entities
 
     def can_execute(self, entity: Any) -> bool:
-        """Whether the entity's callback may begin now."""
+        """Whether the entity's callback may run now."""
         raise NotImplementedError
 
     def beginning_execution(self, entity: Any) -> bool:
-        """Begin, if that is allowed; whether it was."""
+        """Mark the entity's callback as running, if that is allowed; returns whether it was."""
         raise NotImplementedError
 
     def ending_execution(self, entity: Any) -> None:
-        """The entity's callback has ended."""
+        """Mark the entity's callback as ended."""
         raise NotImplementedError
 
 
@@ -71,7 +71,7 @@ class ReentrantCallbackGroup(CallbackGroup):
     """Every callback may run at any time."""
 
     def can_execute(self, entity: Any) -> bool:
-        """Whether the entity's callback may begin now: always."""
+        """Whether the entity's callback may run now: always."""
         return True
 
     def beginning_execution(self, entity: Any) -> bool:
@@ -91,7 +91,7 @@ class MutuallyExclusiveCallbackGroup(CallbackGroup):
         self._busy = allocate_lock()
 
     def can_execute(self, entity: Any) -> bool:
-        """Whether no callback of the group runs."""
+        """Whether no callback of the group is running."""
         return not self._busy.locked()
 
     def beginning_execution(self, entity: Any) -> bool:

@@ -21,7 +21,7 @@ NANO = 1_000_000_000
 
 
 class Client(Entity):
-    """Asks a service; made by `Node.create_client`."""
+    """Calls a service; made by `Node.create_client`."""
 
     KIND = CLIENT
     events: Any = None
@@ -56,7 +56,7 @@ class Client(Entity):
         return self._node.get_logger().name
 
     def call(self, request: Any, timeout_sec: float | None = None) -> Any:
-        """Ask and wait for the answer, served by another thread; None when time (s) is over."""
+        """Send a request and wait for the response, received by another thread; None after the time-out (s)."""
         if not isinstance(request, self.srv_type.Request):
             raise TypeError
         wakeup = current().clock.wakeup()
@@ -74,7 +74,7 @@ class Client(Entity):
         return future.result()
 
     def call_async(self, request: Any) -> Future[Any]:
-        """Ask; the future is done when the answer has come and an executor has taken it."""
+        """Send a request; the future is done when the response has arrived and an executor has taken it."""
         if not isinstance(request, self.srv_type.Request):
             raise TypeError
         self.use()
@@ -94,7 +94,7 @@ class Client(Entity):
         return self._pending_requests[sequence_number]
 
     def remove_pending_request(self, future: Future[Any]) -> None:
-        """Wait for an answer no more; it is dropped when it comes."""
+        """Stop waiting for a response; it is dropped when it arrives."""
         with self._lock:
             for number, each in list(self._pending_requests.items()):
                 if each is future:
@@ -102,11 +102,11 @@ class Client(Entity):
                     return
 
     def pending(self) -> bool:
-        """Whether an answer is there."""
+        """Whether a response has arrived."""
         return bool(self.endpoint.queue) and not self.destroyed
 
     def run(self) -> Any:
-        """Take one answer and settle its future."""
+        """Take one response and settle its future."""
         try:
             number, response = self.endpoint.queue.popleft()
         except IndexError:
@@ -120,23 +120,23 @@ class Client(Entity):
         return None
 
     def service_is_ready(self) -> bool:
-        """Whether a server is there; raises `RCLError` after a shutdown of the context."""
+        """Whether a server is available; raises `RCLError` after a shutdown of the context."""
         self.use()
         require_valid(self._node.context, "failed to check service availability")
         return self._node._ros_bus.has_server(self.endpoint)
 
     def wait_for_service(self, timeout_sec: float | None = None) -> bool:
-        """Block until a server is there; False when time (s) is over. Raises `RCLError` once the context ends."""
+        """Block until a server is available; False after the time-out (s). Raises `RCLError` once the context ends."""
         return wait_until_there(self._node, self.service_is_ready, timeout_sec)
 
     def configure_introspection(self, clock: Any, service_event_qos_profile: Any, introspection_state: Any) -> None:
-        """Publish what the client does on a topic beside the service."""
+        """Publish the client's activity on a topic next to the service."""
         from rclpy.service_introspection import configure
 
         configure(self, clock, service_event_qos_profile, introspection_state)
 
     def destroy(self) -> None:
-        """Ask no more."""
+        """Destroy the client."""
         self.destroyed = True
         self._node._ros_bus.remove(self.endpoint)
         self.detach()

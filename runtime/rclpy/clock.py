@@ -42,7 +42,7 @@ class ClockChange(NamedIntEnum):
 
 
 class JumpThreshold:
-    """Which jumps a callback is told of: forward by `min_forward` or more, back by `min_backward` or more."""
+    """Which jumps a callback is called for: `min_forward` or more ahead, `min_backward` or more back."""
 
     def __init__(
         self, *, min_forward: Duration | None, min_backward: Duration | None, on_clock_change: bool = True
@@ -89,7 +89,7 @@ class JumpHandle:
         clock._jump_handles.append(self)
 
     def unregister(self) -> None:
-        """Be told no more."""
+        """Remove the callbacks."""
         if self._clock is not None:
             self._clock._jump_handles.remove(self)
             self._clock = None
@@ -167,7 +167,7 @@ class Clock(AnyClock):
         pre_callback: Callable[[], Any] | None = None,
         post_callback: Callable[[Any], Any] | None = None,
     ) -> JumpHandle:
-        """Be told of jumps beyond a threshold, before and after; raises `ValueError` for what cannot be called."""
+        """Register callbacks before and after jumps beyond a threshold; raises `ValueError` if not callable."""
         if pre_callback is None and post_callback is None:
             raise ValueError("One of pre_callback or post_callback must be callable")
         for name, callback in (("pre_callback", pre_callback), ("post_callback", post_callback)):
@@ -176,7 +176,7 @@ class Clock(AnyClock):
         return JumpHandle(self, threshold, pre_callback, post_callback)
 
     def sleep_until(self, until: Time, context: Any = None) -> bool:
-        """Block until a time of this clock; False when the context was shut down or the clock jumped back meanwhile."""
+        """Block until a time of this clock; False if the context was shut down or the clock jumped back meanwhile."""
         context = get_default_context() if context is None else context
         if not context.ok():
             raise NotInitializedException

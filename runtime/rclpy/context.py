@@ -1,4 +1,4 @@
-"""Contexts: what `rclpy.init` makes and `rclpy.shutdown` ends."""
+"""Contexts: what `rclpy.init` creates and `rclpy.shutdown` ends."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ NOT_INITIALIZED = "this context has not been initialised: call rclpy.init() firs
 
 
 class Context:
-    """The life of a set of nodes: its arguments, its domain, and whether it is still going on."""
+    """The lifetime of a set of nodes: arguments, domain, and whether it is still valid."""
 
     def __init__(self) -> None:
         self._lock = threading.RLock()
@@ -66,7 +66,7 @@ class Context:
         self._forget_abandon = current().on_abandon(self._abandon)
 
     def ok(self) -> bool:
-        """Whether it was initialised and not shut down."""
+        """Whether it has been initialised and not shut down."""
         if self.ended:
             current().deliver_signals()
         return self._initialized and not self.ended
@@ -104,7 +104,7 @@ class Context:
         return self._domain
 
     def shutdown(self) -> None:
-        """End; raises `RuntimeError` before `init` and `RCLError` the second time."""
+        """Shut down; raises `RuntimeError` before `init`, and `RCLError` the second time."""
         if not self._initialized:
             raise RuntimeError("Context must be initialized before it can be shutdown")
         if self.ended:
@@ -112,7 +112,7 @@ class Context:
         self._end()
 
     def try_shutdown(self) -> None:
-        """End unless that has happened."""
+        """Shut down, unless that has already happened."""
         if self._initialized and not self.ended:
             self._end()
 
@@ -137,13 +137,13 @@ class Context:
                 callback()
 
     def on_shutdown(self, callback: Callable[[], Any]) -> Callable[[], None]:
-        """Call back once at the shutdown, at once where it has happened; returns what takes the callback away."""
+        """Call back once at the shutdown, or at once after it; returns a function that removes the callback."""
         if not callable(callback):
             raise TypeError(f"callback should be a callable, got {type(callback)}")
         return self._add(callback, "_callbacks")
 
     def on_end(self, wake: Callable[[], Any]) -> Callable[[], None]:
-        """Wake who waits when the context ends, by whatever; returns what takes it away."""
+        """Wake a waiter when the context ends, for any reason; returns a function that removes it."""
         return self._add(wake, "_wakes")
 
     def _add(self, callback: Callable[[], Any], name: str) -> Callable[[], None]:
@@ -156,7 +156,7 @@ class Context:
         return lambda: None
 
     def _held(self, callback: Callable[[], Any]) -> Callable[[], Any]:
-        """What gives the callback: a method is held weakly, so that a context keeps nobody alive."""
+        """A function that returns the callback: methods are held weakly, so that a context keeps no object alive."""
         if ismethod(callback):
             try:
                 return weakref.WeakMethod(callback, self._forget)
@@ -170,21 +170,21 @@ class Context:
             self._wakes = [each for each in self._wakes if each is not held]
 
     def track_node(self, node: Any) -> None:
-        """A node was made in this context."""
+        """Note a node created in this context."""
         self._nodes.add(node)
         if self._abandoned:
             node._ros_leave_graph()
 
     def tracked_nodes(self) -> list[Any]:
-        """The nodes that it has now."""
+        """The nodes in this context."""
         return list(self._nodes)
 
     def untrack_node(self, node: Any) -> None:
-        """A node was destroyed."""
+        """Note that a node was destroyed."""
         self._nodes.discard(node)
 
     def _abandon(self) -> None:
-        """The process was killed while its code may go on: its nodes leave the graph and are heard no more."""
+        """Remove the nodes from the graph and silence them: the process was killed, but its code may go on."""
         self.ended = self._abandoned = True
         for endpoint in list(self.lingering):
             self.bus.remove(endpoint)

@@ -46,7 +46,7 @@ INFINITE_NS = 2**63 - 2
 
 @dataclass
 class QoSIncompatibleInfo:
-    """Endpoints that do not fit: how many, how many new, and the last policy in which they did not."""
+    """Incompatible endpoints: the total, the change, and the last policy that did not match."""
 
     total_count: int = 0
     total_count_change: int = 0
@@ -58,7 +58,7 @@ class QoSIncompatibleInfo:
 
 @dataclass
 class QoSMatchedInfo:
-    """Matched endpoints: ever, newly, now, and the change since the last call."""
+    """Matched endpoints: the total ever, its change, the current number, and its change."""
 
     total_count: int = 0
     total_count_change: int = 0
@@ -68,7 +68,7 @@ class QoSMatchedInfo:
 
 @dataclass
 class QoSCountInfo:
-    """How often something happened, and how often since the last call."""
+    """How often something has happened: the total, and the change since the last call."""
 
     total_count: int = 0
     total_count_change: int = 0
@@ -76,7 +76,7 @@ class QoSCountInfo:
 
 @dataclass
 class QoSLivelinessChangedInfo:
-    """Publishers that are heard and that are not, and the changes since the last call."""
+    """Publishers that are alive and that are not, and the changes since the last call."""
 
     alive_count: int = 0
     not_alive_count: int = 0

@@ -1,4 +1,4 @@
-"""Exceptions that rclpy raises; words as Jazzy's."""
+"""The exceptions that rclpy raises, with Jazzy's messages."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ class NoTypeSupportImportedException(Exception):
 
 
 class ROSInterruptException(Exception):
-    """A wait ended because of a shutdown."""
+    """A wait was interrupted by a shutdown."""
 
     def __init__(self, *args: Any) -> None:
         Exception.__init__(self, "rclpy.shutdown() has been called", *args)
 
 
 class NameValidationException(Exception):
-    """A name is not valid; shows the name with a caret under the place."""
+    """A name is invalid; shows the name with a caret below the offending character."""
 
     def __init__(self, name_type: str, name: str, error_msg: str, invalid_index: int, *args: Any) -> None:
         caret = " " * (invalid_index + 3)
@@ -44,63 +44,63 @@ class NameValidationException(Exception):
 
 
 class InvalidNamespaceException(NameValidationException):
-    """A namespace is not valid."""
+    """A namespace is invalid."""
 
     def __init__(self, name: str, error_msg: str, invalid_index: int, *args: Any) -> None:
         NameValidationException.__init__(self, "namespace", name, error_msg, invalid_index, *args)
 
 
 class InvalidNodeNameException(NameValidationException):
-    """A node name is not valid."""
+    """A node name is invalid."""
 
     def __init__(self, name: str, error_msg: str, invalid_index: int, *args: Any) -> None:
         NameValidationException.__init__(self, "node name", name, error_msg, invalid_index, *args)
 
 
 class InvalidTopicNameException(NameValidationException):
-    """A topic name is not valid."""
+    """A topic name is invalid."""
 
     def __init__(self, name: str, error_msg: str, invalid_index: int, *args: Any) -> None:
         NameValidationException.__init__(self, "topic name", name, error_msg, invalid_index, *args)
 
 
 class InvalidServiceNameException(NameValidationException):
-    """A service name is not valid."""
+    """A service name is invalid."""
 
     def __init__(self, name: str, error_msg: str, invalid_index: int, *args: Any) -> None:
         NameValidationException.__init__(self, "service name", name, error_msg, invalid_index, *args)
 
 
 class ParameterException(Exception):
-    """Something is wrong with one parameter or several; the names stand at the end of the message."""
+    """One or several parameters are at fault; the message ends with their names."""
 
     def __init__(self, error_msg: str, parameters: str | Sequence[str], *args: Any) -> None:
         Exception.__init__(self, f"{error_msg}: {parameters}", *args)
 
 
 class ParameterNotDeclaredException(ParameterException):
-    """A parameter was used that nobody declared."""
+    """A parameter was used without being declared."""
 
     def __init__(self, parameters: str | Sequence[str], *args: Any) -> None:
         ParameterException.__init__(self, "Invalid access to undeclared parameter(s)", parameters, *args)
 
 
 class ParameterAlreadyDeclaredException(ParameterException):
-    """A parameter was declared a second time."""
+    """A parameter was declared twice."""
 
     def __init__(self, parameters: str | Sequence[str], *args: Any) -> None:
         ParameterException.__init__(self, "Parameter(s) already declared", parameters, *args)
 
 
 class InvalidParameterException(ParameterException):
-    """A parameter name is not valid."""
+    """A parameter name is invalid."""
 
     def __init__(self, parameter: Any, *args: Any) -> None:
         ParameterException.__init__(self, "Invalid parameter name", parameter, *args)
 
 
 class InvalidParameterTypeException(ParameterException):
-    """A parameter got a value of another type than its own."""
+    """A parameter was given a value of another type than its own."""
 
     def __init__(self, parameter: Any, expected_type: str, *args: Any) -> None:
         ParameterException.__init__(
@@ -114,7 +114,7 @@ class InvalidParameterTypeException(ParameterException):
 
 
 class InvalidParameterValueException(ParameterException):
-    """A parameter got a value that its range or a callback refuses."""
+    """A parameter was given a value that its range or a callback refuses."""
 
     def __init__(self, parameter: str, value: Any, reason: str, *args: Any) -> None:
         ParameterException.__init__(
@@ -123,7 +123,7 @@ class InvalidParameterValueException(ParameterException):
 
 
 class ParameterImmutableException(ParameterException):
-    """A read-only parameter was to be changed or removed."""
+    """An attempt to change or remove a read-only parameter."""
 
     def __init__(self, parameter: str | Sequence[str], *args: Any) -> None:
         ParameterException.__init__(self, "Attempted to modify read-only parameter", parameter, *args)

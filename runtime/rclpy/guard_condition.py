@@ -10,7 +10,7 @@ from rclpy.impl.entity import GUARD, Entity
 
 
 class GuardCondition(Entity):
-    """Calls back once in an executor for each time it is triggered, at most once per wake."""
+    """Calls back in an executor when it has been triggered, at most once per wake."""
 
     KIND = GUARD
 
@@ -25,7 +25,7 @@ class GuardCondition(Entity):
         return Destroyable(self, self.use)
 
     def trigger(self) -> None:
-        """Let the callback run; from any thread."""
+        """Trigger the callback; from any thread."""
         self.use()
         self._triggered = True
         self.notify()

@@ -1,4 +1,4 @@
-"""The services that read and set log levels from afar."""
+"""The services that read and set log levels remotely."""
 
 from __future__ import annotations
 

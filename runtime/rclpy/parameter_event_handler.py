@@ -1,4 +1,4 @@
-"""Calls back when parameters of any node change."""
+"""Callbacks for parameter changes of any node."""
 
 from __future__ import annotations
 

@@ -119,7 +119,7 @@ class Publisher:
         self._node.get_logger().error(f"cannot publish on '{self._endpoint.endpoint.topic}': {error}, at {where}")
 
     def get_subscription_count(self) -> int:
-        """How many subscriptions receive; raises `RCLError` after a shutdown of the context."""
+        """The number of matched subscriptions; raises `RCLError` after a shutdown of the context."""
         if self.destroyed or self._context.ended:
             self._refuse("failed to get subscription count")
         return self._endpoint.matched_count()
@@ -129,7 +129,7 @@ class Publisher:
         return self._endpoint.is_heard()
 
     def assert_liveliness(self) -> None:
-        """Say that this publisher is alive, for MANUAL_BY_TOPIC liveliness."""
+        """Assert that this publisher is alive, for MANUAL_BY_TOPIC liveliness."""
         self._use()
         self._endpoint.assert_liveliness()
 
@@ -139,7 +139,7 @@ class Publisher:
         return True
 
     def destroy(self) -> None:
-        """Publish no more; every use from now on raises `InvalidHandle`."""
+        """Destroy the publisher; every use from now on raises `InvalidHandle`."""
         for handler in self.event_handlers:
             handler.destroy()
         self.destroyed = True

@@ -1,4 +1,4 @@
-"""Quality of service: profiles, the presets of ROS, and whether two profiles fit."""
+"""QoS: profiles, ROS's presets, and whether two profiles are compatible."""
 
 from __future__ import annotations
 

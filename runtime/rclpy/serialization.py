@@ -1,4 +1,4 @@
-"""Messages as bytes and back."""
+"""Serialization of messages."""
 
 from __future__ import annotations
 

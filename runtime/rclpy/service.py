@@ -12,7 +12,7 @@ from rclpy.impl.reexports import reexporting
 
 
 class Service(Entity):
-    """Answers requests; made by `Node.create_service`. The callback takes request and response, and returns one."""
+    """Serves requests; made by `Node.create_service`. The callback takes request and response, and returns one."""
 
     KIND = SERVICE
     events: Any = None
@@ -52,7 +52,7 @@ class Service(Entity):
         return self._node.get_logger().name
 
     def pending(self) -> bool:
-        """Whether a request is there."""
+        """Whether a request has arrived."""
         return bool(self.endpoint.queue) and not self.destroyed
 
     def run(self) -> Any:
@@ -74,7 +74,7 @@ class Service(Entity):
         self.send_response(await self._callback(request, self.srv_type.Response()), (client, number))
 
     def send_response(self, response: Any, header: Any) -> None:
-        """Answer a request; raises `TypeError` for anything but a response of the service."""
+        """Send a response; raises `TypeError` for anything but a response of the service."""
         if not isinstance(response, self.srv_type.Response):
             raise TypeError
         self.use()
@@ -83,13 +83,13 @@ class Service(Entity):
             self.events.tell(2, header[0], header[1], response=response)
 
     def configure_introspection(self, clock: Any, service_event_qos_profile: Any, introspection_state: Any) -> None:
-        """Publish what the service does on a topic beside it."""
+        """Publish the service's activity on a topic next to it."""
         from rclpy.service_introspection import configure
 
         configure(self, clock, service_event_qos_profile, introspection_state)
 
     def destroy(self) -> None:
-        """Answer no more."""
+        """Destroy the service."""
         self.destroyed = True
         self._node._ros_bus.remove(self.endpoint)
         self.detach()

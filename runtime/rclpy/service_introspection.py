@@ -1,4 +1,4 @@
-"""Service introspection: what a service or a client does, published beside it on `<service>/_service_event`."""
+"""Service introspection: publishes the activity of a service or client on `<service>/_service_event`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What SIGINT and SIGTERM do: they shut down the contexts of the process they are sent to."""
+"""SIGINT and SIGTERM shut down the contexts of the process that receives them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Drives the clocks of a node by `/clock` while its parameter `use_sim_time` is true."""
+"""Drives a node's clocks from `/clock` while its parameter `use_sim_time` is true."""
 
 # pyright: reportPrivateUsage=false
 # The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.

@@ -1,4 +1,4 @@
-"""Tells message, service and action classes from each other and from anything else."""
+"""Distinguishes message, service and action classes from each other and from anything else."""
 
 from __future__ import annotations
 

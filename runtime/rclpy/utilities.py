@@ -1,4 +1,4 @@
-"""Things that the modules of rclpy and programs share: the default context, and what command lines hold."""
+"""What the modules of rclpy, and programs, share: the default context, and queries of command lines."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Check of full topic and service names."""
+"""Validation of full topic and service names."""
 
 from __future__ import annotations
 

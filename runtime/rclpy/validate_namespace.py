@@ -1,4 +1,4 @@
-"""Check of namespaces."""
+"""Validation of namespaces."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Check of node names."""
+"""Validation of node names."""
 
 from __future__ import annotations
 

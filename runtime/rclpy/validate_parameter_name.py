@@ -1,4 +1,4 @@
-"""Check of parameter names."""
+"""Validation of parameter names."""
 
 from __future__ import annotations
 

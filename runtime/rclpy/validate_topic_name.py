@@ -1,4 +1,4 @@
-"""Check of topic and service names as they are typed."""
+"""Validation of topic and service names as typed."""
 
 from __future__ import annotations
 

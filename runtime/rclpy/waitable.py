@@ -1,4 +1,4 @@
-"""Waitables: things of a program's own that an executor waits for."""
+"""Waitables: custom entities that an executor serves."""
 
 from __future__ import annotations
 

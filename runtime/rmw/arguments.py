@@ -1,6 +1,6 @@
-"""The ROS part of a command line: `--ros-args ... [--]`.
+"""The ROS part of a command line: `--ros-args ... [--]`. Grammar and messages are rcl's.
 
-Grammar and texts of rcl. What is outside stays the program's own; a remap rule there is obeyed and noted as deprecated.
+Arguments outside it belong to the program; a remap rule there is obeyed, and noted as deprecated.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What rclpy needs of a middleware: endpoints that take and give messages, and the graph."""
+"""What rclpy needs from a middleware: endpoints that take and deliver messages, and the graph."""
 
 from __future__ import annotations
 

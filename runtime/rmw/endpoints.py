@@ -1,4 +1,4 @@
-"""What a middleware connects: nodes, publishers, subscriptions, servers and clients, as the graph knows them."""
+"""The entities that a middleware connects: nodes, publishers, subscriptions, servers and clients."""
 
 from __future__ import annotations
 

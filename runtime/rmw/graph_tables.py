@@ -1,6 +1,6 @@
-"""The graph by node, topic and service, kept as it changes: a question costs what its answer holds.
+"""The graph indexed by node, topic and service, and updated as it changes: a query costs what its answer holds.
 
-Made anew at each change it would cost the square of what comes: hundreds of nodes that start ask and change by turns.
+Rebuilding it at each change would be quadratic: hundreds of starting nodes alternate between queries and changes.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The words of remap and parameter rules cut into lexemes, as rcl numbers them in its messages."""
+"""Splits remap and parameter rules into lexemes, with the numbers that rcl's messages give them."""
 
 from __future__ import annotations
 

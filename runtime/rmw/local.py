@@ -1,4 +1,4 @@
-"""The bus within one process: endpoints are matched, and messages go from object to object."""
+"""The bus within one process: matches endpoints, and passes messages from object to object."""
 
 from __future__ import annotations
 

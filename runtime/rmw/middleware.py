@@ -1,4 +1,4 @@
-"""Which middleware the contexts of this process get: the bus within the process unless the program chose another."""
+"""Which middleware the contexts of this process use: the bus within the process, unless the program chose another."""
 
 from __future__ import annotations
 

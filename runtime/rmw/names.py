@@ -1,6 +1,6 @@
 """Validation and expansion of node, namespace, topic and service names.
 
-Each check returns None for a valid name, else the words of rcl and rmw with the index of the offending character.
+Each check returns None for a valid name, else the message of rcl or rmw with the index of the offending character.
 """
 
 from __future__ import annotations

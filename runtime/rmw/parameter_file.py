@@ -1,4 +1,4 @@
-"""Reads ROS parameter files as rcl does: by the events of YAML, with its words for what is wrong."""
+"""Parses ROS parameter files as rcl does: from YAML events, with rcl's error messages."""
 
 from __future__ import annotations
 

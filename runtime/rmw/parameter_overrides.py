@@ -1,4 +1,4 @@
-"""What nodes are given from outside: values by node key and name, each kept by its type until one is chosen."""
+"""Parameter overrides from outside, by node key and name, each kept per type until one is chosen."""
 
 from __future__ import annotations
 

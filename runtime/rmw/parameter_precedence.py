@@ -1,4 +1,4 @@
-"""Parameter values given from outside a node, by files and by `-p`, in the order of the command line."""
+"""Parameter overrides from files and from `-p`, in command line order."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The one table of parameter types, by the codes of `rcl_interfaces/msg/ParameterType`."""
+"""The table of parameter types, by the codes of `rcl_interfaces/msg/ParameterType`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A quality of service as the middleware sees it; `rclpy.qos.QoSProfile` is one, and what others offer is another."""
+"""QoS as the middleware sees it: a protocol met by `rclpy.qos.QoSProfile` and by profiles received from elsewhere."""
 
 from __future__ import annotations
 

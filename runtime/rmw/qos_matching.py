@@ -1,4 +1,4 @@
-"""Whether a publisher's offer satisfies what a subscription asks for."""
+"""Whether a publisher's QoS satisfies a subscription's."""
 
 from __future__ import annotations
 

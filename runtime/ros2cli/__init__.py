@@ -1,4 +1,4 @@
-"""The `ros2` command line over the public rclpy API: verbs, output and exit codes as ROS 2 Jazzy gives them."""
+"""The `ros2` command line over the public rclpy API: verbs, output and exit codes are those of ROS 2 Jazzy."""
 
 from ros2cli.command_line import main
 

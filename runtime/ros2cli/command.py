@@ -1,4 +1,4 @@
-"""What a command and a verb are."""
+"""The data of a command and of a verb."""
 
 from __future__ import annotations
 

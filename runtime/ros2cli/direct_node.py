@@ -1,4 +1,4 @@
-"""The node of a verb, and the options that all verbs with a node share."""
+"""The node of a verb, and the options shared by all verbs that have one."""
 
 from __future__ import annotations
 

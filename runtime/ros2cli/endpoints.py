@@ -1,4 +1,4 @@
-"""Names of the graph: hidden ones, and actions, which are known by the topics and services they are made of."""
+"""Names in the graph: hidden ones, and actions, recognised by their topics and services."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The text of `ros2 interface show`: a definition with the nested definitions indented below their fields."""
+"""The text of `ros2 interface show`: a definition, with nested definitions indented below their fields."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Launch files of packages, and arguments for them."""
+"""Launch files of packages, and their arguments."""
 
 from __future__ import annotations
 

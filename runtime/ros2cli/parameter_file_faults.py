@@ -1,4 +1,4 @@
-"""Why a file cannot be loaded as parameters, in words; upstream shows the traceback of most of it."""
+"""Why a file cannot be loaded as parameters, in words; upstream shows a traceback in most cases."""
 
 from __future__ import annotations
 

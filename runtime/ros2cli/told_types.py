@@ -1,4 +1,4 @@
-"""Types that nobody here has: asked from the nodes that use them, and held against the hashes of the graph."""
+"""Types that are unknown here: requested from the nodes that use them, and verified with the hashes in the graph."""
 
 from __future__ import annotations
 

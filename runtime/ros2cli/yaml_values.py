@@ -1,4 +1,4 @@
-"""Values that a person types as YAML, behind a verb."""
+"""YAML values in the arguments of verbs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Messages as bytes and back: CDR version 1, as rmw implementations send it."""
+"""Serialization of messages: CDR version 1, as rmw implementations send it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How a message lies in CDR: rows of numbers between the parts whose length is only known when they are read."""
+"""The layout of a message in CDR: runs of numbers between the parts whose length is known only when they are read."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The text of a function that goes through a CDR stream, as it grows with each field of a message class."""
+"""The source of a function that walks a CDR stream, extended field by field."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Field checks with the words of Jazzy; on with `check_fields=True` or `ROS_PYTHON_CHECK_FIELDS=1`."""
+"""Field checks with Jazzy's messages; enabled by `check_fields=True` or `ROS_PYTHON_CHECK_FIELDS=1`."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""The slow paths of copying a message: values that are not of the very type a field has.
+"""The slow paths of copying a message: values that do not have exactly the type of their field.
 
-What the wire would take is converted; what it would not is an error that names the field.
+What the wire could carry is converted; anything else is an error that names the field.
 """
 
 from __future__ import annotations

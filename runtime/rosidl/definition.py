@@ -1,4 +1,4 @@
-"""What an interface is: its fields, constants and defaults, free of how it was written down."""
+"""The model of an interface: fields, constants and defaults, independent of its notation."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Writes the Python modules of an interface."""
+"""Generates the Python modules of an interface."""
 
 from __future__ import annotations
 

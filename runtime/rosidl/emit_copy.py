@@ -1,6 +1,6 @@
-"""Writes the copy function of a message class: what a CDR round trip gives, in straight Python.
+"""Generates the copy function of a message class: the effect of a CDR round trip, in straight Python.
 
-Where every field holds the type that its definition says, a copy is a few slot assignments; anything else goes to
+Where every field holds exactly the type of its definition, a copy is a few slot assignments; anything else goes to
 `conversion`, which either converts as the wire would or raises with the field's name.
 """
 

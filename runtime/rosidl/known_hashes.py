@@ -1,6 +1,6 @@
-"""Hashes of the interfaces that every node has, so that a program that ends at once need not compute them.
+"""The hashes of interfaces that every node has, so that short-lived programs need not compute them.
 
-A test holds them against what is computed. Nobody overlays these packages: the runtime itself is built on them.
+A test compares them with computed ones. Nobody overlays these packages: the runtime itself is built on them.
 """
 
 from __future__ import annotations

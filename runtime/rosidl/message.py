@@ -1,4 +1,4 @@
-"""What all generated classes have in common."""
+"""The base of all generated classes."""
 
 from __future__ import annotations
 

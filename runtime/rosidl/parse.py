@@ -1,4 +1,4 @@
-"""Reads `.msg`, `.srv` and `.action` files."""
+"""Parses `.msg`, `.srv` and `.action` files."""
 
 from __future__ import annotations
 

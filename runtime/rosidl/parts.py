@@ -1,4 +1,4 @@
-"""The definitions that come along with a service or an action."""
+"""The definitions derived from a service or an action."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`SLOT_TYPES` of message classes, made when first asked for."""
+"""`SLOT_TYPES` of message classes, made on first use."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Who adds interface packages to the standard ones; imported at start-up, so it needs nothing."""
+"""The registry of additional interface packages; imported at start-up, so it has no dependencies."""
 
 from __future__ import annotations
 

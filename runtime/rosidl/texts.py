@@ -1,4 +1,4 @@
-"""The definition files of all interfaces there are: of the standard packages, and of packages that others add."""
+"""The definition files of all available interfaces, of standard and of additional packages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Descriptions of interfaces from what others tell of them, before any class is made of them."""
+"""Type descriptions received from other programs, before any class is made from them."""
 
 from __future__ import annotations
 

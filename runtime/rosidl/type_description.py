@@ -1,4 +1,4 @@
-"""Descriptions of interface classes, as in `type_description_interfaces/msg/TypeDescription`, in plain data."""
+"""Type descriptions of interface classes, as in `type_description_interfaces/msg/TypeDescription`, as plain data."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Writes interfaces as `.msg`, `.srv` and `.action` files have them."""
+"""Writes interfaces in the notation of `.msg`, `.srv` and `.action` files."""
 
 from __future__ import annotations
 

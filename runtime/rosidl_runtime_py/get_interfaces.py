@@ -1,4 +1,4 @@
-"""Which interfaces there are."""
+"""Lists the available interfaces."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Message classes by their namespaced type."""
+"""Imports message classes by their namespaced type."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What older releases of NumPy lack."""
+"""What older NumPy releases lack."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Geometry messages in another frame, as in upstream; once imported, `Buffer.transform` takes them."""
+"""Transforms geometry messages, as upstream; once imported, `Buffer.transform` accepts them."""
 
 from geometry_msgs.msg import (
     PointStamped,

@@ -1,4 +1,4 @@
-"""One function for each kind of geometry message: what it is in the transform's frame."""
+"""One function per kind of geometry message: its value in the transform's frame."""
 
 from __future__ import annotations
 

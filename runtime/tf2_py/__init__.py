@@ -1,4 +1,4 @@
-"""The tree of frames over time, as upstream's `tf2_py` has it: a buffer without ROS around it, and its exceptions."""
+"""The tree of frames over time, as in upstream's `tf2_py`: a buffer without ROS, and its exceptions."""
 
 from tf2_py.buffer_core import BufferCore
 from tf2_py.exceptions import (

@@ -1,4 +1,4 @@
-"""Transforms of all frames over time, and what takes points of one frame to another. Contract: upstream's `tf2_py`."""
+"""Transforms of all frames over time, and the lookup between any two. Contract: upstream's `tf2_py`."""
 
 from __future__ import annotations
 

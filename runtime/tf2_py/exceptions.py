@@ -1,4 +1,4 @@
-"""What a buffer of transforms refuses, and how it says so."""
+"""The exceptions of a transform buffer."""
 
 
 class TransformException(Exception):

@@ -1,4 +1,4 @@
-"""What is known of one frame over time: where it was in its parent."""
+"""The history of one frame: its transforms to its parent, over time."""
 
 from __future__ import annotations
 

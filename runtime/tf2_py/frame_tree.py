@@ -1,4 +1,4 @@
-"""The way from one frame to another: up to what both have above them, and down again."""
+"""The path from one frame to another: up to their common ancestor, and down again."""
 
 from __future__ import annotations
 

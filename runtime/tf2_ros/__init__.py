@@ -1,4 +1,4 @@
-"""Transforms between frames over ROS, as upstream's `tf2_ros`: a buffer, who fills it, and who tells it."""
+"""Transforms between frames over ROS, as in upstream's `tf2_ros`: buffers, listeners and broadcasters."""
 
 from geometry_msgs.msg import TransformStamped
 from tf2_py import (

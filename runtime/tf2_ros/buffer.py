@@ -1,4 +1,4 @@
-"""A buffer of transforms in this process, with time-outs, futures and coroutines."""
+"""A transform buffer in this process, with time-outs, futures and coroutines."""
 
 from __future__ import annotations
 

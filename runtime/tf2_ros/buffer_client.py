@@ -1,4 +1,4 @@
-"""A buffer of transforms that asks another process, which runs `tf2_ros buffer_server`."""
+"""A transform buffer that asks another process, which runs `tf2_ros buffer_server`."""
 
 from __future__ import annotations
 

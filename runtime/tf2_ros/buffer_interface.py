@@ -1,4 +1,4 @@
-"""Transforming data of any type that somebody has registered a function for."""
+"""Transforms data of any type for which a function is registered."""
 
 from __future__ import annotations
 

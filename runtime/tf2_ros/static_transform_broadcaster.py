@@ -1,4 +1,4 @@
-"""Tells where frames are for good."""
+"""Publishes transforms that never change."""
 
 from __future__ import annotations
 

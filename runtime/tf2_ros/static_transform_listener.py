@@ -1,4 +1,4 @@
-"""Fills a buffer with the transforms that stay where they are."""
+"""Fills a buffer with transforms that never change."""
 
 from __future__ import annotations
 

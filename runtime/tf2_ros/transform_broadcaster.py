@@ -1,4 +1,4 @@
-"""Tells where frames are now."""
+"""Publishes current transforms."""
 
 from __future__ import annotations
 

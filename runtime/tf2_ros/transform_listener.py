@@ -1,4 +1,4 @@
-"""Fills a buffer with the transforms that are published."""
+"""Fills a buffer with published transforms."""
 
 from __future__ import annotations
 

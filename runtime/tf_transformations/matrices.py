@@ -1,4 +1,4 @@
-"""Homogeneous 4x4 matrices: moves, turns, mirrors, and what they are made of."""
+"""Homogeneous 4x4 matrices: translations, rotations, reflections, and their composition."""
 
 from __future__ import annotations
 

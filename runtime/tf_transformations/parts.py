@@ -1,4 +1,4 @@
-"""A matrix from scale, shear, angles, move and perspective, and back."""
+"""Composes a matrix from scale, shear, angles, translation and perspective, and decomposes it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What there is to choose from: packages, their executables, their launch files. For messages, lists and completion."""
+"""The available packages, executables and launch files, for messages, lists and completion."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The packages of ROS 2's tutorials that come along: their executables lie in `nodes/demos/`, served as one package."""
+"""The included packages of ROS 2's tutorials: their executables are in `nodes/demos/`, served as one package."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Finds the packages of a workspace, and answers for them to the ament index, the importer and `run`."""
+"""Finds the packages of a workspace, and serves them to the ament index, the importer and `run`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which executables a package has: entry points of source packages, and files in `lib/<package>` of installed ones."""
+"""The executables of a package: entry points of source packages, and files in `lib/<package>` of installed ones."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The README of the exported package: what it is, how it is built, launched and tuned; made from its files."""
+"""The README of the exported package, generated from its files: contents, build, launch and tuning."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Writes the robot's package as colcon expects it, for a machine with ROS 2."""
+"""Writes the robot's package in the layout colcon expects, for a machine with ROS 2."""
 
 from __future__ import annotations
 

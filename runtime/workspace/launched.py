@@ -1,4 +1,4 @@
-"""What a launched Python node runs, as a thread or as a process; it finds the packages that its launch finds."""
+"""The program of a launched Python node, as a thread or as a process; it finds the packages that its launch finds."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What to say when a package or an executable is not there: which are, and what to add."""
+"""What to say when a package or an executable is missing: which ones exist, and what to add."""
 
 from __future__ import annotations
 

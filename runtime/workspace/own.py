@@ -1,4 +1,4 @@
-"""The package `bot_console_robot` that comes along: the folders `nodes/`, `launch/` and `profiles/`."""
+"""The included package `bot_console_robot`: the folders `nodes/`, `launch/` and `profiles/`."""
 
 from __future__ import annotations
 

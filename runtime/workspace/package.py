@@ -1,4 +1,4 @@
-"""A source package: what its `package.xml`, `setup.py`, `setup.cfg` and `CMakeLists.txt` say it installs."""
+"""A source package: what its `package.xml`, `setup.py`, `setup.cfg` and `CMakeLists.txt` install."""
 
 from __future__ import annotations
 

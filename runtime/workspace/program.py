@@ -1,4 +1,4 @@
-"""The program behind an executable of the workspace, as a node process or the real process runs it."""
+"""The program behind an executable of the workspace, for a node process or for the real process."""
 
 from __future__ import annotations
 

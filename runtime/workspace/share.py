@@ -1,4 +1,4 @@
-"""The share folder of a source package: the folder itself where its layout already is the installed one."""
+"""The share folder of a source package: the folder itself if it already has the installed layout."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""The packages `demo_nodes_cpp`, `demo_nodes_py` and `examples_rclpy_minimal_*`: what they do and say."""
+"""The packages `demo_nodes_cpp`, `demo_nodes_py` and `examples_rclpy_minimal_*`, behaving and logging as upstream."""

@@ -1,4 +1,4 @@
-"""Nodes that add two numbers for others, and clients that ask them once."""
+"""A service that adds two numbers, and clients that call it once."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Nodes that log what is said."""
+"""Nodes that log what they receive."""
 
 from __future__ import annotations
 

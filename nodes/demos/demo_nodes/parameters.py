@@ -1,4 +1,4 @@
-"""Nodes that show parameters: a blackboard for whatever others set, and one parameter that follows another."""
+"""Nodes that demonstrate parameters: a blackboard that accepts any, and one parameter that follows another."""
 
 from __future__ import annotations
 

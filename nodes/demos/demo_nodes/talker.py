@@ -1,4 +1,4 @@
-"""Nodes that say a greeting again and again; those of C++ count from 1."""
+"""Nodes that publish a greeting repeatedly; those of the C++ package count from 1."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How images travel: as they are on the topic itself, or compressed on `TOPIC/compressed`, which needs OpenCV."""
+"""Image transports: raw on the topic itself, or compressed on `TOPIC/compressed`, which needs OpenCV."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Program `buffer_server`: looks transforms up for other processes, by the action `tf2_buffer_server`."""
+"""Program `buffer_server`: looks up transforms for other processes, through the action `tf2_buffer_server`."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ ERRORS: dict[type[TransformException], int] = {
 
 
 class BufferServer(Node):
-    """Answers a goal as soon as its transform is there, and at its time-out with the reason why it is not."""
+    """Answers a goal as soon as its transform is available, or at its time-out with the reason why it is not."""
 
     def __init__(self) -> None:
         super().__init__("tf_buffer")

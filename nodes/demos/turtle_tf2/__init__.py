@@ -1,1 +1,1 @@
-"""The package `turtle_tf2_py`: turtles as frames, and one that follows another by them."""
+"""The package `turtle_tf2_py`: turtles as frames, and one turtle that follows another."""

@@ -1,1 +1,1 @@
-"""The package `turtlesim`: turtles that draw, as the first tutorials of ROS 2 want them; no window, no Qt."""
+"""The package `turtlesim`: drawing turtles, as in ROS 2's first tutorials, without a window or Qt."""

@@ -1,4 +1,4 @@
-"""What the turtles have drawn, as pixels."""
+"""The turtles' drawing, as pixels."""
 
 from __future__ import annotations
 

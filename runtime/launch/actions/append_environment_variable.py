@@ -1,4 +1,4 @@
-"""Adding to an environment variable."""
+"""Appending to an environment variable."""
 
 from __future__ import annotations
 

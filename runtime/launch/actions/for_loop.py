@@ -1,4 +1,4 @@
-"""Actions for each of some values."""
+"""Repeating actions for each of several values."""
 
 from __future__ import annotations
 

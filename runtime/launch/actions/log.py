@@ -1,4 +1,4 @@
-"""Saying something at a level: names of Kilted, which public launch files already use."""
+"""Logging at a level: actions of Kilted that public launch files already use."""
 
 from __future__ import annotations
 

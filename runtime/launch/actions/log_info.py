@@ -1,4 +1,4 @@
-"""Saying something."""
+"""Logging a message."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Calling Python."""
+"""Calling a Python function."""
 
 from __future__ import annotations
 

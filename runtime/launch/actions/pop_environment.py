@@ -1,4 +1,4 @@
-"""Taking a saved environment back."""
+"""Restoring the saved environment."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Taking saved launch configurations back."""
+"""Restoring the saved launch configurations."""
 
 from __future__ import annotations
 

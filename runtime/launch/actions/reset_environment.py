@@ -1,4 +1,4 @@
-"""The environment as it was at first."""
+"""Resetting the environment to that of the launch's start."""
 
 from __future__ import annotations
 

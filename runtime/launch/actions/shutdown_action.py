@@ -1,4 +1,4 @@
-"""Ending the launch."""
+"""Shutting the launch down."""
 
 from __future__ import annotations
 

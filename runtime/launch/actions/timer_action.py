@@ -1,4 +1,4 @@
-"""Actions after a time."""
+"""Running actions after a delay."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What only a process knows of itself, told by it through the pipe that it has inherited from the launch."""
+"""What only a process knows about itself, reported through the pipe that it inherited from the launch."""
 
 from __future__ import annotations
 

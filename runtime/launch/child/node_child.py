@@ -1,4 +1,4 @@
-"""A node process of this process as a child of a launch."""
+"""A node process, a thread of this process, as a child of a launch."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A process of the system as a child of a launch."""
+"""A process of the operating system as a child of a launch."""
 
 from __future__ import annotations
 

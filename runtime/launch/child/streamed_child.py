@@ -1,4 +1,4 @@
-"""A process whose output comes by pipes or terminals: it has ended when its exit code and all its output are here."""
+"""A process whose output arrives through pipes or terminals: it has ended once exit code and all output are here."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Terminals that a child prints to, so that it behaves as if a person looked on."""
+"""Terminals for a child's output, so that it behaves as if a person were watching."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""If."""
+"""`IfCondition`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Old condition over one launch configuration."""
+"""A deprecated condition on the value of one launch configuration."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Unless."""
+"""`UnlessCondition`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Handlers of the events of one action, of some, or of all."""
+"""Base of handlers for the events of one action, of some, or of all."""
 
 from __future__ import annotations
 

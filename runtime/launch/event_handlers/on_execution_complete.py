@@ -1,4 +1,4 @@
-"""An action is done: what then."""
+"""Handler for the completion of an action."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A launch description shall run."""
+"""Handler for requests to include a launch description."""
 
 from __future__ import annotations
 

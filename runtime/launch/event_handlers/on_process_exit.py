@@ -1,4 +1,4 @@
-"""A process has ended: what then."""
+"""Handler for the exit of a process."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A process has printed: what then."""
+"""Handler for the output of a process."""
 
 from __future__ import annotations
 

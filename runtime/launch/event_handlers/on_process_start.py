@@ -1,4 +1,4 @@
-"""A process runs: what then."""
+"""Handler for the start of a process."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The launch ends: what then."""
+"""Handler for the shutdown of the launch."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Handlers of events that are meant for a process."""
+"""Base of handlers for events addressed to a process."""
 
 from __future__ import annotations
 

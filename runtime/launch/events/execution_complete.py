@@ -1,4 +1,4 @@
-"""An action is done."""
+"""An action has completed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The launch ends."""
+"""The launch is shutting down."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A timer has run down."""
+"""A timer has expired."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where a program is."""
+"""The path of a program."""
 
 from __future__ import annotations
 

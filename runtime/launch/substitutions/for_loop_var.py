@@ -1,4 +1,4 @@
-"""Values of the iteration of a loop, for launch files in XML and YAML."""
+"""The loop variable of an iteration, for launch files in XML and YAML."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What substitutions over other substitutions share."""
+"""The common part of substitutions that evaluate other substitutions."""
 
 from __future__ import annotations
 

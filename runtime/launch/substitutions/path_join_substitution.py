@@ -1,4 +1,4 @@
-"""Paths from pieces."""
+"""A path joined from its parts."""
 
 from __future__ import annotations
 

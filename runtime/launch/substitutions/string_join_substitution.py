@@ -1,4 +1,4 @@
-"""Texts with something between them."""
+"""Texts joined with a delimiter."""
 
 from __future__ import annotations
 

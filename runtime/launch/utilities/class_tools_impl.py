@@ -1,4 +1,4 @@
-"""What kind of object something is."""
+"""Checks of the kind of an object."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Futures of a launch's loop."""
+"""Creating futures in the launch's event loop."""
 
 from __future__ import annotations
 

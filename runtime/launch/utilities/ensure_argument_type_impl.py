@@ -1,4 +1,4 @@
-"""Checks of what constructors are given."""
+"""Type checks of constructor arguments."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The type of paths of files."""
+"""The type of file paths."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Visiting entities."""
+"""Visiting entities recursively."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Leading lifecycle nodes through transitions."""
+"""Taking lifecycle nodes through transitions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A namespace for all nodes that follow."""
+"""A namespace for all nodes that follow in the scope."""
 
 from __future__ import annotations
 

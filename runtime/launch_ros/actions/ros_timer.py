@@ -1,4 +1,4 @@
-"""Actions after a time of the ROS clock."""
+"""Running actions after a delay on the ROS clock."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where nodes log."""
+"""The directory of node logs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The launch's own clock."""
+"""Simulated time for the launch itself."""
 
 from __future__ import annotations
 

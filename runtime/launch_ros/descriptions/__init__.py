@@ -1,4 +1,4 @@
-"""Descriptions of what nodes are given."""
+"""Descriptions of nodes' parameters and of composable nodes."""
 
 from launch_ros.descriptions.composable_lifecycle_node import ComposableLifecycleNode
 from launch_ros.descriptions.composable_node import ComposableNode

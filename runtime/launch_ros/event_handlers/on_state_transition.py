@@ -1,4 +1,4 @@
-"""A lifecycle node has changed its state: what then."""
+"""Handler for state transitions of a lifecycle node."""
 
 from __future__ import annotations
 

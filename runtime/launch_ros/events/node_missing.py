@@ -1,4 +1,4 @@
-"""A node was left out, since its executable is not here."""
+"""A node was left out because its executable is missing."""
 
 from __future__ import annotations
 

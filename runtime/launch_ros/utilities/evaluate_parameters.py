@@ -1,4 +1,4 @@
-"""The `parameters` of a node as they are when it starts."""
+"""Evaluates the `parameters` of a node when it starts."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a launch does for a lifecycle node: it hears its transitions and asks for others."""
+"""A launch's link to a lifecycle node: receives its transitions, and requests others."""
 
 from __future__ import annotations
 

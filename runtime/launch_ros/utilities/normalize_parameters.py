@@ -1,4 +1,4 @@
-"""The `parameters` of a node as it is kept until the launch runs."""
+"""Brings the `parameters` of a node into the form that is kept until the launch runs."""
 
 from __future__ import annotations
 

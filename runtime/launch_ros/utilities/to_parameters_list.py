@@ -1,4 +1,4 @@
-"""Parameters for a service request."""
+"""Converts parameters for a service request."""
 
 from __future__ import annotations
 

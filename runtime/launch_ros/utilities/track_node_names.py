@@ -1,4 +1,4 @@
-"""Which node names a launch has started, and how often."""
+"""Which node names a launch has started, and how often each."""
 
 from __future__ import annotations
 

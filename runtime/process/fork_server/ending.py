@@ -1,7 +1,8 @@
-"""The end of a process that runs a program, in the order and with the exit codes of the interpreter's own.
+"""The end of a process that runs a program, in the interpreter's own order and with its exit codes.
 
-The interpreter itself is not taken apart: threads that are not Python's, a middleware's, call back at any time, and one
-that finds it half gone writes a panic behind what the program has said last.
+The interpreter itself is not finalized: threads that are not Python's (a middleware's) may call back at any time, and
+one
+that finds it half torn down writes a panic after what the program printed.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What a child of the fork server is to run, as plain data."""
+"""What a child of the fork server should run, as plain data."""
 
 from __future__ import annotations
 

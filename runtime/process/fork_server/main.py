@@ -1,4 +1,4 @@
-"""What the fork server's interpreter runs."""
+"""The program that the fork server's interpreter runs."""
 
 from __future__ import annotations
 

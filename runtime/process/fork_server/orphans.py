@@ -1,6 +1,6 @@
-"""Processes that a child has started and left behind: they become children of the server, and end with it.
+"""Processes that a child started and left behind: they become children of the server, and end with it.
 
-Linux alone hands them over (`prctl(2)`, PR_SET_CHILD_SUBREAPER); elsewhere they are left to the system.
+Only Linux hands them over (`prctl(2)`, PR_SET_CHILD_SUBREAPER); elsewhere they are left to the system.
 """
 
 from __future__ import annotations

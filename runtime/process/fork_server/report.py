@@ -1,4 +1,4 @@
-"""What the fork server tells of one child: its pid at once, its exit code when it has ended."""
+"""What the fork server reports about a child: its pid at once, its exit code when it has ended."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The fork server's loop: it starts children and tells how they ended. It never has a second thread."""
+"""The fork server's loop: starts children and reports how they ended. It never has a second thread."""
 
 from __future__ import annotations
 

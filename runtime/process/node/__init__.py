@@ -1,1 +1,1 @@
-"""The node process: a thread with what a process has, from its start to its exit code."""
+"""The node process: a thread with the attributes of a process, from its start to its exit code."""

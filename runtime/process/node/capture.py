@@ -1,4 +1,4 @@
-"""Standard output of a node process: a text stream that hands whole lines to a sink."""
+"""Standard output of a node process: a text stream that passes whole lines to a sink."""
 
 from __future__ import annotations
 

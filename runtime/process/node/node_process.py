@@ -1,4 +1,4 @@
-"""A node process: a thread, and the threads that it starts, that look to their code like a process of their own."""
+"""A node process: a thread, and the threads it starts, that look to their code like a process of their own."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A real file descriptor that leads into a captured stream: what child processes and C code of a node print."""
+"""A real file descriptor that leads into a captured stream, for the output of a node's child processes and C code."""
 
 from __future__ import annotations
 

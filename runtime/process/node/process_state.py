@@ -1,4 +1,4 @@
-"""How far a node process has come."""
+"""The state of a node process."""
 
 from __future__ import annotations
 

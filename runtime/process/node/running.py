@@ -1,4 +1,4 @@
-"""The node processes that run, by their synthetic pid."""
+"""The running node processes, by synthetic pid."""
 
 from __future__ import annotations
 

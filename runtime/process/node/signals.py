@@ -1,4 +1,4 @@
-"""Signals of a node process: what a SIGINT or SIGTERM does to a thread that is to look like a process."""
+"""Signals of a node process: what SIGINT and SIGTERM do to a thread that looks like a process."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the runtime knows of each thread of a node process: whose it is, and what is to be raised in it."""
+"""What the runtime knows about each thread of a node process: its owner, and what should be raised in it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is wrapped while there are stepped runs: the `time` module tells their time, new locks are theirs."""
+"""What is wrapped during stepped runs: the `time` module shows their time, and new locks belong to them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""An asyncio event loop in stepped time: its timers are virtual, and while it waits others have the baton."""
+"""An asyncio event loop in stepped time: its timers are virtual, and while it waits other threads run."""
 
 from __future__ import annotations
 

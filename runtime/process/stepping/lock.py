@@ -1,4 +1,4 @@
-"""Locks of a stepped run: a thread that has to wait for one hands the baton on, as the built-in locks cannot."""
+"""Locks of a stepped run: a thread that waits for one hands the baton on, which built-in locks cannot do."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A wakeup of a stepped run."""
+"""The wakeup of a waiting thread in a stepped run."""
 
 from __future__ import annotations
 

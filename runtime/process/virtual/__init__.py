@@ -1,1 +1,1 @@
-"""What each node process has for itself of what the interpreter has once: wraps of public calls."""
+"""Per-node-process versions of what the interpreter has only once, by wrapping public functions."""

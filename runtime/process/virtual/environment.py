@@ -1,4 +1,4 @@
-"""`os.environ` of each node process: its own copy, which its child processes inherit."""
+"""Each node process's own copy of `os.environ`, which its child processes inherit."""
 
 from __future__ import annotations
 

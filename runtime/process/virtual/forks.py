@@ -1,4 +1,4 @@
-"""A fork of a node (`multiprocessing`, `os.fork`): the child is a real process, with what the node's process had."""
+"""A fork of a node (`multiprocessing`, `os.fork`): the child is a real process, set up as the node's process was."""
 
 from __future__ import annotations
 

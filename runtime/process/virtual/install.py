@@ -1,4 +1,4 @@
-"""Everything that is wrapped so that a thread can look like a process: put in place at once, and taken away at once."""
+"""Installs everything that must be wrapped so that a thread can look like a process, and removes it again."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A variable of a module that each node process has for itself: a property of the module's class."""
+"""A module attribute with a value per node process, as a property of the module's class."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`sys.modules` of a node process: its own modules before those that all share."""
+"""`sys.modules` of a node process: its own modules, in front of the shared ones."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a node asks of the operating system about its process: answered for the node process, not the real one."""
+"""Operating system calls about the current process, answered for the node process instead of the real one."""
 
 from __future__ import annotations
 

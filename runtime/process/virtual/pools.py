@@ -1,4 +1,4 @@
-"""Thread pools of a node end with its main program, as the interpreter ends them at its exit."""
+"""Ends a node's thread pools with its main program, as the interpreter does at exit."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Child processes of a node: its environment and directory, its output, and never the console's keyboard."""
+"""Child processes of a node: its environment, directory and output, and never the console's keyboard."""
 
 from __future__ import annotations
 

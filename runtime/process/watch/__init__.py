@@ -1,1 +1,1 @@
-"""What watches over threads: one that computes without end, one that hangs, and what the system tells of them."""
+"""Watchdogs for threads that compute without end or hang, and what the operating system tells about them."""

@@ -1,4 +1,4 @@
-"""Notices nodes that compute without ever waiting: they take the processor from all others and hear nothing."""
+"""Detects nodes that compute without ever waiting: they take the CPU from all others, and receive nothing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether a process stands because code in C holds the interpreter's lock, and in which line, seen from outside."""
+"""Whether a process hangs because C code holds the interpreter lock, and in which line; determined from outside."""
 
 from __future__ import annotations
 

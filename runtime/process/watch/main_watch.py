@@ -1,4 +1,4 @@
-"""Notices that the main thread of this process computes without ever waiting: its node hears nothing meanwhile."""
+"""Detects that the main thread of this process computes without ever waiting: its node receives nothing meanwhile."""
 
 from __future__ import annotations
 

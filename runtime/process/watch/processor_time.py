@@ -1,4 +1,4 @@
-"""How much processor time threads have used, where the system tells it (Linux)."""
+"""The CPU time of threads, where the operating system tells it (Linux)."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Watches over a stepped run: a thread that hangs with the baton must not stop all others for ever.
+"""The watchdog of a stepped run: a thread that hangs while it holds the baton must not stop all others for ever.
 
-It looks at wall times, but what it finds then decides, never the time between: see `thread_work`.
+It looks at intervals of wall time, but decides by what it finds then, never by the time in between: see `thread_work`.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""What a thread does: whether it gets on, computes without end, or waits for something outside of the run.
+"""Whether a thread makes progress, computes without end, or waits for something outside the run.
 
-Elapsed time says nothing of that: on a busy machine a thread that only imports a library stands for seconds. The
-operating system tells it (Linux, proc(5)): processor time, whether the thread sleeps, where, and whether it woke.
+Elapsed time does not tell: on a busy machine a thread that merely imports a library stalls for seconds. The operating
+system does (Linux, proc(5)): CPU time, whether the thread sleeps, where, and whether it woke.
 """
 
 from __future__ import annotations

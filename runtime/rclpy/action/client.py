@@ -29,7 +29,7 @@ from unique_identifier_msgs.msg import UUID
 
 
 class ActionClient(ActionEntity):
-    """Sends goals to an action server; raises `ValueError` for a name that is none."""
+    """Sends goals to an action server; raises `ValueError` for an invalid name."""
 
     def __init__(
         self,
@@ -132,7 +132,7 @@ class ActionClient(ActionEntity):
                 del self._goal_handles[key]
 
     def send_goal(self, goal: Any, **kwargs: Any) -> Any:
-        """Send a goal and wait for the result response, which another thread has to receive."""
+        """Send a goal and wait for its result; another thread has to spin."""
         return self._get_result(_wait(self.send_goal_async(goal, **kwargs)))
 
     def send_goal_async(
@@ -179,18 +179,18 @@ class ActionClient(ActionEntity):
         self.use()
 
     def server_is_ready(self) -> bool:
-        """Whether a server is there; raises `RCLError` after a shutdown of the context."""
+        """Whether a server is available; raises `RCLError` after a shutdown of the context."""
         self.use()
         require_valid(self._node.context, "Failed to check if action server is available")
         return self._endpoints.server_is_there()
 
     def wait_for_server(self, timeout_sec: float | None = None) -> bool:
-        """Block until a server is there; False when time (s) is over. Raises `RCLError` once the context ends."""
+        """Block until a server is available; False after the time-out (s). Raises `RCLError` once the context ends."""
         return wait_until_there(self._node, self.server_is_ready, timeout_sec)
 
 
 def _wait(future: Future[Any]) -> Any:
-    """Block until another thread has settled a future; its result."""
+    """Block until another thread has settled a future; returns its result."""
     wakeup = current().clock.wakeup()
     future._when_settled(wakeup.set)
     if not future.done():

@@ -49,17 +49,17 @@ class ClientGoalHandle:
         return self._status
 
     def cancel_goal(self) -> Any:
-        """Ask for cancelling and wait for the answer, which another thread has to receive."""
+        """Request cancellation and wait for the response; another thread has to spin."""
         return self._action_client._cancel_goal(self)
 
     def cancel_goal_async(self) -> Future[Any]:
-        """Ask for cancelling; the future gets the `CancelGoal` response."""
+        """Request cancellation; the future gets the `CancelGoal` response."""
         return self._action_client._cancel_goal_async(self)
 
     def get_result(self) -> Any:
-        """Ask for the result and wait for it; another thread has to receive it."""
+        """Request the result and wait for it; another thread has to spin."""
         return self._action_client._get_result(self)
 
     def get_result_async(self) -> Future[Any]:
-        """Ask for the result; the future gets a response with `status` and `result`."""
+        """Request the result; the future gets a response with `status` and `result`."""
         return self._action_client._get_result_async(self)

@@ -1,4 +1,4 @@
-"""The three services and two topics that an action is made of, under their names on the wire."""
+"""The three services and two topics that make up an action, with their names on the wire."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What action servers and clients have in common as things that an executor serves."""
+"""The common part of action servers and clients, as entities that an executor serves."""
 
 from __future__ import annotations
 

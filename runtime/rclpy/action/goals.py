@@ -1,4 +1,4 @@
-"""The goals that an action server knows."""
+"""The goals known to an action server."""
 
 # pyright: reportPrivateUsage=false
 # The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.

@@ -1,4 +1,4 @@
-"""The actions of the graph, known by their feedback topics."""
+"""The actions in the graph, recognised by their feedback topics."""
 
 from __future__ import annotations
 

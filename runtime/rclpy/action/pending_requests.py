@@ -1,4 +1,4 @@
-"""The requests of an action client that wait for their responses."""
+"""The requests of an action client that are waiting for a response."""
 
 # pyright: reportPrivateUsage=false
 # The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.

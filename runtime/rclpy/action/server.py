@@ -31,14 +31,14 @@ MARGIN_NS = 1_000_000
 
 
 class GoalResponse(Enum):
-    """What a goal callback may say."""
+    """The possible answers of a goal callback."""
 
     REJECT = 1
     ACCEPT = 2
 
 
 class CancelResponse(Enum):
-    """What a cancel callback may say."""
+    """The possible answers of a cancel callback."""
 
     REJECT = 1
     ACCEPT = 2
@@ -55,7 +55,7 @@ def default_goal_callback(goal_request: Any) -> GoalResponse:
 
 
 def default_cancel_callback(cancel_request: Any) -> CancelResponse:
-    """Cancel no goal."""
+    """Reject every cancel request."""
     return CancelResponse.REJECT
 
 
@@ -108,19 +108,19 @@ class ActionServer(ActionEntity):
         return self._action_type
 
     def register_handle_accepted_callback(self, handle_accepted_callback: Callable[..., Any] | None) -> None:
-        """Set what gets the handle of each accepted goal; None executes it at once."""
+        """Set the callback that gets the handle of each accepted goal; None executes goals at once."""
         self._handle_accepted_callback = handle_accepted_callback or default_handle_accepted_callback
 
     def register_goal_callback(self, goal_callback: Callable[..., Any] | None) -> None:
-        """Set what accepts or rejects a goal; None accepts."""
+        """Set the callback that accepts or rejects goals; None accepts all."""
         self._goal_callback = goal_callback or default_goal_callback
 
     def register_cancel_callback(self, cancel_callback: Callable[..., Any] | None) -> None:
-        """Set what accepts or rejects a cancel request; None rejects."""
+        """Set the callback that accepts or rejects cancel requests; None rejects all."""
         self._cancel_callback = cancel_callback or default_cancel_callback
 
     def register_execute_callback(self, execute_callback: Callable[..., Any]) -> None:
-        """Set what executes a goal; raises `TypeError` for what cannot be called."""
+        """Set the callback that executes goals; raises `TypeError` if it is not callable."""
         if not callable(execute_callback):
             raise TypeError("Failed to register goal execution callback: not callable")
         self._execute_callback = execute_callback
@@ -295,7 +295,7 @@ class ActionServer(ActionEntity):
         self.arm()
 
     def destroy(self) -> None:
-        """Destroy the server and let go of its goals."""
+        """Destroy the server and drop its goals."""
         if self.destroyed:
             return
         self._goals.destroy()

@@ -1,1 +1,1 @@
-"""What the executors are made of."""
+"""The parts of the executors."""

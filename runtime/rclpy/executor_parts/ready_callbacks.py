@@ -1,4 +1,4 @@
-"""What executors of a program's own are made of: they take ready callbacks and run them where they like."""
+"""What custom executors are built on: it takes ready callbacks, which they run wherever they like."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from rclpy.task import Future, Task
 
 
 class TimeoutObject:
-    """A time-out (s) that can be changed while somebody waits with it."""
+    """A time-out (s) that can be changed while it is being waited for."""
 
     def __init__(self, timeout: float) -> None:
         self.timeout = timeout

@@ -1,4 +1,4 @@
-"""Threads that run what they are given. Their waits go through the clock source, so that stepped runs work."""
+"""A pool of threads for callbacks. Their waits go through the clock source, so that stepped runs work."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class WorkerPool:
 
 
 def cpu_count() -> int:
-    """How many processors this process may use; 2 where the system does not tell."""
+    """The number of CPUs this process may use; 2 if the operating system does not tell."""
     import os
 
     try:

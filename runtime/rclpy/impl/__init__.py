@@ -1,1 +1,1 @@
-"""Parts of rclpy that are not meant to be imported by programs."""
+"""Internal parts of rclpy, not meant to be imported by programs."""

@@ -1,4 +1,4 @@
-"""What a clock is to those below `rclpy.clock`."""
+"""The base of clocks, for modules below `rclpy.clock`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Command lines for a context and for a node, with rclpy's exceptions."""
+"""Parses the command lines of a context and of a node, with rclpy's exceptions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an executor serves: timers, subscriptions, guard conditions, clients, services and waitables."""
+"""The base of everything an executor serves: timers, subscriptions, guard conditions, clients, services, waitables."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class Entity:
         self.key: tuple[int, int, int] = (0, self.KIND, self.order)
 
     def notify(self) -> None:
-        """There is something to do; from any thread."""
+        """Mark the entity as ready; from any thread."""
         sink = self.sink
         # Marked once per wake: a thousand messages before it cost one place in the queue.
         if sink is not None and self.marked is not sink:
@@ -62,7 +62,7 @@ class Entity:
         return ()
 
     def attach(self, sink: Any, node_order: int) -> None:
-        """Let an executor serve this from now on."""
+        """Take note of the executor that serves this from now on."""
         # Upstream's executor asks waitables before everything else, whichever node they are of.
         self.key = (-1 if self.KIND == WAITABLE else node_order, self.KIND, self.order)
         self.sink = sink
@@ -70,7 +70,7 @@ class Entity:
             self.notify()
 
     def detach(self) -> None:
-        """No executor serves this any more."""
+        """Take note that no executor serves this any more."""
         self.sink = None
 
     @property

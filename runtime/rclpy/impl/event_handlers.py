@@ -1,4 +1,4 @@
-"""What publishers and subscriptions tell their callbacks: matches, profiles that do not fit, deadlines, liveliness."""
+"""Handlers of publisher and subscription events: matches, incompatible profiles, deadlines, liveliness."""
 
 from __future__ import annotations
 

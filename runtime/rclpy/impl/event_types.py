@@ -1,4 +1,4 @@
-"""The kinds of event that a publisher or a subscription can have, with the numbers of rcl."""
+"""The kinds of events of publishers and subscriptions, with rcl's numbers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Mistakes that end a node with an exception whose words do not tell the cause."""
+"""Explains mistakes that end a node with an exception whose message does not tell the cause."""
 
 from __future__ import annotations
 

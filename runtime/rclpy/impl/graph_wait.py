@@ -1,4 +1,4 @@
-"""Waiting for somebody to come into the graph."""
+"""Waiting for something to appear in the graph."""
 
 # pyright: reportPrivateUsage=false
 # The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.

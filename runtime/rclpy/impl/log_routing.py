@@ -1,4 +1,4 @@
-"""What the loggers of one process share: levels, and where their lines go."""
+"""What the loggers of a process share: levels and destinations."""
 
 from __future__ import annotations
 

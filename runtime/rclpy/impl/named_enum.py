@@ -1,4 +1,4 @@
-"""Numbers with names that print as upstream's C enumerations do."""
+"""Integer enumerations that print like upstream's C enumerations."""
 
 from enum import IntEnum
 

@@ -1,4 +1,4 @@
-"""Which Python values stand for which type of parameter, by the codes of `rcl_interfaces/msg/ParameterType`."""
+"""Which Python values each type of parameter takes, by the codes of `rcl_interfaces/msg/ParameterType`."""
 
 from __future__ import annotations
 

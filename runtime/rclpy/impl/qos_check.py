@@ -1,4 +1,4 @@
-"""Why two profiles do not fit, or may not fit, in the words of rmw_dds_common."""
+"""Why two profiles are incompatible, or may be, in the words of rmw_dds_common."""
 
 from __future__ import annotations
 

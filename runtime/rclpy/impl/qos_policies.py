@@ -1,4 +1,4 @@
-"""The policies of a quality of service, with rmw's numbers."""
+"""The QoS policies, with rmw's numbers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Type variables by which upstream's annotations, and those of programs, speak of interfaces."""
+"""The type variables of interfaces that upstream's annotations use, and those of programs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Managed nodes: nodes with states such as inactive and active, led from one to another by whoever launches them."""
+"""Managed nodes: nodes with states such as inactive and active, controlled from outside."""
 
 from rclpy.lifecycle.managed_entity import ManagedEntity, SimpleManagedEntity
 from rclpy.lifecycle.node import LifecycleNode, LifecycleNodeMixin, LifecycleState

@@ -1,4 +1,4 @@
-"""The state of a managed node, as its callbacks get it."""
+"""The state of a managed node, as its callbacks receive it."""
 
 from __future__ import annotations
 

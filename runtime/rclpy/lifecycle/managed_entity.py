@@ -1,4 +1,4 @@
-"""Things that follow the state of their managed node."""
+"""Entities that follow the state of their managed node."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The five services by which others see and change a managed node's state."""
+"""The five services through which others query and change a managed node's state."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a transition callback says."""
+"""The result of a transition callback."""
 
 from __future__ import annotations
 

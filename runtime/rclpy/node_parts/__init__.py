@@ -1,1 +1,1 @@
-"""What a `Node` is made of: above all public modules of rclpy but `node` itself."""
+"""The parts of `Node`, above all public modules of rclpy except `node` itself."""

@@ -1,4 +1,4 @@
-"""The entities that a node makes and destroys."""
+"""Creates and destroys a node's entities."""
 
 # pyright: reportPrivateUsage=false
 # The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.

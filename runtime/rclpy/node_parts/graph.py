@@ -1,4 +1,4 @@
-"""The graph as a node sees it."""
+"""Graph queries of a node."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Parameter files that give a node nothing, since none of their keys means it: ROS 2 says nothing of that."""
+"""Warns of parameter files without effect, because none of their keys match a node: ROS 2 says nothing."""
 
 from __future__ import annotations
 

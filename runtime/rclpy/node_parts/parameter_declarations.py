@@ -1,4 +1,4 @@
-"""The tuples of `Node.declare_parameters`: what they say, and what is wrong with them."""
+"""Parses and checks the tuples of `Node.declare_parameters`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a descriptor allows. A check returns None, or why a value is refused, in the words of rclpy."""
+"""Checks values against descriptors. A check returns None, or the reason of the refusal in rclpy's words."""
 
 from __future__ import annotations
 

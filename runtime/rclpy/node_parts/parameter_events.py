@@ -1,4 +1,4 @@
-"""The messages in `/parameter_events`."""
+"""The messages published on `/parameter_events`."""
 
 # pyright: reportPrivateUsage=false
 # The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.

@@ -1,4 +1,4 @@
-"""Names of parameters chosen by prefix and depth."""
+"""Selects parameter names by prefix and depth."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where the parameters of a node come from: what was declared and in which line, and which override came first."""
+"""Reports where a node's parameters come from: what was declared, in which line, and which override won."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How a node sets its parameters: callbacks, checks, the event, in the order of Jazzy."""
+"""How a node sets its parameters: callbacks, checks and the event, in Jazzy's order."""
 
 # pyright: reportPrivateUsage=false
 # The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.

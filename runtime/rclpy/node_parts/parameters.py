@@ -1,4 +1,4 @@
-"""The parameters of a node: declared, read, described."""
+"""The parameters of a node: declaration, reading, descriptors."""
 
 # pyright: reportPrivateUsage=false
 # The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.

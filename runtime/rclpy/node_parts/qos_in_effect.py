@@ -1,4 +1,4 @@
-"""Profiles as graph queries tell them: what the middleware made of them."""
+"""The QoS profiles that graph queries report: those in effect in the middleware."""
 
 from __future__ import annotations
 

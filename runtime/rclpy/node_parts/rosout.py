@@ -1,4 +1,4 @@
-"""The `/rosout` publisher of a node: what its logger and the children of that say."""
+"""The `/rosout` publisher of a node, for its logger and that logger's children."""
 
 # pyright: reportPrivateUsage=false
 # The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.

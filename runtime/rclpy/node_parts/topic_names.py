@@ -1,4 +1,4 @@
-"""Names of topics and services as a node uses them: expanded, remapped, checked."""
+"""Topic and service names as a node uses them: expanded, remapped, validated."""
 
 from __future__ import annotations
 

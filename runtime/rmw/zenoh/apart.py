@@ -1,4 +1,4 @@
-"""Takes what a channel of Zenoh's holds in a thread of its own, which leaves the interpreter to others in between."""
+"""Drains a Zenoh channel in a thread of its own, which yields the interpreter to others in between."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The bus of several processes: local traffic goes from object to object, the rest in the wire format of rmw_zenoh."""
+"""The bus across processes: local traffic goes from object to object, the rest in the wire format of rmw_zenoh."""
 
 from __future__ import annotations
 

@@ -1,7 +1,8 @@
-"""What a session has declared: it stays declared when the session is opened anew, and is inert while none is open.
+"""A session's declarations, which survive its being reopened, and are inert while no session is open.
 
-A session is opened anew under nodes that know nothing of it (`MeshSession.rejoin`), so nothing here raises because
-there is none at the moment.
+A session is reopened beneath nodes that know nothing of it (`MeshSession.rejoin`), so nothing here raises because there
+is
+none at the moment.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A Zenoh publisher that keeps its last samples for subscribers that come late, and that can be taken back safely."""
+"""A Zenoh publisher that keeps its last samples for late subscribers, and that can be undeclared safely."""
 
 from __future__ import annotations
 

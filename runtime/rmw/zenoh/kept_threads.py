@@ -1,4 +1,4 @@
-"""Keeps what the interpreter makes for a thread of Zenoh's that calls back, instead of making it anew for each call."""
+"""Keeps the interpreter's state for a Zenoh thread that calls back, instead of recreating it for each call."""
 
 from __future__ import annotations
 

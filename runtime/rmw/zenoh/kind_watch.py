@@ -1,7 +1,8 @@
-"""One watch for all tokens of a kind, which serves those who look at single topics or services.
+"""One liveliness subscription per kind of token, shared by those interested in single topics or services.
 
-Zenoh compares each token that comes with the key of each watch of the session: with hundreds of watches that is most
-of what a large graph costs.
+Zenoh compares each token it receives with the key of each subscription of the session: with hundreds of subscriptions
+that
+is most of the cost of a large graph.
 """
 
 from __future__ import annotations

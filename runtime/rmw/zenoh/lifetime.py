@@ -1,4 +1,4 @@
-"""The lifetime of a session: opened, opened anew under what it has declared, which stays declared, and closed."""
+"""The lifetime of a session: opened, reopened beneath its declarations, which survive that, and closed."""
 
 from __future__ import annotations
 

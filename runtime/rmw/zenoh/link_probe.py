@@ -1,6 +1,6 @@
-"""Whether a link is alive: a small question to its other end, again and again.
+"""Whether a link is alive: pings its other end again and again.
 
-The link itself would notice a cut cable only after its lease, which is the other side's and 10 s by default.
+The link itself would notice a cut cable only after its lease, which is chosen by the other side and 10 s by default.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Rests for a process that shows very much at once: every process of the domain takes in each thing that it shows."""
+"""Pauses for a process that declares many things at once: every process of the domain has to take in each of them."""
 
 from __future__ import annotations
 

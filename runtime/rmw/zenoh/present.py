@@ -1,4 +1,4 @@
-"""What is in the graph at the moment in which somebody begins to watch it."""
+"""What is in the graph at the moment when somebody starts watching it."""
 
 from __future__ import annotations
 

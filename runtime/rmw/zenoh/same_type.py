@@ -1,4 +1,4 @@
-"""Whether two processes mean the same by the name of a type: else neither hears the other."""
+"""Whether two processes mean the same by a type name; otherwise neither receives the other's messages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What this process looks at of the graph: the tokens of other processes under a key, as they come and go."""
+"""The part of the graph this process watches: other processes' tokens under a key, as they appear and vanish."""
 
 from __future__ import annotations
 

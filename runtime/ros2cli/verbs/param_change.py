@@ -1,4 +1,4 @@
-"""The changing verbs of `ros2 param`."""
+"""The verbs of `ros2 param` that change parameters."""
 
 from __future__ import annotations
 

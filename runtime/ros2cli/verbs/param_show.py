@@ -1,4 +1,4 @@
-"""The reading verbs of `ros2 param`."""
+"""The verbs of `ros2 param` that only read."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What `pkg create` writes for packages that CMake builds: also those of interfaces, which run here without a build."""
+"""The files that `pkg create` writes for CMake packages; interface packages among them run here without a build."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`ros2 pkg create`: a new package that colcon builds; what is Python in it, this console runs as it is."""
+"""`ros2 pkg create`: a new package for colcon; its Python parts run here without a build."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Texts of the files of a new Python package."""
+"""Templates for the files of a new Python package."""
 
 from __future__ import annotations
 

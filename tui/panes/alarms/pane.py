@@ -1,4 +1,4 @@
-"""The alarms pane: conditions over topics and parameters that are watched all the time, and told when they hold."""
+"""The alarms pane: conditions over topics and parameters, evaluated all the time and announced when they come true."""
 
 from __future__ import annotations
 

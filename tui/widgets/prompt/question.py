@@ -119,7 +119,7 @@ class Fill(Question[None]):
 
 
 class Asker(Generic[A]):
-    """What shows a question. It is answered, given up, or closes because its subject has left: one of these, once."""
+    """Shows a question, which ends exactly once: answered, given up, or closed because its subject is gone."""
 
     _question: Question[A] | None = None
 

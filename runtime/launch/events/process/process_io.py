@@ -1,4 +1,4 @@
-"""A process has printed or is given something."""
+"""A process has written output, or gets input."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A process runs."""
+"""A process has started."""
 
 from __future__ import annotations
 

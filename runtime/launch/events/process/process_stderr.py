@@ -1,4 +1,4 @@
-"""Bytes that a process has printed as errors."""
+"""Output of a process on standard error."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Bytes for a process's input."""
+"""Input for a process."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Bytes that a process has printed as output."""
+"""Output of a process on standard output."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Events that are meant for processes."""
+"""Base of events addressed to processes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Events that come from a process."""
+"""Base of events that come from a process."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A process shall end."""
+"""A request to shut a process down."""
 
 from __future__ import annotations
 

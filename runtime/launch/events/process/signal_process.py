@@ -1,4 +1,4 @@
-"""A process shall get a signal."""
+"""A request to send a signal to a process."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A lifecycle node shall change its state."""
+"""A request for a lifecycle node to change its state."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Who of a domain is there: asked before a short-lived program says what the graph is."""
+"""Which processes are in a domain, determined before a short-lived program reports on the graph."""
 
 from __future__ import annotations
 

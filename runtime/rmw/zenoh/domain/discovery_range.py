@@ -1,4 +1,4 @@
-"""How far a program may be seen, as the environment says."""
+"""How far a program may be discovered, from the environment."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A lock on an open file that ends with its process, however that ends."""
+"""A lock on an open file that is released when its process ends, however that happens."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One at a time joins a domain: without that, two that start together would list the folder and never meet."""
+"""Processes join a domain one at a time: otherwise two that start together would list the folder and never meet."""
 
 from __future__ import annotations
 

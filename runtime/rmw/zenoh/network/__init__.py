@@ -1,1 +1,1 @@
-"""The way to other machines: a client of a Zenoh router, and a router of our own."""
+"""Connections to other machines: a client of a Zenoh router, and a router of our own."""

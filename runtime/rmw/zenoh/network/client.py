@@ -1,4 +1,4 @@
-"""A session's place on a network: a client of a robot's Zenoh router, which listens nowhere and looks for nobody."""
+"""A session on a network: a client of a robot's Zenoh router, which listens nowhere and searches for nobody."""
 
 from __future__ import annotations
 

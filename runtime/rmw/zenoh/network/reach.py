@@ -1,4 +1,4 @@
-"""Why a router is not reached: what the network and TLS say when they are asked without Zenoh.
+"""Why a router cannot be reached: what the network and TLS say when asked without Zenoh.
 
 Zenoh itself only says that it could not connect.
 """

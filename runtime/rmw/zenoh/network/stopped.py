@@ -1,7 +1,8 @@
-"""Which processes behind a router are frozen: it shows a token for each, and its clients look at them.
+"""Which processes behind a router are frozen: the router declares a token for each, which its clients watch.
 
-Zenoh itself takes a frozen process for alive until its lease is over, and a client cannot read the states of processes
-of another machine.
+Zenoh itself considers a frozen process alive until its lease expires, and a client cannot read the states of processes
+on
+another machine.
 """
 
 from __future__ import annotations

@@ -1,1 +1,1 @@
-"""What travels, as rmw_zenoh writes it: keys, tokens, qualities of service, attachments."""
+"""The wire format of rmw_zenoh: keys, tokens, QoS and attachments."""

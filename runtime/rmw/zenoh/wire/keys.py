@@ -1,7 +1,7 @@
-"""Keys under which topics and services travel, and how names and types are written in them.
+"""The keys of topics and services, and the encoding of names and types in them, as in rmw_zenoh.
 
-The format is that of rmw_zenoh. A key ends with the hash of the type, so two sides with different definitions of a type
-do not hear each other at all.
+A key ends with the hash of the type, so two sides with different definitions of a type do not receive each other's
+messages.
 """
 
 from __future__ import annotations

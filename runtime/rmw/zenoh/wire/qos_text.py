@@ -1,4 +1,4 @@
-"""Qualities of service as rmw_zenoh writes them: six fields, and whatever is as by default is left empty."""
+"""QoS as rmw_zenoh writes it: six fields, each empty where it has its default."""
 
 from __future__ import annotations
 

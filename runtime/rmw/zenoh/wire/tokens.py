@@ -1,4 +1,4 @@
-"""Liveliness tokens: how nodes, publishers, subscriptions, servers and clients show in the graph."""
+"""Liveliness tokens, by which nodes, publishers, subscriptions, servers and clients appear in the graph."""
 
 from __future__ import annotations
 
