@@ -37,6 +37,7 @@ class Context:
         self.arguments: Any = None
         self._domain = 0
         self._bus: Bus | None = None
+        self._log_file: Any = None
         self.lingering: set[Thing] = set()
         """Endpoints that stay in the graph although their node was destroyed."""
 
@@ -45,11 +46,11 @@ class Context:
     ) -> None:
         """Begin; raises `RuntimeError` the second time and `RCLError` for arguments that cannot be parsed.
 
-        The log is there whatever `initialize_logging` says: all contexts of a process share it.
+        The log is there whatever `initialize_logging` says, without the file: all contexts of a process share it.
         """
         import sys
 
-        from rclpy.impl.command_line import parse_global
+        from rclpy.impl.command_line import begin_log_file, parse_global
 
         with self._lock:
             if self._initialized:
@@ -61,6 +62,8 @@ class Context:
                 raise RuntimeError(f"Domain id ({domain_id}) should not be lower than zero.")
             self._domain = domain_id
             self._bus = bus_of(domain_id)
+            if initialize_logging:
+                self._log_file = begin_log_file(self.arguments)
             self._initialized = True
         remember_context(self)
         self._forget_abandon = current().on_abandon(self._abandon)
@@ -131,6 +134,7 @@ class Context:
             wakes, self._wakes = self._wakes, []
         for endpoint in list(self.lingering):
             self.bus.remove(endpoint)
+        self._end_log_file()
         for held in wakes if self.ended_by_signal else callbacks + wakes:
             callback = held()
             if callback is not None:
@@ -186,10 +190,16 @@ class Context:
     def _abandon(self) -> None:
         """Remove the nodes from the graph and silence them: the process was killed, but its code may go on."""
         self.ended = self._abandoned = True
+        self._end_log_file()
         for endpoint in list(self.lingering):
             self.bus.remove(endpoint)
         for node in list(self._nodes):
             node._ros_leave_graph()
+
+    def _end_log_file(self) -> None:
+        log_file, self._log_file = self._log_file, None
+        if log_file is not None:
+            log_file.end()
 
     def destroy(self) -> None:
         """Free what the context holds."""

@@ -10,6 +10,7 @@ from bot_console.runtime.process.crashes import MEND
 from bot_console.runtime.rmw import arguments
 from bot_console.runtime.rmw.arguments import Arguments, ArgumentsError
 from rclpy._rclpy_pybind11 import RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
+from rclpy.impl.log_file import LogFile
 from rclpy.impl.log_routing import state
 from rclpy.impl.rcutils_logger import RcutilsLogger
 
@@ -41,6 +42,17 @@ def parse_global(words: Sequence[str]) -> Arguments:
     return parsed
 
 
+def begin_log_file(parsed: Arguments) -> LogFile:
+    """The file of the process's log, for a context that begins; raises `RCLError` where it cannot be."""
+    log_file = state().log_file
+    try:
+        log_file.begin(parsed)
+    except OSError as error:
+        reason = f"Failed to create log directory '{error.filename}': {error.errno}"
+        raise RCLError(f"failed to initialize logging: {reason}") from None
+    return log_file
+
+
 def parse_words(words: Sequence[str]) -> Arguments:
     """Parse a command line, strange flags or not; raises `RCLInvalidROSArgsError`."""
     try:
@@ -57,7 +69,12 @@ def parse_local(words: Sequence[str]) -> Arguments:
 
 
 def _parse(words: Sequence[str]) -> Arguments:
-    parsed = arguments.parse(words)
+    try:
+        parsed = arguments.parse(words)
+    except ArgumentsError as error:
+        if error.warning:
+            RcutilsLogger("rcl").warning(error.warning)
+        raise
     for rule in parsed.deprecated_rules:
         RcutilsLogger("rcl").warning(DEPRECATED.format(rule))
     return parsed

@@ -44,11 +44,12 @@ class Formatter:
         self._to_stdout = to_stdout
 
     @classmethod
-    def of_environment(cls) -> Formatter:
-        """The formatter that the calling process's environment asks for."""
+    def of_environment(cls, *, enveloped: bool = True) -> Formatter:
+        """The formatter that the calling process's environment asks for; lines of a file have no envelope."""
         environment = os.environ
+        put = _in_envelope if enveloped else _out_of_envelope
         return cls(
-            _in_envelope(environment.get("RCUTILS_CONSOLE_OUTPUT_FORMAT", ""), environment.get(ENVELOPE_VARIABLE, "")),
+            put(environment.get("RCUTILS_CONSOLE_OUTPUT_FORMAT", ""), environment.get(ENVELOPE_VARIABLE, "")),
             environment.get("RCUTILS_COLORIZED_OUTPUT", ""),
             to_stdout=environment.get("RCUTILS_LOGGING_USE_STDOUT") == "1",
         )
@@ -107,6 +108,12 @@ def _in_envelope(pattern: str, envelope: str) -> str:
     if not envelope or pattern.startswith(envelope.partition("{line}")[0]):
         return pattern
     return envelope.replace("{line}", pattern or DEFAULT_FORMAT)
+
+
+def _out_of_envelope(pattern: str, envelope: str) -> str:
+    """The pattern that was put into the envelope."""
+    before, _, after = envelope.partition("{line}")
+    return pattern.removeprefix(before).removesuffix(after) if pattern.startswith(before) else pattern
 
 
 def _template(pattern: str) -> str:

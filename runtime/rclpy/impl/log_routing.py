@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.process import ProcessLocal
+from rclpy.impl.log_file import LogFile
 from rclpy.impl.log_format import Formatter
 
 if TYPE_CHECKING:
@@ -20,9 +21,9 @@ Say = Callable[[int, str, str, str, str, int, int], bool]
 
 
 class LogState:
-    """Levels by logger name, the console's format, and the publishers of `/rosout`."""
+    """Levels by logger name, the console's format, the log file, and the publishers of `/rosout`."""
 
-    def __init__(self) -> None:
+    def __init__(self, log_file: LogFile | None = None) -> None:
         self.levels: dict[str, int] = {}
         self.effective: dict[str, int] = {}
         """Levels found by looking at ancestors; emptied when a level changes."""
@@ -30,6 +31,7 @@ class LogState:
         self.stdout = True
         self.rosout: dict[str, Say] = {}
         self.formatter = Formatter.of_environment()
+        self.log_file = log_file or LogFile()
 
     def set_level(self, name: str, level: int) -> None:
         """Set a logger's own level; an empty name means the default."""
@@ -63,12 +65,14 @@ class LogState:
         return self.default or INFO
 
     def say(self, severity: int, name: str, text: str, file: str, function: str, line: int, stamp_ns: int) -> None:
-        """Write a line to `/rosout` and to the console, which is told whether the first was done."""
+        """Write a line to `/rosout`, to the console, which is told whether that was done, and to the log file."""
         publish = self.rosout.get(name)
         # First to the graph: the printed line says whether that was done.
         sent = publish is not None and publish(severity, name, text, file, function, line, stamp_ns)
         if self.stdout:
             self.formatter.write(severity, name, text, file, function, line, stamp_ns, sent)
+        if self.log_file.is_wanted:
+            self.log_file.write(severity, name, text, file, function, line, stamp_ns, sent)
 
 
 _state: ProcessLocal[LogState] = ProcessLocal(LogState)
@@ -85,8 +89,8 @@ def logging_directory() -> str:
 
 
 def reset() -> None:
-    """Forget the calling process's levels and read its environment again."""
-    _state.set(LogState())
+    """Forget the calling process's levels and read its environment again; its log file goes on."""
+    _state.set(LogState(state().log_file))
 
 
 def forget_rosout(found: LogState, say: Any) -> None:
