@@ -19,11 +19,15 @@ SEVERITIES = {"UNSET": 0, "DEBUG": 10, "INFO": 20, "WARN": 30, "ERROR": 40, "FAT
 
 
 class ArgumentsError(ValueError):
-    """A command line cannot be parsed; the message has the words of rcl. `mend` says more than they do."""
+    """A command line cannot be parsed; the message has the words of rcl. `mend` says more than they do.
 
-    def __init__(self, text: str, mend: str = "") -> None:
+    `warning` is what rcl logs before, if anything.
+    """
+
+    def __init__(self, text: str, mend: str = "", warning: str = "") -> None:
         super().__init__(text)
         self.mend = mend
+        self.warning = warning
 
 
 @dataclass
@@ -129,7 +133,8 @@ def _remap(word: str, value: str, parsed: Arguments) -> None:
     try:
         parsed.remap_rules.append(parse_rule(value))
     except GrammarError as error:
-        raise ArgumentsError(f"Couldn't parse remap rule: '{word} {value}'. Error: {error}") from None
+        text = f"Couldn't parse remap rule: '{word} {value}'. Error: {error}"
+        raise ArgumentsError(text, warning=error.warning) from None
 
 
 def _log_level(word: str, value: str, parsed: Arguments) -> None:

@@ -27,7 +27,11 @@ class Lexeme(IntEnum):
 
 
 class GrammarError(ValueError):
-    """A rule is not grammatical; the message has the words of rcl."""
+    """A rule is not grammatical; the message has the words of rcl, `warning` those that rcl logs before, if any."""
+
+    def __init__(self, text: str, warning: str = "") -> None:
+        super().__init__(text)
+        self.warning = warning
 
 
 _PATTERNS = (

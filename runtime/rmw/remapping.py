@@ -40,7 +40,7 @@ def parse_rule(text: str) -> RemapRule:
     if kind == Lexeme.NODE:
         lexer.accept()
         lexer.expect(Lexeme.SEPARATOR)
-        rule = RemapRule(Kind.NODE_NAME, node, "", lexer.expect(Lexeme.TOKEN))
+        rule = RemapRule(Kind.NODE_NAME, node, "", _node_name(lexer))
     elif kind == Lexeme.NS:
         lexer.accept()
         lexer.expect(Lexeme.SEPARATOR)
@@ -51,15 +51,29 @@ def parse_rule(text: str) -> RemapRule:
     return rule
 
 
+def _node_name(lexer: Lexer) -> str:
+    rest = lexer.text[lexer.index :]
+    try:
+        return lexer.expect(Lexeme.TOKEN)
+    except GrammarError as error:
+        raise GrammarError(str(error), f"Node name not remapped to invalid name: '{rest}'") from None
+
+
 def _namespace(lexer: Lexer) -> str:
     start = lexer.index
-    lexer.expect(Lexeme.FORWARD_SLASH)
-    while lexer.peek() == Lexeme.TOKEN:
-        lexer.accept()
-        if lexer.peek() != Lexeme.FORWARD_SLASH:
-            break
-        lexer.accept()
-    return lexer.text[start : lexer.index]
+    try:
+        lexer.expect(Lexeme.FORWARD_SLASH)
+        while lexer.peek() == Lexeme.TOKEN:
+            lexer.accept()
+            if lexer.peek() != Lexeme.FORWARD_SLASH:
+                break
+            lexer.accept()
+        end = lexer.index
+        lexer.expect(Lexeme.EOF)
+    except GrammarError as error:
+        found = f"Namespace not remapped to a fully qualified name (found: {lexer.text[start:]})"
+        raise GrammarError(str(error), found) from None
+    return lexer.text[start:end]
 
 
 def _name_rule(lexer: Lexer, node: str | None) -> RemapRule:

@@ -10,7 +10,9 @@ from typing import Any
 import pytest
 from rcl_interfaces.msg import Log
 from rclpy import logging
+from rclpy._rclpy_pybind11 import RCLError
 from rclpy.clock import Clock
+from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.impl.log_format import Formatter
 from rclpy.logging import LoggingSeverity
@@ -258,3 +260,21 @@ def test_names_that_are_none(log: Any) -> None:
         logging.get_logger("")
     with pytest.raises(TypeError):
         logging.get_logger("a").get_child(5)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("rule", "warning"),
+    [
+        ("__node:=1a", "Node name not remapped to invalid name: '1a'"),
+        ("__ns:=sp ace", "Namespace not remapped to a fully qualified name (found: sp ace)"),
+        ("__ns:=/1sp", "Namespace not remapped to a fully qualified name (found: /1sp)"),
+        ("foo:=", ""),
+    ],
+)
+def test_a_rule_for_a_name_that_is_none_is_told_before_the_refusal(
+    rule: str, warning: str, printed: Callable[[], list[str]]
+) -> None:
+    with pytest.raises(RCLError):
+        Context().init(["--ros-args", "-r", rule])
+    expected = [f"[WARN] {warning}"] if warning else []
+    assert printed() == [*expected, "[ERROR] Failed to parse global arguments"]
